@@ -1,0 +1,84 @@
+// contact.hpp: a contact's constants, its state, and the forms that a state puts in force.
+//
+//   g >= 0,  N <= 0,  g N = 0                                paper (6)
+//   |T| <= T_U,  T p' >= 0,  (|T| - T_U) p' = 0,  T_U = -f N  paper (7)
+//
+//   state    normal row              tangent row                  guards (positive while valid)
+//   open     N = 0                   T = 0                        g
+//   closed   N = kn g                T = 0                        -N
+//   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
+//   slip s   N = kn g                T = -s fk N                  -N, s p'
+//
+// A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
+// Forces on the body: -N along n, -T along t.
+// Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signorini/history.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// A sparse linear form on the displacements: sum of factor * u[index].
+struct Combination {
+  std::vector<std::pair<int, double>> terms;
+
+  template <class V>
+  [[nodiscard]] double dot(const V& u) const {
+    double sum = 0.0;
+    for (const auto& [index, factor] : terms) sum += factor * u[index];
+    return sum;
+  }
+  template <class V>
+  void add_to(V& f, double force) const {
+    for (const auto& [index, factor] : terms) f[index] += factor * force;
+  }
+};
+
+/// The constants of one contact.
+struct Contact {
+  std::string name;
+  Law law = Law::compliant;
+  Combination normal;                   ///< g = gap + normal . u; empty for sliders
+  Combination tangent;                  ///< ut = tangent . u - surface_motion
+  double gap = 0.0;
+  double normal_stiffness = 0.0;
+  std::optional<double> tangential_stiffness;
+  double static_friction = 0.0, kinetic_friction = 0.0;
+  History normal_force;                 ///< slider: compression >= 0
+  History surface_motion;               ///< integral of the surface velocity from t = 0
+  double initial_shear = 0.0;
+
+  [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
+};
+
+enum class State : unsigned char { open, closed, stick, slip_plus, slip_minus };
+
+/// "open", "closed", "stick", "slip+", "slip-".
+[[nodiscard]] const char* to_string(State state);
+/// +1, -1 while slipping, else 0.
+[[nodiscard]] int slip_sign(State state);
+
+/// State and memory of one contact: what a switch changes.
+struct ContactState {
+  State state = State::open;
+  double anchor = 0.0;  ///< p; meaningful in stick with tangential stiffness
+
+  friend bool operator==(const ContactState&, const ContactState&) = default;
+};
+
+/// One contact at one instant (or a time derivative of it).
+struct ContactMotion {
+  double N = 0.0, T = 0.0;      ///< force
+  double gap = 0.0, ut = 0.0;   ///< length; ut relative to the surface
+  double vn = 0.0, vt = 0.0;    ///< g', ut'
+  double an = 0.0, at = 0.0;    ///< g'', ut''
+  double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
+};
+
+}  // namespace signorini

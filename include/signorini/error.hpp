@@ -1,0 +1,61 @@
+// error.hpp: what is wrong with an input, where, and with which exit code the program ends.
+//
+//   pipeline.toml:34:20: contacts.first.friction: found -0.3, expected a number >= 0
+//
+// Exceptions are for wrong input and for files; a run that stops early is a value (Outcome).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace signorini {
+
+/// Exit codes of the program (docs/command-line.md).
+enum class ExitCode : int {
+  done = 0,
+  bug = 1,
+  usage = 2,
+  scene = 3,
+  stopped = 4,
+  limit = 5,
+  file = 6,
+  interrupted = 130
+};
+
+/// A place in a text file; line and column count from 1, 0 means unknown.
+struct SourcePlace {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// Any refusal. what() is the whole message, ready to be printed.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] ExitCode code() const noexcept { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// A wrong scene: "FILE:LINE:COLUMN: KEY: MESSAGE"; parts that are unknown are left out.
+class SceneError : public Error {
+ public:
+  SceneError(const SourcePlace& place, const std::string& key, const std::string& message);
+};
+
+/// A wrong command line, a wrong --set among them.
+class UsageError : public Error {
+ public:
+  explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
+};
+
+/// A file that cannot be read or written: "PATH: MESSAGE".
+class FileError : public Error {
+ public:
+  FileError(const std::string& path, const std::string& message)
+      : Error(ExitCode::file, path + ": " + message) {}
+};
+
+}  // namespace signorini

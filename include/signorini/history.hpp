@@ -1,0 +1,65 @@
+// history.hpp: functions of time in closed form, piece by piece.
+//
+//   f(t) = sum_j c_j (t - t0)^j + a sin(w (t - t0) + phi)      on [start_i, start_{i+1})
+//
+// Every load history, compression and surface velocity is such a function. It is right-continuous;
+// between its breakpoints it is smooth, and a Piece continues smoothly past both of its ends, so that
+// an integrator that evaluates it on the breakpoint itself sees the piece that it came from.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace signorini {
+
+/// One smooth piece. Units: those of f; times in the scene's unit of time.
+struct Piece {
+  double origin = 0.0;               ///< t0
+  std::vector<double> coefficients;  ///< c_j, ascending powers of (t - t0)
+  double amplitude = 0.0;            ///< a
+  double omega = 0.0;                ///< w, rad per time
+  double phase = 0.0;                ///< phi, rad
+
+  /// The derivative of the given order at t (order 0: the value).
+  [[nodiscard]] double value(double t, int order = 0) const;
+};
+
+/// Where the smoothness ends. `jump`: the value itself changes, beyond the roundoff of evaluating it.
+struct Breakpoint {
+  double time = 0.0;
+  bool jump = false;
+};
+
+/// A piecewise closed-form function of time on the whole line.
+class History {
+ public:
+  /// Zero.
+  History() : History(Piece{}) {}
+  /// One piece for all times.
+  explicit History(Piece piece) : pieces_{std::move(piece)} {}
+  /// pieces[0] holds before starts[0], pieces[i] from starts[i-1] on. Starts ascend strictly,
+  /// pieces.size() == starts.size() + 1, or std::invalid_argument.
+  History(std::vector<double> starts, std::vector<Piece> pieces);
+  [[nodiscard]] static History constant(double value);
+
+  /// The piece in force just after t (right-continuous).
+  [[nodiscard]] const Piece& piece(double t) const;
+  /// The piece in force just before t.
+  [[nodiscard]] const Piece& piece_before(double t) const;
+  [[nodiscard]] double value(double t) const { return piece(t).value(t); }
+  /// Breakpoints, ascending.
+  [[nodiscard]] std::vector<Breakpoint> breakpoints() const;
+  /// offset + factor * f.
+  [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
+  /// F(t) = integral of f from 0 to t, continuous.
+  [[nodiscard]] History integrated() const;
+  [[nodiscard]] bool is_constant() const;
+  [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+  [[nodiscard]] const std::vector<double>& starts() const { return starts_; }
+
+ private:
+  std::vector<double> starts_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,148 @@
+// result.hpp: what a run yields: events, histories, audit, counters, outcome.
+//
+//   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
+//
+// A Recorder receives rows as they come; Result is the Recorder that keeps them in memory.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signorini/contact.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+enum class EventType { slip, stick, reversal, separation, contact, impact, time };
+[[nodiscard]] const char* to_string(EventType type);
+
+/// A row of events.csv. For `time` rows without a contact only t counts (contact == -1).
+struct Event {
+  double t = 0.0;
+  int contact = -1;  ///< index into Model::contacts
+  EventType type = EventType::time;
+  State from = State::open, to = State::open;
+  double gap = 0.0;
+  double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
+  double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
+  std::optional<double> impulse_n, impulse_t;  ///< at hits of rigid contacts only
+};
+
+/// One contact at an output time.
+struct ContactSample {
+  State state = State::open;
+  double gap = 0.0, ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
+};
+
+/// The energies at one instant; dissipations and works since t = 0. Unit: force * length.
+struct Energy {
+  double kinetic = 0.0, elastic = 0.0, contact = 0.0;
+  double damping = 0.0, friction = 0.0, impact = 0.0;  ///< dissipated
+  double loads = 0.0, surface = 0.0;                   ///< work done on the structure
+  [[nodiscard]] double stored() const { return kinetic + elastic + contact; }
+  [[nodiscard]] double balance() const {
+    return stored() + damping + friction + impact - loads - surface;
+  }
+};
+
+/// The state at an output time. u, v of length n.
+struct Sample {
+  double t = 0.0;
+  const Vector* u = nullptr;
+  const Vector* v = nullptr;
+  std::vector<ContactSample> contacts;
+  Energy energy;
+};
+
+class Recorder {
+ public:
+  virtual ~Recorder() = default;
+  virtual void event(const Event& event) = 0;
+  virtual void sample(const Sample& sample) = 0;
+  /// Called often with the time reached; return false to ask for a stop (an interrupt).
+  virtual bool progress(double /*t*/) { return true; }
+};
+
+/// How a run ended. Exit code: done 0, stopped 4, interrupted 130.
+struct Outcome {
+  enum class Kind { done, stopped, interrupted } kind = Kind::done;
+  double t = 0.0;               ///< reached
+  std::string reason;           ///< one sentence with time, contact, guard; empty when done
+};
+
+/// A greatest violation, where it happened, and the scale that it is relative to.
+struct Extreme {
+  double value = 0.0;  ///< in the unit of the scale
+  double t = 0.0;
+  int contact = -1;
+};
+
+struct Audit {
+  Extreme gap;          ///< (6) g < 0 beyond N/kn, length
+  Extreme tension;      ///< (6) N > 0, force
+  Extreme product;      ///< (6) |g N| with g - N/kn, energy
+  Extreme friction;     ///< (7) |T| - T_U, force; static limit in stick, kinetic in slip
+  Extreme direction;    ///< (7) -T p' > 0, power
+  Extreme equilibrium;  ///< residual of the equation of motion, force
+  Extreme penetration;  ///< rigid contacts, length
+  Extreme energy;       ///< |balance(t) - balance(0)|
+  double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
+  double work_of_loads = 0.0;               ///< greatest |W_loads(t)|
+  std::vector<double> friction_work;        ///< dissipated by each contact
+  Energy initial, final;
+};
+
+struct Counters {
+  long steps = 0, residuals = 0, jacobians = 0, factorisations = 0, refactorisations = 0, solves = 0;
+  long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
+  long rolled_back = 0;   ///< events that lay inside a step and were found by the polynomial check
+  long time_events = 0;
+  std::map<int, long> steps_by_order;
+};
+
+/// Peak of |u(t) - u(0)| over all steps, at the node of a contact.
+struct Peak {
+  double horizontal = 0.0, vertical = 0.0;  ///< along tangent and normal
+  double N = 0.0, T = 0.0;                  ///< greatest |N|, |T|
+};
+
+struct Settings {
+  std::string engine;
+  double rtol = 0.0;
+  double atol_displacement = 0.0, atol_rotation = 0.0, atol_velocity = 0.0, atol_angular_velocity = 0.0,
+         atol_force = 0.0;
+  int max_order = 5;
+  std::string max_order_reason;
+};
+
+/// Everything about a run but its rows.
+struct Report {
+  Outcome outcome;
+  Settings settings;
+  Counters counters;
+  Audit audit;
+  std::vector<Peak> peaks;                   ///< one a contact
+  std::map<std::string, long> events_by_type;
+  double wall_time = 0.0;                    ///< s, integration without reading and assembling
+};
+
+/// Keeps all rows in memory.
+class Result : public Recorder {
+ public:
+  struct Row {
+    double t;
+    Vector u, v;
+    std::vector<ContactSample> contacts;
+    Energy energy;
+  };
+  void event(const Event& event) override { events.push_back(event); }
+  void sample(const Sample& s) override { rows.push_back({s.t, *s.u, *s.v, s.contacts, s.energy}); }
+
+  std::vector<Event> events;
+  std::vector<Row> rows;
+  Report report;
+};
+
+}  // namespace signorini

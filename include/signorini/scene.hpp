@@ -1,0 +1,219 @@
+// scene.hpp: a scene as the file says it, with every default filled in and every unit checked.
+//
+//   M u'' + C u' + K u = P(t) + sum_k ( n_k lambda_k + t_k tau_k )
+//
+// A Scene knows names, places and numbers, no matrices. docs/scene.md is its reference.
+//
+//   Scene scene = read_scene("models/pipeline.toml", {{"run.rtol", "1e-10"}});
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+/// Names of units; checked: force = mass * length / time^2.
+struct Units {
+  std::string force, mass, length, time;
+};
+
+enum class HistoryType {
+  constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table
+};
+
+/// f(t) = offset + amplitude * shape(t). A load's amplitude stands outside its history, so for loads
+/// offset is 0 and amplitude 1 here.
+struct HistorySpec {
+  HistoryType type = HistoryType::constant;
+  double offset = 0.0;
+  double amplitude = 1.0;
+  double start = 0.0;
+  double end = std::numeric_limits<double>::infinity();
+  double omega = 0.0;  ///< harmonic: rad per time
+  double phase = 0.0;  ///< harmonic: rad
+  std::vector<double> coefficients;   ///< polynomial: ascending powers of (t - start)
+  std::vector<double> times, values;  ///< table
+  bool steffen = false;               ///< table: interpolation = "steffen"
+  bool start_given = false;           ///< without it a constant holds since ever
+  SourcePlace place;
+};
+
+/// A direction in the space of displacements: a node and a plane vector, or degrees of freedom by name.
+struct Direction {
+  std::string node;
+  std::array<double, 2> vector{0.0, 0.0};
+  std::vector<std::pair<std::string, double>> dofs;
+  SourcePlace place;
+};
+
+enum class Engine { ida, newmark, friction_iteration, exact };
+
+/// Absolute tolerances; where absent, rtol times a scale of the scene.
+struct Tolerances {
+  std::optional<double> displacement, velocity, force;
+};
+
+struct RunSpec {
+  double t_end = 0.0;
+  Engine engine = Engine::ida;
+  double rtol = 1e-8;
+  Tolerances atol;
+  std::optional<double> output_dt;           ///< grid 0, dt, 2 dt, ..., t_end
+  std::optional<std::vector<double>> output_times;
+  std::optional<int> max_order;              ///< ida: 1 to 5; absent: "auto"
+  int max_events_at_once = 100;              ///< rounds of state changes at one instant before the run stops
+  std::optional<double> dt;                  ///< newmark, friction-iteration
+  SourcePlace place;
+
+  /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
+  [[nodiscard]] std::vector<double> grid() const;
+};
+
+/// initial = "static", or a state: by degree of freedom in the order of [matrices] dofs, or by node.
+struct InitialSpec {
+  bool is_static = false;
+  std::vector<double> u, v;  ///< matrices: one a degree of freedom; empty: zero
+  struct Component {
+    std::string node, component;  ///< component: ux uy rz vx vy wz
+    double value = 0.0;
+    SourcePlace place;
+  };
+  std::vector<Component> components;
+  SourcePlace place;
+};
+
+/// C = alpha M + beta K. alpha_over_omega1: alpha = that times omega1.
+struct DampingSpec {
+  double alpha = 0.0;
+  double beta = 0.0;
+  std::optional<double> alpha_over_omega1;
+  SourcePlace place;
+};
+
+struct Section {
+  std::string name;
+  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;
+};
+
+struct Node {
+  std::string name;
+  double x = 0.0, y = 0.0;
+  SourcePlace place;
+};
+
+enum class MassKind { consistent, lumped };
+
+/// A chain of straight pieces between named nodes; elements[i] beams on piece i.
+struct Member {
+  std::vector<std::string> nodes;
+  std::string section;
+  std::vector<int> elements;
+  MassKind mass = MassKind::consistent;
+  SourcePlace place;
+};
+
+struct PointMass {
+  std::string node;
+  double mass = 0.0;
+  double inertia = 0.0;  ///< rotational, only where a rotation exists or inertia > 0
+  SourcePlace place;
+};
+
+/// Spring and damper along `direction` between node and `against` (ground when empty).
+struct Spring {
+  std::string node, against;
+  std::array<double, 2> direction{1.0, 0.0};  ///< normalised by the reader
+  double stiffness = 0.0, damping = 0.0;
+  SourcePlace place;
+};
+
+struct Support {
+  std::string node;
+  bool ux = false, uy = false, rz = false;
+  SourcePlace place;
+};
+
+enum class Law { compliant, slider };
+
+struct FrictionSpec {
+  double static_ = 0.0;
+  double kinetic = 0.0;
+};
+
+struct ContactSpec {
+  std::string name;
+  Law law = Law::compliant;
+  std::optional<Direction> normal;   ///< compliant; node scenes: unit vector
+  std::optional<Direction> tangent;  ///< node scenes with a normal: (ny, -nx)
+  double gap = 0.0;
+  double normal_stiffness = 0.0;
+  std::optional<double> tangential_stiffness;
+  FrictionSpec friction;
+  HistorySpec normal_force;          ///< slider: compression, positive
+  HistorySpec surface_velocity;      ///< slip rate = t . v - surface_velocity
+  double initial_shear = 0.0;
+  SourcePlace place;
+};
+
+struct LoadSpec {
+  Direction direction;
+  double amplitude = 0.0;
+  HistorySpec history;
+  SourcePlace place;
+};
+
+/// Triplets (row, column, value), symmetric ones written out in full.
+struct MatrixSpec {
+  int size = 0;
+  struct Entry {
+    int row, column;
+    double value;
+  };
+  std::vector<Entry> entries;
+  SourcePlace place;
+};
+
+struct MatricesSpec {
+  std::vector<std::string> dofs;
+  MatrixSpec mass, damping, stiffness;
+};
+
+struct Scene {
+  std::string file;
+  std::string title;
+  Units units;
+  std::array<double, 2> gravity{0.0, 0.0};
+  RunSpec run;
+  InitialSpec initial;
+  DampingSpec damping;
+  std::vector<Section> sections;
+  std::vector<Node> nodes;
+  std::vector<Member> members;
+  std::vector<PointMass> masses;
+  std::vector<Spring> springs;
+  std::vector<Support> supports;
+  std::vector<ContactSpec> contacts;
+  std::vector<LoadSpec> loads;
+  std::optional<MatricesSpec> matrices;
+  std::string resolved;  ///< the same scene as TOML with every default filled in (run.toml)
+};
+
+/// One `--set path=value`.
+struct Override {
+  std::string path, value;
+};
+
+/// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,
+/// UsageError for a wrong override.
+[[nodiscard]] Scene read_scene(const std::string& path, const std::vector<Override>& overrides = {});
+/// The same from text; `file` is used in messages and to find matrix files beside it.
+[[nodiscard]] Scene parse_scene(const std::string& text, const std::string& file,
+                                const std::vector<Override>& overrides = {});
+
+}  // namespace signorini

@@ -1,0 +1,26 @@
+// command.hpp: how a subcommand joins the program.
+//
+// add_NAME() declares its options; when the command line names it, `action` becomes what it does. Actions
+// run after parsing, so that their exceptions never pass through CLI11. A new subcommand is one file with
+// one add_ function, and one line in main.cpp.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "signorini/error.hpp"
+
+namespace signorini::cli {
+
+struct Program {
+  CLI::App& app;
+  std::vector<std::string> command_line;
+  std::function<ExitCode()> action;
+};
+
+void add_run(Program& program);
+void add_plot(Program& program);
+
+}  // namespace signorini::cli

@@ -1,0 +1,46 @@
+// live.hpp: a run while it runs: the progress line, the interrupt, and the events for the table at its end.
+//
+//   Live live(run_directory, model, t_end, show_progress);
+//   Report report = simulate(model, scene.run, live);
+//
+// Rows are passed on to another Recorder. The first SIGINT asks the run to stop and be kept; a second one
+// ends the program at once.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <vector>
+
+#include "signorini/result.hpp"
+
+namespace signorini::cli {
+
+class Live : public Recorder {
+ public:
+  Live(Recorder& next, const Model& model, double t_end, bool show_progress);
+  ~Live() override;
+  Live(const Live&) = delete;
+  Live& operator=(const Live&) = delete;
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override { next_.sample(sample); }
+  bool progress(double t) override;
+
+  /// At most this many are shown in full; of more, the first and the last ones.
+  static constexpr std::size_t most_shown = 40, shown_first = 20, shown_last = 10;
+  [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
+  [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
+  [[nodiscard]] long event_count() const { return count_; }
+
+ private:
+  Recorder& next_;
+  const Model& model_;
+  double t_end_;
+  bool show_progress_, line_shown_ = false;
+  std::chrono::steady_clock::time_point next_line_;
+  std::vector<Event> first_;  // the first most_shown
+  std::deque<Event> last_;    // the last shown_last
+  long count_ = 0;
+};
+
+}  // namespace signorini::cli

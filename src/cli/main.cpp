@@ -1,0 +1,64 @@
+// main.cpp: the program `signorini`. Parses the command line and turns every ending into an exit code.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "base/version.hpp"
+#include "cli/command.hpp"
+#include "cli/terminal.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+// CLI11's own exit codes start at 100; ours are those of docs/command-line.md.
+int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {  // --help, --version
+    std::ostringstream text;
+    app.exit(error, text, text);
+    print(text.str());
+    return code(ExitCode::done);
+  }
+  print_error(std::string(error.what()) + "\nsee " + app.get_name() + " --help");
+  return code(ExitCode::usage);
+}
+
+int main_program(int argc, char** argv) {
+  CLI::App app{"Motion of structures on unilateral frictional contacts, event by event", "signorini"};
+  app.set_version_flag("--version", std::string("signorini ") + version + ", SUNDIALS " + sundials_version);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early,\n"
+      "6 a file could not be read or written, 130 interrupted.");
+  Program program{app, std::vector<std::string>(argv, argv + argc), {}};
+  add_run(program);
+  add_plot(program);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return parse_failure(app, error);
+  }
+  return code(program.action());
+}
+
+}  // namespace
+
+}  // namespace signorini::cli
+
+int main(int argc, char** argv) {
+  using namespace signorini;
+  try {
+    return cli::main_program(argc, argv);
+  } catch (const Error& error) {
+    cli::print_error(error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    cli::print_error("out of memory");
+  } catch (const std::exception& error) {
+    cli::print_error(std::string("a bug in Signorini: ") + error.what());
+  }
+  return static_cast<int>(ExitCode::bug);
+}

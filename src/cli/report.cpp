@@ -1,0 +1,138 @@
+#include "cli/report.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "cli/table.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+std::string name_of(const Model& model, int contact) {
+  return contact < 0 ? "" : model.contacts[static_cast<std::size_t>(contact)].name;
+}
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+std::string times(long count, const char* one) {
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+// Roundoff of a force that vanishes, such as N where a contact opens, would only distract.
+std::string force(const Model& model, double value) {
+  return number(std::abs(value) < 1e-10 * model.scales.force ? 0.0 : value);
+}
+
+void add_event(Table& table, const Model& model, const Event& e) {
+  if (e.contact < 0) {
+    table.row({fmt::format("{:.9g}", e.t), "", to_string(e.type), "", "", ""});
+    return;
+  }
+  table.row({fmt::format("{:.9g}", e.t), name_of(model, e.contact), to_string(e.type),
+             fmt::format("{} -> {}", to_string(e.from), to_string(e.to)), force(model, e.N),
+             force(model, e.T)});
+}
+
+std::string events_by_type(const Report& report) {
+  std::string text;
+  for (const EventType type : {EventType::slip, EventType::stick, EventType::reversal, EventType::separation,
+                               EventType::contact, EventType::impact, EventType::time}) {
+    const auto found = report.events_by_type.find(to_string(type));
+    if (found == report.events_by_type.end() || found->second == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", found->second, to_string(type));
+  }
+  return text.empty() ? "none" : text;
+}
+
+void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
+                 const std::string& unit) {
+  const double relative = scale > 0.0 ? extreme.value / scale : 0.0;
+  const std::string contact = name_of(model, extreme.contact);
+  const std::string where = fmt::format("t = {:.6g}{}", extreme.t, contact.empty() ? "" : ", " + contact);
+  table.row({what, fmt::format("{:.2g}", relative), fmt::format("{:.2g} {}", extreme.value, unit),
+             extreme.value == 0.0 ? "" : where});
+}
+
+std::string audit_table(const Model& model, const Audit& a) {
+  const std::string& force = model.units.force;
+  const std::string& length = model.units.length;
+  const std::string energy = force + " " + length;
+  Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
+  add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
+  add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
+  add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
+  add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
+  add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
+              energy + "/" + model.units.time);
+  add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
+  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy);
+  return table.str();
+}
+
+std::string orders(const Counters& counters) {
+  std::string text;
+  for (const auto& [order, steps] : counters.steps_by_order) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", order, steps);
+  }
+  return text.empty() ? "" : " (by order " + text + ")";
+}
+
+}  // namespace
+
+std::string event_table(const Live& live, const Model& model) {
+  const std::string unit = " [" + model.units.force + "]";
+  Table table({"t [" + model.units.time + "]", "contact", "event", "from -> to", "N" + unit, "T" + unit},
+              {true, false, false, false, true, true});
+  const auto& first = live.first_events();
+  const bool all = live.event_count() <= static_cast<long>(Live::most_shown);
+  const std::size_t shown = all ? first.size() : Live::shown_first;
+  for (std::size_t i = 0; i < shown; ++i) add_event(table, model, first[i]);
+  if (!all) {
+    const long left_out = live.event_count() - static_cast<long>(Live::shown_first + Live::shown_last);
+    table.line(fmt::format("... {} more; all {} are in events.csv", left_out, live.event_count()));
+    for (const Event& e : live.last_events()) add_event(table, model, e);
+  }
+  return first.empty() ? "  no events\n" : table.str();
+}
+
+std::string contact_table(const Model& model, const Report& report) {
+  constexpr std::size_t most = 24;
+  if (model.contacts.empty() || report.peaks.size() < model.contacts.size()) return "";
+  const std::string force = " [" + model.units.force + "]", length = " [" + model.units.length + "]";
+  Table table({"contact", "static -N" + force, "peak along t" + length, "along n" + length, "|N|" + force,
+               "|T|" + force, "friction loss [" + model.units.force + " " + model.units.length + "]"},
+              {false, true, true, true, true, true, true});
+  for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
+    const Peak& peak = report.peaks[k];
+    const bool at_rest = model.static_start && k < model.statics.reactions.size();
+    const auto& work = report.audit.friction_work;
+    table.row({model.contacts[k].name, at_rest ? number(model.statics.reactions[k]) : "",
+               number(peak.horizontal), number(peak.vertical), number(peak.N), number(peak.T),
+               k < work.size() ? number(work[k]) : ""});
+  }
+  if (model.contacts.size() > most) {
+    table.line(fmt::format("... {} more; all are in summary.json", model.contacts.size() - most));
+  }
+  return table.str();
+}
+
+std::string closing(const Model& model, const Report& report) {
+  const Audit& a = report.audit;
+  const Counters& c = report.counters;
+  std::string text = audit_table(model, a);
+  text += fmt::format(
+      "\nenergy: greatest work of the loads {} {} {}; lost by friction {}, damping {}, impacts {}\n",
+      number(a.work_of_loads), model.units.force, model.units.length, number(a.final.friction),
+      number(a.final.damping), number(a.final.impact));
+  text += "events: " + events_by_type(report) + "\n";
+  text += fmt::format(
+      "effort: {}, rtol {:g}, order at most {}{}, {}{}, {}, {:.2f} s\n", report.settings.engine,
+      report.settings.rtol, report.settings.max_order,
+      report.settings.max_order_reason.empty() ? "" : " (" + report.settings.max_order_reason + ")",
+      times(c.steps, "step"), orders(c), times(c.restarts, "restart"), report.wall_time);
+  return text;
+}
+
+}  // namespace signorini::cli

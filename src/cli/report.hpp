@@ -1,0 +1,20 @@
+// report.hpp: what `run` prints: the table of events, how the contacts fared, the audit, the counters.
+#pragma once
+
+#include <string>
+
+#include "cli/live.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini::cli {
+
+/// One row an event; of many, the first and the last ones. N and T as they are just before the event.
+[[nodiscard]] std::string event_table(const Live& live, const Model& model);
+
+/// One row a contact: static reaction, greatest motions and forces, friction loss.
+[[nodiscard]] std::string contact_table(const Model& model, const Report& report);
+
+/// Outcome, events by type, audit, energy balance, effort.
+[[nodiscard]] std::string closing(const Model& model, const Report& report);
+
+}  // namespace signorini::cli

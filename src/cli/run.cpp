@@ -1,0 +1,139 @@
+// signorini run SCENE: from a scene file to a directory of results.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command.hpp"
+#include "cli/gnuplot.hpp"
+#include "cli/live.hpp"
+#include "cli/report.hpp"
+#include "cli/terminal.hpp"
+#include "result/plots.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::string scene, engine;
+  std::optional<std::string> directory;
+  std::vector<std::string> settings;
+  bool force = false, quiet = false, json = false, no_plots = false;
+};
+
+std::vector<Override> overrides(const RunOptions& options) {
+  std::vector<Override> list;
+  for (const std::string& setting : options.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError("--set " + setting + ": expected path=value, such as run.rtol=1e-10");
+    }
+    list.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  if (!options.engine.empty()) list.push_back({"run.engine", options.engine});
+  return list;
+}
+
+fs::path directory_of(const RunOptions& options) {
+  if (!options.directory) return fs::path(options.scene).stem().string() + "-run";
+  if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
+  return *options.directory;
+}
+
+// The line about the pictures; empty when there is nothing to say.
+std::string draw_pictures(const fs::path& directory) {
+  const std::vector<fs::path> scripts = write_plots(directory);
+  if (scripts.empty()) return "";
+  const std::string folder = (directory / "plots").string();
+  const Drawing drawing = draw(scripts);
+  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
+  if (drawing.kind == Drawing::Kind::no_gnuplot) {
+    return "pictures: no gnuplot on PATH; its scripts are in " + folder +
+           " (signorini plot draws them later)\n";
+  }
+  print_note("gnuplot failed: " + drawing.message);
+  return "";
+}
+
+ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& directory) {
+  const std::string kept = "what was computed is kept in " + directory.string();
+  switch (outcome.kind) {
+    case Outcome::Kind::done:
+      return ExitCode::done;
+    case Outcome::Kind::stopped:
+      print_error(fmt::format("the computation stopped early, at t = {:.9g} {}: {}; {}", outcome.t,
+                              units.time, outcome.reason, kept));
+      return ExitCode::stopped;
+    case Outcome::Kind::interrupted:
+      print_error(fmt::format("interrupted at t = {:.9g} {}; {}", outcome.t, units.time, kept));
+      return ExitCode::interrupted;
+  }
+  return ExitCode::bug;
+}
+
+ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
+  const std::vector<Override> changes = overrides(options);
+  const fs::path path = directory_of(options);
+  const Scene scene = read_scene(options.scene, changes);
+  const Model model = build_model(scene);
+  RunDirectory directory(path, scene, model, {options.force, command_line});
+
+  const bool tables = !options.quiet && !options.json;
+  Report report;
+  std::string events;
+  {
+    Live live(directory, model, scene.run.t_end, !options.quiet);
+    report = simulate(model, scene.run, live);
+    if (tables) events = event_table(live, model);
+  }
+  const std::string summary = directory.finish(report);
+
+  if (options.json) print(summary);
+  if (tables) {
+    if (!scene.title.empty()) print(scene.title + "\n\n");
+    print(events + "\n");
+    const std::string contacts = contact_table(model, report);
+    if (!contacts.empty()) print(contacts + "\n");
+    print(closing(model, report));
+    print("results: " + path.string() +
+          "/ (events.csv, history.csv, contacts.csv, energy.csv, summary.json, run.toml)\n");
+  }
+  const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
+  const std::string drawn = pictures ? draw_pictures(path) : "";
+  if (tables) print(drawn);
+  return conclude(report.outcome, scene.units, path);
+}
+
+}  // namespace
+
+void add_run(Program& program) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.app.add_subcommand("run", "compute a scene and write a directory of results");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory of the results (default: SCENE's name with -run)")
+      ->option_text("DIR");
+  command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
+      ->option_text("NAME");
+  command
+      ->add_option("--set", options->settings,
+                   "change a key of the scene: run.rtol=1e-10, contacts.first.friction=0.5 (may be repeated)")
+      ->option_text("PATH=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--force", options->force, "replace an earlier run in the directory");
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->add_flag("--json", options->json, "print summary.json instead of tables");
+  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  command->callback([&program, options] {
+    program.action = [options, line = program.command_line] { return run(*options, line); };
+  });
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,99 @@
+#include "contact/law.hpp"
+
+namespace signorini {
+
+const char* to_string(State state) {
+  switch (state) {
+    case State::open: return "open";
+    case State::closed: return "closed";
+    case State::stick: return "stick";
+    case State::slip_plus: return "slip+";
+    case State::slip_minus: return "slip-";
+  }
+  return "?";
+}
+
+const char* to_string(Guard guard) {
+  switch (guard) {
+    case Guard::none: return "none";
+    case Guard::closing: return "gap";
+    case Guard::separation: return "compression";
+    case Guard::slip_plus: return "friction limit (+)";
+    case Guard::slip_minus: return "friction limit (-)";
+    case Guard::sliding: return "slip rate";
+  }
+  return "?";
+}
+
+int slip_sign(State state) {
+  return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0;
+}
+
+Form slip_rate(const Contact& contact, int s) {
+  Form form;
+  form.vt = 1.0;
+  if (!contact.tangential_stiffness) return form;
+  const double ratio = s * contact.kinetic_friction / *contact.tangential_stiffness;
+  if (contact.law == Law::compliant)
+    form.vn = ratio * contact.normal_stiffness;
+  else
+    form.pressing_rate = -ratio;
+  return form;
+}
+
+Rows rows(const Contact& contact, const ContactState& state) {
+  Rows result;
+  result.normal.N = 1.0;
+  result.tangent.T = 1.0;
+  if (contact.law == Law::slider)
+    result.normal.pressing = 1.0;
+  else if (state.state != State::open)
+    result.normal.gap = -contact.normal_stiffness;
+
+  switch (state.state) {
+    case State::open:
+    case State::closed: break;
+    case State::stick:
+      if (contact.tangential_stiffness) {
+        result.tangent.ut = -*contact.tangential_stiffness;
+        result.tangent.constant = *contact.tangential_stiffness * state.anchor;
+      } else {
+        result.tangent.T = 0.0;
+        result.tangent.at = 1.0;
+      }
+      break;
+    case State::slip_plus:
+    case State::slip_minus: result.tangent.N = slip_sign(state.state) * contact.kinetic_friction; break;
+  }
+  return result;
+}
+
+std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
+  std::array<GuardForm, guards_per_contact> result;
+  const bool slider = contact.law == Law::slider;
+  if (state.state == State::open) {
+    if (!slider) {
+      result[0].kind = Guard::closing;
+      result[0].form.gap = 1.0;
+    }
+    return result;
+  }
+  if (!slider) {
+    result[0].kind = Guard::separation;
+    result[0].form.N = -1.0;
+  }
+  if (state.state == State::stick) {
+    result[1].kind = Guard::slip_plus;
+    result[1].form.N = -contact.static_friction;
+    result[1].form.T = -1.0;
+    result[2].kind = Guard::slip_minus;
+    result[2].form.N = -contact.static_friction;
+    result[2].form.T = 1.0;
+  } else if (const int s = slip_sign(state.state); s != 0) {
+    result[1].kind = Guard::sliding;
+    result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
+  }
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,48 @@
+// law.hpp: the rows and the guards that a contact's state puts in force.
+//
+//   law        open            closed, stick, slip: normal   stick                        slip s
+//   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
+//   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
+//
+//   guards     open    g                        (sliders: none; q = 0 there)
+//              closed  -N
+//              stick   -N, -fs N - T, -fs N + T
+//              slip s  -N, s p'
+//   slip rate  p' = ut' + s fk (kn/kt) g'       compliant, from T = -s fk N, T' = kt (ut' - p')
+//              p' = ut' - s fk q'/kt            slider with kt
+//              p' = ut'                         slider without kt
+//
+// A guard is positive while its state is valid; the event is the first one to fall to zero. All are
+// smooth past their zero, so that a root finder may look a little beyond the event.
+// Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
+#pragma once
+
+#include <array>
+
+#include "contact/form.hpp"
+
+namespace signorini {
+
+/// What a guard stands for.
+enum class Guard : unsigned char { none, closing, separation, slip_plus, slip_minus, sliding };
+[[nodiscard]] const char* to_string(Guard guard);
+
+inline constexpr int guards_per_contact = 3;
+
+struct GuardForm {
+  Guard kind = Guard::none;
+  Form form;
+};
+
+/// The two residual rows of a contact.
+struct Rows {
+  Form normal, tangent;
+};
+
+[[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
+[[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
+                                                               const ContactState& state);
+/// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
+[[nodiscard]] Form slip_rate(const Contact& contact, int s);
+
+}  // namespace signorini

@@ -1,0 +1,32 @@
+// transition.hpp: which state a contact takes when one of its guards has failed.
+//
+//   guard failed    from     to
+//   separation      closed   open
+//   closing         open     stick  iff  kt |ut^(m)| <= fs kn |g^(m)|, else slip s = sign ut^(m)
+//                            (m: the first derivative of g that is not zero; p := ut, so T = 0)
+//   friction limit  stick    slip s,  p := ut - s fk |N| / kt
+//   slip rate       slip s   stick,   p := ut - T / kt
+//
+// Forces and velocities are continuous for contacts with elements, so each decides alone from its own
+// one-sided derivatives; contacts without tangential stiffness are tried this way too, and the caller
+// repeats until every guard of the new states holds (engine/decide.hpp).
+// Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
+#pragma once
+
+#include <vector>
+
+#include "contact/law.hpp"
+
+namespace signorini {
+
+/// The motion of one contact to the right of an instant: element k is the k-th time derivative.
+/// `noise` has the same shape: what one rounding of the data makes of each entry.
+struct MotionJet {
+  std::vector<ContactMotion> motion, noise;
+};
+
+/// The next state of one contact; `failed` is a guard of `now`, `jet` holds in state `now`.
+[[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
+                                      const MotionJet& jet);
+
+}  // namespace signorini

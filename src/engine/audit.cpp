@@ -1,0 +1,158 @@
+#include "engine/audit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+void raise(Extreme& extreme, double value, double t, int contact = -1) {
+  if (value > extreme.value) extreme = {value, t, contact};
+}
+
+}  // namespace
+
+Auditor::Auditor(const Model& model, const Structure& structure)
+    : model_(model),
+      structure_(structure),
+      friction_(model.contacts.size(), 0.0),
+      peaks_(model.contacts.size()),
+      scratch_(Vector::Zero(model.size())) {}
+
+void Auditor::powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
+  scratch_.setZero();
+  forcing.add_load(t, 0, scratch_.data());
+  out[0] = scratch_.dot(point.v);
+  scratch_.setZero();
+  structure_.add_product(structure_.c, point.v.data(), scratch_.data());
+  out[1] = scratch_.dot(point.v);
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const ContactMotion m = motion(k, forcing, t, point);
+    const int s = slip_sign(mode[k].state);
+    out[2 + 2 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
+    out[3 + 2 * k] = -m.T * forcing.surface(k, t, 1);
+  }
+}
+
+void Auditor::integrate(const StepHistory& history, std::size_t offset, double from, double to) {
+  const double h = history.end() - history.begin();
+  const auto integral = [&](std::size_t i) {
+    if (from == 0.0 && to == 1.0) return history.integral(offset + i);
+    const Bernstein p = history.polynomial(offset + i);
+    return h * (p.integral(to) - (from > 0.0 ? p.integral(from) : 0.0));
+  };
+  work_.loads += integral(0);
+  work_.damping += integral(1);
+  for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const double loss = integral(2 + 2 * k);
+    friction_[k] += loss;
+    work_.friction += loss;
+    work_.surface += integral(3 + 2 * k);
+  }
+}
+
+void Auditor::begin(const Decision& decision, const Forcing& forcing) {
+  const Point point{decision.u, decision.v, decision.jet.forces[0]};
+  for (std::size_t k = 0; k < peaks_.size(); ++k)
+    at_start_.push_back(motion(k, forcing, decision.jet.t, point));
+  audit_.initial = energy(decision.jet.t, point);
+  begun_ = true;
+}
+
+void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const Point& point) {
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const ContactMotion m = motion(k, forcing, t, point);
+    const int index = static_cast<int>(k);
+    Peak& peak = peaks_[k];
+    peak.horizontal = std::max(peak.horizontal, std::abs(m.ut - at_start_[k].ut));
+    peak.vertical = std::max(peak.vertical, std::abs(m.gap - at_start_[k].gap));
+    peak.N = std::max(peak.N, std::abs(m.N));
+    peak.T = std::max(peak.T, std::abs(m.T));
+
+    raise(audit_.tension, m.N, t, index);
+    if (contact.law == Law::compliant) {
+      const double gap = m.gap - m.N / contact.normal_stiffness;
+      raise(audit_.gap, -gap, t, index);
+      raise(audit_.product, std::abs(gap * m.N), t, index);
+    }
+    const int s = slip_sign(mode[k].state);
+    const double friction = s == 0 ? contact.static_friction : contact.kinetic_friction;
+    if (mode[k].state != State::open) raise(audit_.friction, std::abs(m.T) + friction * m.N, t, index);
+    if (s != 0) raise(audit_.direction, -m.T * slip_rate(contact, s).value(m), t, index);
+  }
+}
+
+void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
+
+void Auditor::instant(const Decision& decision, const Vector& u_before, const Forcing& before,
+                      const Forcing& after) {
+  // Linear parts without mass follow a jump of the load at once, at its mean.
+  const Vector du = decision.u - u_before;
+  if (du.squaredNorm() > 0.0) {
+    scratch_.setZero();
+    before.add_load(decision.jet.t, 0, scratch_.data());
+    after.add_load(decision.jet.t, 0, scratch_.data());
+    work_.loads += 0.5 * scratch_.dot(du);
+  }
+  for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const auto& kt = model_.contacts[k].tangential_stiffness;
+    const bool carries = decision.mode[k].state != State::open;
+    if (!kt || !carries || !decision.jumped[k]) continue;
+    const double T0 = decision.before[k].T, T1 = decision.after[k].T;
+    if (std::abs(T1) >= std::abs(T0)) continue;
+    const double loss = (T0 * T0 - T1 * T1) / (2.0 * *kt);
+    friction_[k] += loss;
+    work_.friction += loss;
+  }
+}
+
+Energy Auditor::energy(double t, const Point& point) {
+  Energy e = work_;
+  scratch_.setZero();
+  structure_.add_product(structure_.m, point.v.data(), scratch_.data());
+  e.kinetic = 0.5 * scratch_.dot(point.v);
+  scratch_.setZero();
+  structure_.add_product(structure_.k, point.u.data(), scratch_.data());
+  e.elastic = 0.5 * scratch_.dot(point.u);
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const double N = point.forces[static_cast<Eigen::Index>(2 * k)];
+    const double T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
+    if (contact.law == Law::compliant) e.contact += N * N / (2.0 * contact.normal_stiffness);
+    if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
+  }
+  audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
+  const double exchanged = std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});
+  audit_.energy_scale = std::max(begun_ ? audit_.energy_scale : 0.0, exchanged);
+  if (begun_) raise(audit_.energy, std::abs(e.balance() - audit_.initial.balance()), t);
+  return e;
+}
+
+ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, const ContactState& state,
+                              const Point& point) const {
+  const ContactMotion m = motion(k, forcing, t, point);
+  ContactSample s;
+  s.state = state.state;
+  s.gap = m.gap;
+  s.ut = m.ut;
+  s.vt = m.vt;
+  s.N = m.N;
+  s.T = m.T;
+  const auto& kt = model_.contacts[k].tangential_stiffness;
+  s.slip = state.state == State::stick && kt ? state.anchor : m.ut - (kt ? m.T / *kt : 0.0);
+  return s;
+}
+
+void Auditor::finish(Report& report, const Energy& last) const {
+  report.audit = audit_;
+  report.audit.final = last;
+  report.audit.friction_work = friction_;
+  report.audit.length_scale = model_.scales.displacement;
+  report.audit.force_scale = model_.scales.force;
+  report.audit.power_scale = model_.scales.force * model_.scales.velocity;
+  if (report.audit.energy_scale <= 0.0) report.audit.energy_scale = model_.scales.force * model_.scales.displacement;
+  report.peaks = peaks_;
+}
+
+}  // namespace signorini

@@ -1,0 +1,56 @@
+// audit.hpp: how well a run satisfies its own conditions, and where its energy went.
+//
+//   (6)  g >= 0, N <= 0, g N = 0          g - N/kn in place of g for contact elements
+//   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
+//   E_kin + E_el + E_contact + D_friction + D_damping - W_loads - W_surface = const
+//
+// Contacts are observed after every step; works and dissipations are integrals of powers with the
+// polynomials of the steps themselves (engine/step_history.hpp), so they have the order of the method.
+#pragma once
+
+#include "engine/step_history.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class Auditor {
+ public:
+  Auditor(const Model& model, const Structure& structure);
+
+  /// Numbers a step contributes besides guards: powers of loads and damping, friction and surface work
+  /// of each contact.
+  [[nodiscard]] std::size_t scalars() const { return 2 + 2 * model_.contacts.size(); }
+  void powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out);
+  /// Adds the part [from, to] of the last step (0 <= from <= to <= 1); powers start at scalar `offset`.
+  void integrate(const StepHistory& history, std::size_t offset, double from, double to);
+
+  void begin(const Decision& decision, const Forcing& forcing);
+  /// Contacts at the end of a step or after an event.
+  void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
+  void equilibrium(double t, double residual);
+  /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
+  void instant(const Decision& decision, const Vector& u_before, const Forcing& before, const Forcing& after);
+  /// Energies now; also audits the balance.
+  Energy energy(double t, const Point& point);
+  [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
+                                     const ContactState& state, const Point& point) const;
+
+  void finish(Report& report, const Energy& last) const;
+
+ private:
+  [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t, const Point& point) const {
+    return motion_of(model_.contacts[k], k, forcing, t, point);
+  }
+
+  const Model& model_;
+  const Structure& structure_;
+  Audit audit_;
+  Energy work_;                 // dissipations and works so far
+  std::vector<double> friction_;
+  std::vector<ContactMotion> at_start_;
+  std::vector<Peak> peaks_;
+  Vector scratch_;
+  bool begun_ = false;
+};
+
+}  // namespace signorini

@@ -1,0 +1,249 @@
+#include "engine/decide.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t most_enumerated = 6;  // 3^6 modes of contacts without tangential stiffness
+
+/// -1, 0, +1: sign of the first derivative of the form, from `first` on, that is not zero to working
+/// precision. A derivative also counts as zero when the next one would undo it within the resolution.
+int sign_after(const Form& form, const MotionJet& jet, double resolution, std::size_t first) {
+  for (std::size_t k = first; k < jet.motion.size(); ++k) {
+    const double d = k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
+    double zero = form.magnitude(jet.noise[k]);
+    if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
+    if (std::abs(d) > zero) return d > 0.0 ? 1 : -1;
+  }
+  return 0;
+}
+
+bool starts_at_zero(const Form& form, const MotionJet& jet, double resolution) {
+  const double zero = form.magnitude(jet.noise[0]) + resolution * std::abs(form.rate(jet.motion[1]));
+  return std::abs(form.value(jet.motion[0])) <= zero;
+}
+
+std::vector<State> states(const Mode& mode) {
+  std::vector<State> result;
+  for (const ContactState& c : mode) result.push_back(c.state);
+  return result;
+}
+
+/// The state that a contact which bears a load takes up at rest relative to its surface.
+State at_rest(const Contact& contact) { return contact.has_friction() ? State::stick : State::closed; }
+
+}  // namespace
+
+Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u, const Vector& v) {
+  Mode mode;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    ContactState s;
+    const double ut = contact.tangent.dot(u) - forcing.surface(c, t, 0);
+    const bool carries = contact.law == Law::slider ? !forcing.lifted(c)
+                                                    : contact.gap + contact.normal.dot(u) < 0.0;
+    if (carries) {
+      s.state = at_rest(contact);
+      if (contact.tangential_stiffness) {
+        s.anchor = ut - contact.initial_shear / *contact.tangential_stiffness;
+      } else if (contact.has_friction()) {
+        const double vt = contact.tangent.dot(v) - forcing.surface(c, t, 1);
+        double size = std::abs(forcing.surface(c, t, 1));
+        for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * v[dof]);
+        if (std::abs(vt) > 8.0 * std::numeric_limits<double>::epsilon() * size)
+          s.state = vt > 0.0 ? State::slip_plus : State::slip_minus;
+      }
+    }
+    mode.push_back(s);
+  }
+  return mode;
+}
+
+std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
+                                                const Instant& instant, bool first) const {
+  std::vector<Failure> result;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    Failure failure{c, Guard::none};
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
+      if (guard.kind == Guard::none) continue;
+      const bool fired = first && std::any_of(instant.fired.begin(), instant.fired.end(), [&](const Fired& f) {
+        return f.contact == c && f.guard == guard.kind;
+      });
+      // What the integrator located is zero, also where the last rounding leaves it positive.
+      const bool is_zero = fired && guard.form.value(jets[c].motion[0]) > 0.0;
+      if (sign_after(guard.form, jets[c], instant.resolution, is_zero ? 1 : 0) >= 0) continue;
+      failure.guard = guard.kind;
+      break;  // separation comes first: with N = 0 the friction limit is zero too, and that is one event
+    }
+    if (failure.guard == Guard::none) continue;
+    // Friction limit and compression vanish together in a vertical lift-off: one separation.
+    if (failure.guard == Guard::slip_plus || failure.guard == Guard::slip_minus) {
+      const GuardForm separation = guards(model_.contacts[c], mode[c])[0];
+      if (separation.kind == Guard::separation &&
+          starts_at_zero(separation.form, jets[c], instant.resolution) &&
+          separation.form.rate(jets[c].motion[1]) < 0.0)
+        failure.guard = Guard::separation;
+    }
+    result.push_back(failure);
+  }
+  return result;
+}
+
+void Decider::follow_forcing(const Instant& instant, const Forcing& before, const Forcing& after,
+                             const std::vector<ContactMotion>& motion, Mode& mode) const {
+  const double t = instant.t;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.law != Law::slider) continue;
+    ContactState& s = mode[c];
+    const double ut = contact.tangent.dot(instant.u) - after.surface(c, t, 0);
+    const double vt = contact.tangent.dot(instant.v) - after.surface(c, t, 1);
+    if (after.lifted(c)) {
+      s = {State::open, 0.0};
+      continue;
+    }
+    const double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
+    const bool moves = std::abs(vt) > 64.0 * std::numeric_limits<double>::epsilon() *
+                                          (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump));
+    if (s.state == State::open) {
+      s = {at_rest(contact), ut};
+      if (contact.has_friction() && !contact.tangential_stiffness && moves)
+        s.state = vt > 0.0 ? State::slip_plus : State::slip_minus;
+      continue;
+    }
+    const int sign = slip_sign(s.state);
+    if (contact.tangential_stiffness) {
+      // T is continuous when the compression jumps up: below its new limit the contact sticks.
+      if (sign != 0 && after.pressing(c, t, 0) > before.pressing(c, t, 0))
+        s = {State::stick, ut - motion[c].T / *contact.tangential_stiffness};
+    } else if (contact.has_friction() && surface_jump != 0.0 && moves) {
+      s.state = vt > 0.0 ? State::slip_plus : State::slip_minus;
+    }
+  }
+}
+
+bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,
+                       std::vector<MotionJet>& jets) const {
+  if (!expander_.set(mode)) return false;
+  decision.u = instant.u;
+  decision.v = instant.v;
+  expander_.hold(after, instant.t, mode, decision.v);
+  decision.jet = expander_.expand(after, instant.t, decision.u, decision.v);
+  decision.u = decision.jet.u[0];
+  decision.v = decision.jet.u[1];
+  decision.mode = mode;
+  jets = expander_.motions(after, decision.jet);
+  return true;
+}
+
+bool Decider::enumerate(const Instant& instant, const Forcing& after, Decision& decision,
+                        std::vector<MotionJet>& jets) const {
+  std::vector<std::size_t> free;
+  for (std::size_t c = 0; c < decision.mode.size(); ++c)
+    if (decision.visited[c] && model_.contacts[c].law == Law::slider && !model_.contacts[c].tangential_stiffness)
+      free.push_back(c);
+  if (free.empty() || free.size() > most_enumerated) return false;
+  static constexpr State choices[] = {State::stick, State::slip_plus, State::slip_minus};
+  std::size_t combinations = 1;
+  for (std::size_t i = 0; i < free.size(); ++i) combinations *= 3;
+  Mode mode = decision.mode;
+  for (std::size_t code = 0; code < combinations; ++code) {
+    std::size_t rest = code;
+    for (std::size_t c : free) {
+      mode[c].state = choices[rest % 3];
+      rest /= 3;
+    }
+    if (evaluate(instant, after, mode, decision, jets) && failures(jets, mode, instant, false).empty()) return true;
+  }
+  return false;
+}
+
+std::string Decider::describe(const std::vector<Failure>& failures) const {
+  std::string text;
+  for (const Failure& f : failures)
+    text += fmt::format("{}'{}' ({})", text.empty() ? "" : ", ", model_.contacts[f.contact].name,
+                        to_string(f.guard));
+  return text;
+}
+
+Decision Decider::decide(const Instant& instant, const Forcing& before, const Forcing& after) const {
+  Decision decision;
+  const std::size_t count = model_.contacts.size();
+  decision.visited.assign(count, false);
+  decision.jumped.assign(count, false);
+  std::vector<MotionJet> jets;
+
+  // The motion just before, in the old mode under the old forcing.
+  if (!evaluate(instant, before, instant.mode, decision, jets)) {
+    decision.reason = "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    return decision;
+  }
+  std::vector<ContactMotion> noise;
+  for (const MotionJet& jet : jets) {
+    decision.before.push_back(jet.motion[0]);
+    noise.push_back(jet.noise[0]);
+  }
+
+  Mode mode = instant.mode;
+  if (instant.jump) follow_forcing(instant, before, after, decision.before, mode);
+  std::set<std::vector<State>> seen{states(mode)};
+  bool first = true;
+  if (instant.jump && !evaluate(instant, after, mode, decision, jets)) {
+    decision.reason = "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    return decision;
+  }
+  for (;;) {
+    const std::vector<Failure> failed = failures(jets, mode, instant, first);
+    first = false;
+    if (failed.empty()) break;
+    if (++decision.rounds > max_rounds_) {
+      decision.reason = fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
+                                    max_rounds_, describe(failed));
+      return decision;
+    }
+    for (const Failure& f : failed) {
+      mode[f.contact] = next_state(model_.contacts[f.contact], mode[f.contact], f.guard, jets[f.contact]);
+      decision.visited[f.contact] = true;
+    }
+    const bool repeated = !seen.insert(states(mode)).second;
+    bool solved = true;
+    if (repeated && decision.rounds > 2) {
+      decision.mode = mode;
+      if (enumerate(instant, after, decision, jets)) {
+        mode = decision.mode;
+        break;
+      }
+      decision.reason = fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
+      return decision;
+    }
+    solved = evaluate(instant, after, mode, decision, jets);
+    if (!solved) {
+      decision.reason = fmt::format(
+          "the rows of the contacts that stick are linearly dependent, so their forces are not unique "
+          "(after {}); law = \"compliant\" or a tangential_stiffness makes them so",
+          describe(failed));
+      return decision;
+    }
+  }
+
+  decision.consistent = true;
+  for (std::size_t c = 0; c < count; ++c) {
+    const ContactMotion& after_motion = jets[c].motion[0];
+    decision.after.push_back(after_motion);
+    decision.jumped[c] = std::abs(after_motion.N - decision.before[c].N) > noise[c].N + jets[c].noise[0].N ||
+                         std::abs(after_motion.T - decision.before[c].T) > noise[c].T + jets[c].noise[0].T;
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+      decision.guards.push_back(
+          {guard.kind, guard.form,
+           guard.kind != Guard::none && starts_at_zero(guard.form, jets[c], instant.resolution)});
+  }
+  return decision;
+}
+
+}  // namespace signorini

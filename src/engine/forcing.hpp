@@ -1,0 +1,40 @@
+// forcing.hpp: everything that acts on the structure as a known function of time.
+//
+//   P(t) = sum_i d_i f_i(t),   q_k(t) compression of sliders,   s_k(t) motion of surfaces
+//
+// A Forcing holds the pieces in force on one side of an instant and continues them smoothly, so that an
+// integrator that evaluates at a discontinuity sees the side that it came from.
+#pragma once
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+enum class Side { before, after };
+
+class Forcing {
+ public:
+  Forcing(const Model& model, double t, Side side);
+
+  /// P += the derivative of the given order of the load vector; length n.
+  void add_load(double t, int order, double* P) const;
+  /// Derivative of normal_force of contact k.
+  [[nodiscard]] double pressing(std::size_t k, double t, int order) const {
+    return pressing_[k]->value(t, order);
+  }
+  /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
+  [[nodiscard]] double surface(std::size_t k, double t, int order) const {
+    return surface_[k]->value(t, order);
+  }
+  /// True while the compression of slider k is zero over an interval.
+  [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }
+
+ private:
+  const Model* model_;
+  Vector constant_;                                   // the loads that do not change
+  std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
+  std::vector<const Piece*> pressing_, surface_;
+  std::vector<bool> lifted_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,104 @@
+#include "engine/ida_linear_solver.hpp"
+
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+
+namespace signorini {
+
+Layout::Layout(const Model& model)
+    : dofs(model.size()), contacts(static_cast<int>(model.contacts.size())) {
+  for (const Dof& dof : model.dofs) velocity.push_back(dof.massless ? -1 : dofs + massive++);
+}
+
+IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout)
+    : model_(model),
+      structure_(structure),
+      layout_(layout),
+      matrix_(model, structure),
+      weights_(static_cast<std::size_t>(layout.dofs)),
+      rhs_(static_cast<std::size_t>(matrix_.size())),
+      correction_(static_cast<std::size_t>(layout.dofs)) {}
+
+void IdaLinearSolver::set_mode(const Mode& mode) {
+  rows_ = rows_of(model_, mode);
+  fresh_ = true;
+}
+
+bool IdaLinearSolver::factor() {
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = layout_.velocity[i] >= 0 ? Weights{cj_, 1.0, 1.0 / cj_} : Weights{0.0, cj_, 1.0};
+  const bool ok = matrix_.set(rows_, weights_, fresh_);
+  fresh_ = !ok;
+  return ok;
+}
+
+void IdaLinearSolver::solve(const double* b, double* x) {
+  const auto n = static_cast<std::size_t>(layout_.dofs);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int v = layout_.velocity[i];
+    correction_[i] = v >= 0 ? -b[i] / cj_ : 0.0;
+    rhs_[i] = v >= 0 ? b[v] : b[i];
+  }
+  structure_.add_product(structure_.k, correction_.data(), rhs_.data());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const double gap = contact.normal.dot(correction_), ut = contact.tangent.dot(correction_);
+    const auto f = static_cast<std::size_t>(layout_.force(k));
+    const std::size_t row = n + 2 * k;
+    rhs_[row] = b[f] + rows_[k].normal.gap * gap + rows_[k].normal.ut * ut;
+    rhs_[row + 1] = b[f + 1] + rows_[k].tangent.gap * gap + rows_[k].tangent.ut * ut;
+  }
+  // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
+  struct Held {
+    int dof;
+    double value;
+  };
+  std::vector<Held> held;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    if (rows_[k].tangent.at != 0.0 && model_.contacts[k].tangent.terms.size() == 1) {
+      const auto& [dof, factor] = model_.contacts[k].tangent.terms[0];
+      held.push_back({dof, rhs_[n + 2 * k + 1] / (cj_ * factor)});
+    }
+  matrix_.solve(rhs_.data());
+  for (const Held& h : held) rhs_[static_cast<std::size_t>(h.dof)] = h.value;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int v = layout_.velocity[i];
+    if (v >= 0) {
+      x[v] = rhs_[i];
+      x[i] = (rhs_[i] + b[i]) / cj_;
+    } else {
+      x[i] = rhs_[i];
+    }
+  }
+  std::copy(rhs_.begin() + static_cast<std::ptrdiff_t>(n), rhs_.end(), x + layout_.dofs + layout_.massive);
+}
+
+SUNMatrix IdaLinearSolver::make_matrix(SUNContext context) {
+  SUNMatrix matrix = SUNMatNewEmpty(context);
+  matrix->content = this;
+  matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
+  matrix->ops->destroy = [](SUNMatrix m) { SUNMatFreeEmpty(m); };
+  return matrix;
+}
+
+SUNLinearSolver IdaLinearSolver::make_solver(SUNContext context) {
+  SUNLinearSolver solver = SUNLinSolNewEmpty(context);
+  solver->content = this;
+  solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver->ops->setup = [](SUNLinearSolver s, SUNMatrix) {
+    return static_cast<IdaLinearSolver*>(s->content)->factor() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  };
+  solver->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    static_cast<IdaLinearSolver*>(s->content)->solve(NV_DATA_S(b), NV_DATA_S(x));
+    return static_cast<int>(SUNLS_SUCCESS);
+  };
+  solver->ops->free = [](SUNLinearSolver s) {
+    SUNLinSolFreeEmpty(s);
+    return static_cast<int>(SUNLS_SUCCESS);
+  };
+  return solver;
+}
+
+}  // namespace signorini

@@ -1,0 +1,46 @@
+// ida_problem.hpp: residual, error weights and root functions that IDA calls; no solver state.
+#pragma once
+
+#include "engine/ida_linear_solver.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class IdaProblem {
+ public:
+  IdaProblem(const Model& model, const Structure& structure, const Settings& settings);
+
+  void start(const Segment& segment);
+
+  /// r = F(t, y, y')
+  void residual(double t, const double* y, const double* yp, double* r);
+  /// Error weights; see below.
+  void weights(const double* y, double* w) const;
+  /// Scaled guards, one a slot; masked ones are +1.
+  void guards(double t, const double* y, const double* yp, double* g) const;
+  /// y^(order) from a jet.
+  void fill(const Jet& jet, std::size_t order, double* y) const;
+  void read(const double* y, const double* yp, Point& point) const;
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] std::size_t slots() const { return guards_per_contact * model_.contacts.size(); }
+
+  [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
+
+ private:
+  [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp) const;
+
+  const Model& model_;
+  const Structure& structure_;
+  Layout layout_;
+  IdaLinearSolver linear_;
+  const Settings settings_;
+  Segment segment_;
+  // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of its
+  // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
+  // structure does not dilute the few contacts.
+  std::vector<double> factor_, atol_;
+  std::vector<double> v_, a_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,77 @@
+#include "engine/klu.hpp"
+
+#include <klu.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace signorini {
+namespace {
+
+static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
+
+// KLU reads only, but its interface is not const.
+SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
+  return reinterpret_cast<SuiteSparse_long*>(const_cast<std::int64_t*>(v.data()));
+}
+double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
+
+// Pivots kept from another step size may lose this much of their quality before fresh ones are chosen.
+constexpr double kept_quality = 1e-3;
+
+}  // namespace
+
+struct Klu::Handles {
+  klu_l_common common{};
+  klu_l_symbolic* symbolic = nullptr;
+  klu_l_numeric* numeric = nullptr;
+};
+
+Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::int64_t>& row)
+    : h_(std::make_unique<Handles>()), column_start_(column_start), row_(row) {
+  klu_l_defaults(&h_->common);
+  const auto n = static_cast<SuiteSparse_long>(column_start.size()) - 1;
+  h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
+  if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
+    throw std::runtime_error("KLU could not analyse the system matrix");
+}
+
+Klu::~Klu() {
+  klu_l_free_numeric(&h_->numeric, &h_->common);
+  klu_l_free_symbolic(&h_->symbolic, &h_->common);
+}
+
+bool Klu::factor(const std::vector<double>& values) {
+  ++factorisations;
+  if (h_->symbolic == nullptr) return false;
+  klu_l_free_numeric(&h_->numeric, &h_->common);
+  h_->numeric = klu_l_factor(raw(column_start_), raw(row_), raw(values), h_->symbolic, &h_->common);
+  singular_column_ = -1;
+  if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) {
+    singular_column_ = static_cast<std::int64_t>(h_->common.singular_col);
+    return false;
+  }
+  klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
+  fresh_rcond_ = h_->common.rcond;
+  if (fresh_rcond_ < std::numeric_limits<double>::epsilon()) {
+    singular_column_ = static_cast<std::int64_t>(h_->symbolic->n) - 1;
+    return false;
+  }
+  return true;
+}
+
+bool Klu::refactor(const std::vector<double>& values) {
+  if (h_->numeric == nullptr) return factor(values);
+  ++refactorisations;
+  if (klu_l_refactor(raw(column_start_), raw(row_), raw(values), h_->symbolic, h_->numeric, &h_->common) == 0 ||
+      h_->common.status == KLU_SINGULAR)
+    return factor(values);
+  klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
+  return h_->common.rcond >= kept_quality * fresh_rcond_ || factor(values);
+}
+
+void Klu::solve(double* b) {
+  klu_l_solve(h_->symbolic, h_->numeric, h_->symbolic->n, 1, b, &h_->common);
+}
+
+}  // namespace signorini

@@ -1,0 +1,30 @@
+// point.hpp: the state at one time, and the motion of a contact in it.
+//
+//   g = g0 + n . u,   ut = t . u - s(t),   g' = n . v,   ut' = t . v - s'(t)
+#pragma once
+
+#include "engine/forcing.hpp"
+
+namespace signorini {
+
+/// u, v (length n) and forces (N_1, T_1, N_2, ...) at one time.
+struct Point {
+  Vector u, v, forces;
+};
+
+/// Motion of contact k; accelerations are left at zero.
+[[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
+                                             double t, const Point& point) {
+  ContactMotion m;
+  m.N = point.forces[static_cast<Eigen::Index>(2 * k)];
+  m.T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
+  m.gap = contact.gap + contact.normal.dot(point.u);
+  m.ut = contact.tangent.dot(point.u) - forcing.surface(k, t, 0);
+  m.vn = contact.normal.dot(point.v);
+  m.vt = contact.tangent.dot(point.v) - forcing.surface(k, t, 1);
+  m.pressing = forcing.pressing(k, t, 0);
+  m.pressing_rate = forcing.pressing(k, t, 1);
+  return m;
+}
+
+}  // namespace signorini

@@ -1,0 +1,362 @@
+// The loop: advance -> decide -> apply -> record.
+#include "signorini/simulate.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "engine/audit.hpp"
+#include "engine/ida_stepper.hpp"
+#include "engine/locate.hpp"
+#include "engine/order.hpp"
+#include "engine/tolerance.hpp"
+
+namespace signorini {
+namespace {
+
+/// Times that are the same to an integrator's clock: IDA's own measure.
+double resolution_at(double t, double step) {
+  return 100.0 * std::numeric_limits<double>::epsilon() * (std::abs(t) + std::abs(step));
+}
+
+/// Breakpoints of all forcing in (0, t_end), ascending; `jump` where any value jumps.
+std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
+  std::vector<Breakpoint> all;
+  const auto add = [&](const History& history, bool values) {
+    for (Breakpoint b : history.breakpoints()) {
+      b.jump = b.jump && values;
+      if (b.time > 0.0 && b.time < t_end) all.push_back(b);
+    }
+  };
+  for (const Load& load : model.loads) add(load.history, true);
+  for (const Contact& contact : model.contacts) {
+    add(contact.normal_force, true);
+    add(contact.surface_motion, false);
+  }
+  std::sort(all.begin(), all.end(), [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
+  std::vector<Breakpoint> merged;
+  for (const Breakpoint& b : all) {
+    if (!merged.empty() && b.time - merged.back().time <= resolution_at(b.time, 0.0))
+      merged.back().jump = merged.back().jump || b.jump;
+    else
+      merged.push_back(b);
+  }
+  return merged;
+}
+
+std::optional<EventType> classify(State from, State to, bool dropped) {
+  if (from == to) return dropped ? std::optional(EventType::slip) : std::nullopt;
+  if (to == State::open) return EventType::separation;
+  if (from == State::open) return EventType::contact;
+  if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;
+  return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
+}
+
+class Run {
+ public:
+  Run(const Model& model, const RunSpec& spec, Recorder& recorder)
+      : model_(model),
+        spec_(spec),
+        recorder_(recorder),
+        structure_(model),
+        expander_(model, structure_),
+        decider_(model, expander_, spec.max_events_at_once),
+        auditor_(model, structure_),
+        history_(guards_per_contact * model.contacts.size() + auditor_.scalars()),
+        grid_(spec.grid()),
+        forcing_(model, 0.0, Side::after),
+        breakpoints_(breakpoints(model, spec.t_end)) {
+    report_.settings = settings_for(model, spec);
+    report_.settings.engine = "ida";
+    choose_order(model, spec, report_.settings);
+    stepper_ = std::make_unique<IdaStepper>(model, structure_, report_.settings);
+  }
+
+  Report go() {
+    const auto clock = std::chrono::steady_clock::now();
+    if (begin())
+      while (t_ < spec_.t_end && segment()) {
+      }
+    report_.outcome.t = t_;
+    report_.counters = stepper_->counters;
+    report_.counters.rolled_back = rolled_back_;
+    report_.counters.time_events = time_events_;
+    auditor_.finish(report_, last_energy_);
+    report_.wall_time =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    return report_;
+  }
+
+ private:
+  bool stop(const std::string& reason, Outcome::Kind kind = Outcome::Kind::stopped) {
+    report_.outcome.kind = kind;
+    report_.outcome.reason = fmt::format("at t = {}: {}", t_, reason);
+    return false;
+  }
+
+  bool begin() {
+    Instant instant;
+    instant.u = model_.u0;
+    instant.v = model_.v0;
+    instant.resolution = resolution_at(0.0, 0.0);
+    instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
+    instant.start = true;
+    decision_ = decider_.decide(instant, forcing_, forcing_);
+    if (!decision_.consistent) return stop(decision_.reason);
+    auditor_.begin(decision_, forcing_);
+    point_ = {decision_.u, decision_.v, decision_.jet.forces[0]};
+    last_energy_ = auditor_.energy(0.0, point_);
+    auditor_.observe(forcing_, 0.0, decision_.mode, point_);
+    record_at(0.0);
+    return true;
+  }
+
+  /// Guards and powers at the end of a step, for its polynomials.
+  void fill(double t, const Point& point, double* out) {
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const ContactMotion m = motion_of(model_.contacts[k], k, forcing_, t, point);
+      for (std::size_t i = 0; i < guards_per_contact; ++i)
+        *out++ = decision_.guards[guards_per_contact * k + i].form.value(m);
+    }
+    auditor_.powers(forcing_, t, decision_.mode, point, out);
+  }
+
+  /// From a restart to the next event or discontinuity. False: the run ends.
+  bool segment() {
+    const bool at_breakpoint = next_breakpoint_ < breakpoints_.size();
+    const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
+    std::vector<double> levels;
+    for (std::size_t slot = 0; slot < decision_.guards.size(); ++slot)
+      levels.push_back(re_arm_tolerances * tolerance(decision_.guards[slot].form,
+                                                     decision_.after[slot / guards_per_contact],
+                                                     report_.settings));
+    watch_.start(decision_.guards, std::move(levels));
+    stepper_->start({end, &decision_, &forcing_, &watch_});
+    fill(t_, point_, history_.restart(t_));
+
+    for (;;) {
+      Step step = stepper_->advance();
+      if (step.kind == Step::Kind::failed) return stop(step.reason);
+      stepper_->evaluate(step.end, point_);
+      fill(step.end, point_, history_.push(step.end));
+      history_.prepare(step.order);
+
+      const double h = step.end - step.begin;
+      resolution_ = resolution_at(step.end, h);
+      const auto event = first_event(step);
+      const double reached = event ? event->time : step.end;
+      record_between(step.begin, h, reached);
+      t_ = reached;
+      if (event) {
+        stepper_->evaluate(reached, point_);
+        return instant({{event->slot / guards_per_contact, decision_.guards[event->slot].kind}});
+      }
+      auditor_.observe(forcing_, t_, decision_.mode, point_);
+      if (audit_due_) {
+        auditor_.equilibrium(t_, stepper_->residual());
+        audit_due_ = false;
+      }
+      if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
+      if (step.end >= end) return instant({});
+    }
+  }
+
+  struct Located {
+    std::size_t slot;
+    double time;
+  };
+
+  /// The earliest fall of a guard in the last step, refined.
+  std::optional<Located> first_event(const Step& step) {
+    const double h = step.end - step.begin;
+    std::vector<Located> candidates;
+    for (const Fall& fall : watch_.check(history_, 1.0)) candidates.push_back({fall.slot, step.begin + fall.x * h});
+    for (const Fired& fired : step.fired)
+      for (std::size_t i = 0; i < guards_per_contact; ++i) {
+        const std::size_t slot = guards_per_contact * fired.contact + i;
+        if (decision_.guards[slot].kind != fired.guard) continue;
+        const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                       [&](const Located& c) { return c.slot == slot; });
+        if (same == candidates.end()) candidates.push_back({slot, step.root});
+      }
+    if (candidates.empty()) return std::nullopt;
+    std::optional<Located> first;
+    for (const Located& c : candidates) {
+      const double time = locate(*stepper_, expander_, forcing_, model_, decision_.guards[c.slot],
+                                 c.slot / guards_per_contact, step.begin, step.end, c.time, resolution_);
+      if (!first || time < first->time) first = Located{c.slot, time};
+    }
+    if (step.kind != Step::Kind::root) ++rolled_back_;
+    return first;
+  }
+
+  /// Decides the states at t_, applies and records them.
+  bool instant(std::vector<Fired> fired) {
+    Instant now;
+    now.t = t_;
+    now.resolution = resolution_;
+    now.u = point_.u;
+    now.v = point_.v;
+    now.mode = decision_.mode;
+    now.fired = std::move(fired);
+    bool jump = false;
+    while (next_breakpoint_ < breakpoints_.size() &&
+           breakpoints_[next_breakpoint_].time - t_ <= resolution_) {
+      now.jump = true;
+      jump = jump || breakpoints_[next_breakpoint_].jump;
+      now.t = t_ = breakpoints_[next_breakpoint_].time;
+      ++next_breakpoint_;
+    }
+    if (!now.jump && now.fired.empty()) {  // the end of the run
+      last_energy_ = auditor_.energy(t_, point_);
+      record_at(t_);
+      return true;
+    }
+    if (!count_instant(now)) return false;
+    const Forcing before = forcing_;
+    if (now.jump) forcing_ = Forcing(model_, t_, Side::after);
+    const Mode old_mode = decision_.mode;
+    Decision next = decider_.decide(now, before, forcing_);
+    if (!next.consistent) {
+      last_energy_ = auditor_.energy(t_, point_);
+      return stop(next.reason);
+    }
+    auditor_.instant(next, now.u, before, forcing_);
+    decision_ = std::move(next);
+    log(old_mode, jump);
+    point_ = {decision_.u, decision_.v, decision_.jet.forces[0]};
+    auditor_.observe(forcing_, t_, decision_.mode, point_);
+    last_energy_ = auditor_.energy(t_, point_);
+    record_at(t_);
+    return true;
+  }
+
+  /// A bound on decisions at (almost) one instant.
+  bool count_instant(const Instant& now) {
+    if (instants_ == 0 || t_ - cluster_ > 10.0 * resolution_) {
+      cluster_ = t_;
+      instants_ = 0;
+    }
+    if (++instants_ <= spec_.max_events_at_once) return true;
+    std::string names;
+    for (const Fired& f : now.fired)
+      names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", model_.contacts[f.contact].name,
+                           to_string(f.guard));
+    return stop(fmt::format("{} events at one instant; time does not advance; last: {}",
+                            spec_.max_events_at_once, names));
+  }
+
+  void log(const Mode& old_mode, bool jump) {
+    if (jump) {
+      ++time_events_;
+      ++report_.events_by_type[to_string(EventType::time)];
+      Event event;
+      event.t = t_;
+      recorder_.event(event);
+    }
+    for (std::size_t k = 0; k < old_mode.size(); ++k) {
+      const State from = old_mode[k].state, to = decision_.mode[k].state;
+      const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k];
+      auto type = classify(from, to, dropped);
+      if (!type && jump && decision_.jumped[k]) type = EventType::time;
+      if (!type) continue;
+      if (*type != EventType::time) ++report_.events_by_type[to_string(*type)];
+      const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
+      Event event;
+      event.t = t_;
+      event.contact = static_cast<int>(k);
+      event.type = *type;
+      event.from = from;
+      event.to = to;
+      event.gap = after.gap;
+      event.N = before.N;
+      event.T = before.T;
+      event.N_after = after.N;
+      event.T_after = after.T;
+      event.vn = before.vn;
+      event.vn_after = after.vn;
+      event.vt = before.vt;
+      event.vt_after = after.vt;
+      recorder_.event(event);
+    }
+  }
+
+  void emit(double t, const Point& point) {
+    Sample sample;
+    sample.t = t;
+    sample.u = &point.u;
+    sample.v = &point.v;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+      sample.contacts.push_back(auditor_.sample(k, forcing_, t, decision_.mode[k], point));
+    sample.energy = auditor_.energy(t, point);
+    recorder_.sample(sample);
+    audit_due_ = true;
+  }
+
+  /// Output times before `reached`, inside the last step, and the works up to there.
+  void record_between(double begin, double h, double reached) {
+    double from = 0.0;
+    const auto integrate_to = [&](double t) {
+      const double to = (t - begin) / h;
+      auditor_.integrate(history_, decision_.guards.size(), from, to);
+      from = to;
+    };
+    for (; next_output_ < grid_.size() && grid_[next_output_] < reached; ++next_output_) {
+      Point point;
+      stepper_->evaluate(grid_[next_output_], point);
+      integrate_to(grid_[next_output_]);
+      emit(grid_[next_output_], point);
+    }
+    integrate_to(reached);
+  }
+
+  /// The output time t itself, with the values after everything at that instant.
+  void record_at(double t) {
+    if (next_output_ < grid_.size() && grid_[next_output_] <= t) {
+      emit(grid_[next_output_], point_);
+      ++next_output_;
+    }
+  }
+
+  const Model& model_;
+  const RunSpec& spec_;
+  Recorder& recorder_;
+  Structure structure_;
+  Expander expander_;
+  Decider decider_;
+  Auditor auditor_;
+  StepHistory history_;
+  std::vector<double> grid_;
+  Forcing forcing_;
+  std::vector<Breakpoint> breakpoints_;
+  std::unique_ptr<Stepper> stepper_;
+  Watch watch_;
+  Decision decision_;
+  Point point_;
+  Report report_;
+  Energy last_energy_;
+  double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
+  int instants_ = 0;
+  std::size_t next_breakpoint_ = 0, next_output_ = 0;
+  bool audit_due_ = false;
+  long rolled_back_ = 0, time_events_ = 0;
+};
+
+}  // namespace
+
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
+  if (settings.engine != Engine::ida)
+    throw SceneError(settings.place, "run.engine", "only engine = \"ida\" is supported yet");
+  return Run(model, settings, recorder).go();
+}
+
+Result simulate(const Model& model, const RunSpec& settings) {
+  Result result;
+  result.report = simulate(model, settings, result);
+  return result;
+}
+
+}  // namespace signorini

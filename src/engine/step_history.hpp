@@ -1,0 +1,51 @@
+// step_history.hpp: scalars at the last accepted steps, and the polynomial through them.
+//
+//   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
+//
+// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted
+// values; a scalar that is linear in y is therefore exactly this polynomial, at the price of a few
+// numbers. The same polynomial integrates powers with the order of the method.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/bernstein.hpp"
+
+namespace signorini {
+
+class StepHistory {
+ public:
+  explicit StepHistory(std::size_t scalars) : scalars_(scalars), values_((max_degree + 1) * scalars) {}
+
+  /// Forgets everything and starts at t; returns the place for the scalars' values.
+  double* restart(double t);
+  /// Adds an accepted step that ends at t; returns the place for the scalars' values.
+  double* push(double t);
+  /// Prepares polynomials of the given order (of the method) on the last step.
+  void prepare(int order);
+  /// Integral of scalar i over the whole last step.
+  [[nodiscard]] double integral(std::size_t i) const;
+  /// The polynomial of scalar i on the last step.
+  [[nodiscard]] Bernstein polynomial(std::size_t i) const;
+  [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
+  [[nodiscard]] double previous(std::size_t i) const { return value(1, i); }
+  [[nodiscard]] double begin() const { return times_[1]; }
+  [[nodiscard]] double end() const { return times_[0]; }
+
+ private:
+  [[nodiscard]] double value(int back, std::size_t i) const {
+    return values_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(back)]) * scalars_ + i];
+  }
+  std::size_t scalars_;
+  std::vector<double> values_;
+  std::array<int, max_degree + 1> slot_{};      // slot_[b]: where the values b steps back are kept
+  std::array<double, max_degree + 1> times_{};  // times_[b]: t_n-b
+  int filled_ = 0;
+  int degree_ = 0;
+  // to_bernstein_[i][b]: weight of the value b steps back in Bernstein coefficient i
+  std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein_{};
+  std::array<double, max_degree + 1> integral_{};  // weight of the value b steps back in the integral
+};
+
+}  // namespace signorini

@@ -1,0 +1,26 @@
+// beam.hpp: the plane Euler-Bernoulli beam element.
+//
+//   axial    EA/L [1 -1; -1 1]                  rho L/6 [2 1; 1 2]
+//   bending  EI/L^3 [12 6L -12 6L; ...]         rho L/420 [156 22L 54 -13L; ...]
+//
+// in its own axes (x from a to b, y to the left), turned into the scene's axes. Unknowns of an element:
+// ux, uy, rz at a, then at b; rz counter-clockwise. rho: mass per length. A lumped mass puts rho L/2 on
+// ux and uy of both ends and nothing on the rotations.
+// Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.6 and 11.3.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+using BeamMatrix = Eigen::Matrix<double, 6, 6>;
+
+/// Stiffness in the scene's axes of a beam that spans (dx, dy); force per length, moments per radian.
+[[nodiscard]] BeamMatrix beam_stiffness(double dx, double dy, double ea, double ei);
+
+/// Mass matrix in the scene's axes of a beam that spans (dx, dy).
+[[nodiscard]] BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind);
+
+}  // namespace signorini

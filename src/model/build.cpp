@@ -1,0 +1,101 @@
+// build_model: the scene as matrices, in the order in which one thing needs the other:
+//
+//   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
+#include <fmt/core.h>
+
+#include "model/assembly.hpp"
+#include "model/contacts.hpp"
+#include "model/dofs.hpp"
+#include "model/initial_state.hpp"
+#include "model/massless.hpp"
+#include "model/modes.hpp"
+#include "model/scales.hpp"
+#include "model/statics.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+namespace {
+
+void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
+  if (!scene.initial.is_static) {
+    const InitialState state = given_state(scene, map);
+    model.u0 = state.u;
+    model.v0 = state.v;
+    return;
+  }
+  bool loaded = false;
+  for (const Load& load : model.loads) loaded = loaded || load.is_static;
+  if (scene.matrices && !loaded)
+    throw SceneError(scene.initial.place, "run.initial",
+                     "with [matrices] a static start needs loads with a constant history that say what the "
+                     "weight is");
+  Equilibrium found = find_equilibrium(model.stiffness, static_load(model.loads, model.size()),
+                                       model.contacts, map, scene.initial.place, scene.units);
+  model.u0 = std::move(found.u);
+  model.v0 = Vector::Zero(model.size());
+  model.static_start = true;
+  model.statics = std::move(found.start);
+}
+
+/// Sliders are always closed; compliant contacts where they press at the start.
+std::vector<bool> closed_at_start(const Model& model) {
+  std::vector<bool> closed;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.law == Law::slider)
+      closed.push_back(true);
+    else if (model.static_start)
+      closed.push_back(model.statics.reactions[k] > 0.0);
+    else
+      closed.push_back(c.gap + c.normal.dot(model.u0) <= 0.0);
+  }
+  return closed;
+}
+
+void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& model) {
+  model.alpha = spec.alpha;
+  model.beta = spec.beta;
+  if (spec.alpha_over_omega1) {
+    if (!(model.omega1 > 0.0))
+      throw SceneError(
+          spec.place, "damping.alpha_over_omega1",
+          "there is no lowest frequency omega1: with the initially closed contacts held, some motion "
+          "has no stiffness, or nothing can move; give alpha");
+    model.alpha = *spec.alpha_over_omega1 * model.omega1;
+  }
+  model.damping = dampers;
+  if (model.alpha != 0.0) model.damping = SparseMatrix(model.damping + model.alpha * model.mass);
+  if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene) {
+  const DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+  const SourcePlace place = scene.matrices ? scene.matrices->mass.place : SourcePlace{scene.file, 0, 0};
+  if (map.size() == 0) throw SceneError(place, "", "the scene has no degree of freedom that could move");
+  Assembly assembly = scene.matrices ? assemble_matrices(*scene.matrices) : assemble_nodes(scene, map);
+
+  Model model;
+  model.title = scene.title;
+  model.units = scene.units;
+  model.dofs = map.dofs;
+  model.columns = map.columns;
+  mark_massless(assembly, model.dofs, place);
+  model.contacts = make_contacts(scene, map);
+  model.loads = make_loads(scene, map, assembly.weight);
+  model.mass = std::move(assembly.mass);
+  model.stiffness = std::move(assembly.stiffness);
+  model.drawing = std::move(assembly.drawing);
+  model.damping = assembly.dampers;
+  check_massless(model, map, place);
+  set_initial_state(scene, map, model);
+  const std::vector<bool> closed = closed_at_start(model);
+  model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
+  set_damping(scene.damping, assembly.dampers, model);
+  model.omega_max = highest_frequency(model);
+  model.scales = find_scales(model, map, closed, scene.run.t_end);
+  return model;
+}
+
+}  // namespace signorini

@@ -1,0 +1,31 @@
+// eigen_dense.hpp: dense decompositions, compiled once.
+//
+//   A x = mu x,    A x = mu B x,    A = Q R
+//
+// All matrices square and symmetric unless said otherwise; eigenvalues ascend.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace signorini {
+
+struct EigenPairs {
+  Eigen::VectorXd values;   ///< ascending
+  Eigen::MatrixXd vectors;  ///< columns, orthonormal (in B where there is one)
+};
+
+[[nodiscard]] EigenPairs symmetric_eigen(const Eigen::MatrixXd& a);
+
+/// Eigenvalues of A x = mu B x, B positive definite; empty when B is not.
+[[nodiscard]] Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// Orthonormal columns that span those of a (n x m, m <= n, full rank).
+[[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a);
+
+/// Orthonormal basis (n x (n - rank)) of the vectors x with A^T x = 0; a: n x m.
+[[nodiscard]] Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a);
+
+/// A^-1 b by full pivoting; A square, not necessarily symmetric, regular.
+[[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+}  // namespace signorini

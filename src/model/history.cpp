@@ -1,0 +1,208 @@
+#include "signorini/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "model/history_internal.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+bool has_sine(const Piece& p) { return p.amplitude != 0.0; }
+
+/// Degree of the polynomial part, -1 when it is zero.
+int degree(const Piece& p) {
+  for (std::size_t j = p.coefficients.size(); j > 0; --j)
+    if (p.coefficients[j - 1] != 0.0) return static_cast<int>(j) - 1;
+  return -1;
+}
+
+bool is_constant_piece(const Piece& p) { return degree(p) <= 0 && (!has_sine(p) || p.omega == 0.0); }
+
+/// An antiderivative. With a sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
+Piece antiderivative(const Piece& p) {
+  Piece q;
+  q.origin = p.origin;
+  q.coefficients.assign(p.coefficients.size() + 1, 0.0);
+  for (std::size_t j = 0; j < p.coefficients.size(); ++j)
+    q.coefficients[j + 1] = p.coefficients[j] / static_cast<double>(j + 1);
+  if (!has_sine(p)) return q;
+  if (p.omega == 0.0) {
+    q.coefficients.resize(std::max<std::size_t>(q.coefficients.size(), 2), 0.0);
+    q.coefficients[1] += p.amplitude * std::sin(p.phase);
+    return q;
+  }
+  q.amplitude = p.amplitude / p.omega;
+  q.omega = p.omega;
+  q.phase = p.phase - pi / 2.0;
+  return q;
+}
+
+}  // namespace
+
+double Piece::value(double t, int order) const {
+  const double s = t - origin;
+  const auto k = static_cast<std::size_t>(order);
+  double sum = 0.0;
+  for (std::size_t j = coefficients.size(); j > k; --j) {
+    double c = coefficients[j - 1];
+    for (std::size_t i = 0; i < k; ++i) c *= static_cast<double>(j - 1 - i);
+    sum = sum * s + c;
+  }
+  if (amplitude == 0.0) return sum;
+  const double angle = omega * s + phase;
+  double sine = (order % 2 == 0) ? std::sin(angle) : std::cos(angle);
+  if (order % 4 >= 2) sine = -sine;
+  for (int i = 0; i < order; ++i) sine *= omega;
+  return sum + amplitude * sine;
+}
+
+double roundoff(const Piece& piece, double t) {
+  const double s = std::abs(t - piece.origin);
+  double size = 0.0, slope = 0.0, power = 1.0, lower = 0.0;
+  for (std::size_t j = 0; j < piece.coefficients.size(); ++j) {
+    const double c = std::abs(piece.coefficients[j]);
+    size += c * power;
+    slope += static_cast<double>(j) * c * lower;
+    lower = power;
+    power *= s;
+  }
+  const double a = std::abs(piece.amplitude);
+  size += a * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
+  slope += a * std::abs(piece.omega);
+  return 64.0 * std::numeric_limits<double>::epsilon() *
+         (size + (std::abs(t) + std::abs(piece.origin)) * slope);
+}
+
+History::History(std::vector<double> starts, std::vector<Piece> pieces)
+    : starts_(std::move(starts)), pieces_(std::move(pieces)) {
+  if (pieces_.size() != starts_.size() + 1)
+    throw std::invalid_argument("History: one piece more than starts is needed");
+  for (std::size_t i = 0; i < starts_.size(); ++i)
+    if (!std::isfinite(starts_[i]) || (i > 0 && starts_[i] <= starts_[i - 1]))
+      throw std::invalid_argument("History: starts must be finite and ascend strictly");
+}
+
+History History::constant(double value) {
+  Piece piece;
+  if (value != 0.0) piece.coefficients = {value};
+  return History(piece);
+}
+
+const Piece& History::piece(double t) const {
+  const auto next = std::upper_bound(starts_.begin(), starts_.end(), t);
+  return pieces_[static_cast<std::size_t>(next - starts_.begin())];
+}
+
+const Piece& History::piece_before(double t) const {
+  const auto next = std::lower_bound(starts_.begin(), starts_.end(), t);
+  return pieces_[static_cast<std::size_t>(next - starts_.begin())];
+}
+
+std::vector<Breakpoint> History::breakpoints() const {
+  std::vector<Breakpoint> result;
+  for (std::size_t i = 0; i < starts_.size(); ++i) {
+    const double t = starts_[i];
+    const Piece &left = pieces_[i], &right = pieces_[i + 1];
+    const double change = std::abs(right.value(t) - left.value(t));
+    // A constant that goes on is no breakpoint (a load of amplitude zero, two equal steps).
+    if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
+    result.push_back({t, change > roundoff(left, t) + roundoff(right, t)});
+  }
+  return result;
+}
+
+History History::scaled(double factor, double offset) const {
+  History result = *this;
+  for (Piece& p : result.pieces_) {
+    for (double& c : p.coefficients) c *= factor;
+    p.amplitude *= factor;
+    if (offset == 0.0) continue;
+    if (p.coefficients.empty()) p.coefficients.push_back(0.0);
+    p.coefficients[0] += offset;
+  }
+  return result;
+}
+
+History History::integrated() const {
+  History result = *this;
+  for (Piece& p : result.pieces_) p = antiderivative(p);
+  auto shift = [](Piece& p, double t, double target) {
+    const double by = target - p.value(t);
+    if (by != 0.0) p.coefficients[0] += by;
+  };
+  auto& pieces = result.pieces_;
+  const auto first =
+      static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), 0.0) - starts_.begin());
+  shift(pieces[first], 0.0, 0.0);
+  for (std::size_t i = first; i < starts_.size(); ++i)
+    shift(pieces[i + 1], starts_[i], pieces[i].value(starts_[i]));
+  for (std::size_t i = first; i > 0; --i)
+    shift(pieces[i - 1], starts_[i - 1], pieces[i].value(starts_[i - 1]));
+  return result;
+}
+
+bool History::is_constant() const {
+  const double value = pieces_.front().value(0.0);
+  return std::all_of(pieces_.begin(), pieces_.end(),
+                     [&](const Piece& p) { return is_constant_piece(p) && p.value(0.0) == value; });
+}
+
+namespace {
+
+/// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
+template <class Visit>
+void each_part(const History& f, double t_end, const Visit& visit) {
+  const auto& starts = f.starts();
+  for (std::size_t i = 0; i < f.pieces().size(); ++i) {
+    const double from = i == 0 ? 0.0 : std::max(0.0, starts[i - 1]);
+    const double to = i == starts.size() ? t_end : std::min(t_end, starts[i]);
+    if (from <= to) visit(f.pieces()[i], from, to);
+  }
+}
+
+}  // namespace
+
+double magnitude(const History& f, double t_end) {
+  double largest = 0.0;
+  each_part(f, t_end, [&](const Piece& p, double from, double to) {
+    Piece polynomial = p;
+    polynomial.amplitude = 0.0;
+    const bool turns = std::abs(p.omega) * (to - from) > pi;
+    constexpr int samples = 64;
+    for (int i = 0; i <= samples; ++i) {
+      const double t = from + (to - from) * i / samples;
+      const double value =
+          turns ? std::abs(polynomial.value(t)) + std::abs(p.amplitude) : std::abs(p.value(t));
+      largest = std::max(largest, value);
+    }
+  });
+  return largest;
+}
+
+double negative_at(const History& f, double t_end) {
+  double found = -1.0;
+  auto test = [&](const Piece& p, double t) {
+    if (found < 0.0 && p.value(t) < -roundoff(p, t)) found = t;
+  };
+  each_part(f, t_end, [&](const Piece& p, double from, double to) {
+    test(p, from);
+    if (!has_sine(p) || p.omega == 0.0) return test(p, to);
+    // The troughs w s + phi = -pi/2 + 2 pi j, a bounded number of them.
+    const double w = std::abs(p.omega);
+    const double phase = p.omega > 0.0 ? p.phase : pi - p.phase;
+    const double trough = p.amplitude > 0.0 ? -pi / 2.0 : pi / 2.0;
+    const double first = p.origin + (trough - phase) / w;
+    const double period = 2.0 * pi / w;
+    double t = first + period * std::ceil((from - first) / period);
+    for (int i = 0; i < 1000 && t <= to; ++i, t += period) test(p, t);
+    test(p, to);
+  });
+  return found;
+}
+
+}  // namespace signorini

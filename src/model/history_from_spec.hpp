@@ -1,0 +1,28 @@
+// history_from_spec.hpp: the histories that a scene can name, as closed-form pieces.
+//
+//   f(t) = offset + amplitude * shape(t),   shape = 0 outside [start, end)
+//
+//   constant     1                          since ever when no start is given
+//   step         1 from start on
+//   rectangle    1 on [start, end)
+//   triangle     0 at start and end, 1 in the middle
+//   half_sine    sin(pi (t - start) / (end - start))
+//   harmonic     sin(omega (t - start) + phase)
+//   polynomial   sum_j c_j (t - start)^j
+//   table        linear between (times, values), or Steffen's monotone cubic; a repeated time is a jump;
+//                zero before the first and from the last time on (start and end are not used)
+//
+// Steffen: Astron. Astrophys. 239 (1990) 443-450, as implemented by GSL.
+#pragma once
+
+#include <string>
+
+#include "signorini/history.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// Errors: SceneError at the spec's place under `key` ("loads.1.history").
+[[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
+
+}  // namespace signorini

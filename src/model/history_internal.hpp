@@ -1,0 +1,25 @@
+// history_internal.hpp: how exactly a Piece can be evaluated, and how large it gets.
+//
+//   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ ),  s = t
+//   - t0
+//
+// |f'|~ is the derivative with every term taken positive: times are themselves rounded, so that f is
+// known no better than |f'| eps |t|.
+#pragma once
+
+#include "signorini/history.hpp"
+
+namespace signorini {
+
+/// Bound on the roundoff of evaluating the piece at t; units of f.
+[[nodiscard]] double roundoff(const Piece& piece, double t);
+
+/// An upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled
+/// otherwise. Units of f.
+[[nodiscard]] double magnitude(const History& f, double t_end);
+
+/// A time in [0, t_end] at which f is negative beyond roundoff, as far as the pieces' ends and full
+/// periods of their sines can tell; -1 when there is none.
+[[nodiscard]] double negative_at(const History& f, double t_end);
+
+}  // namespace signorini

@@ -1,0 +1,48 @@
+#include "model/initial_state.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace signorini {
+namespace {
+
+Vector given_vector(const std::vector<double>& values, int n, const InitialSpec& spec, const char* key) {
+  if (values.empty()) return Vector::Zero(n);
+  if (static_cast<int>(values.size()) != n)
+    throw SceneError(spec.place, key,
+                     fmt::format("found {} numbers, expected one for each of the {} degrees of freedom",
+                                 values.size(), n));
+  return Eigen::Map<const Vector>(values.data(), n);
+}
+
+}  // namespace
+
+InitialState given_state(const Scene& scene, const DofMap& map) {
+  const InitialSpec& spec = scene.initial;
+  const int n = map.size();
+  if (map.matrices())
+    return {given_vector(spec.u, n, spec, "run.initial.u"), given_vector(spec.v, n, spec, "run.initial.v")};
+  InitialState state{Vector::Zero(n), Vector::Zero(n)};
+  constexpr std::array<std::string_view, 6> names{"ux", "uy", "rz", "vx", "vy", "wz"};
+  for (const auto& c : spec.components) {
+    const std::string key = fmt::format("run.initial.{}.{}", c.node, c.component);
+    const auto it = std::find(names.begin(), names.end(), c.component);
+    if (it == names.end())
+      throw SceneError(c.place, key,
+                       fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
+    const auto index = static_cast<std::size_t>(it - names.begin());
+    const int node = find_node(map.mesh, c.node, c.place, key);
+    const int number = map.number[static_cast<std::size_t>(node)][index % 3];
+    if (number == DofMap::absent)
+      throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
+    if (number == DofMap::fixed && c.value != 0.0)
+      throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
+    if (number >= 0) (index < 3 ? state.u : state.v)[number] = c.value;
+  }
+  return state;
+}
+
+}  // namespace signorini

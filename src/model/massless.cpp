@@ -1,0 +1,108 @@
+#include "model/massless.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "model/motion_names.hpp"
+#include "model/null_motions.hpp"
+#include "model/springs.hpp"
+
+namespace signorini {
+namespace {
+
+/// The rows and columns whose `keep` is true, scaled to s_i A_ij s_j.
+SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < a.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(a, k); it; ++it) {
+      const int i = position[static_cast<std::size_t>(it.row())], j = position[static_cast<std::size_t>(k)];
+      if (i >= 0 && j >= 0) entries.emplace_back(i, j, s[it.row()] * it.value() * s[k]);
+    }
+  SparseMatrix b(size, size);
+  b.setFromTriplets(entries.begin(), entries.end());
+  return b;
+}
+
+double largest_diagonal(const SparseMatrix& a) {
+  return a.rows() == 0 ? 0.0 : a.diagonal().cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const SourcePlace& place) {
+  const auto n = static_cast<int>(dofs.size());
+  Vector row_size = Vector::Zero(n), held = Vector::Zero(n), s = Vector::Zero(n);
+  auto add_rows = [](const SparseMatrix& a, Vector& rows) {
+    for (int k = 0; k < a.outerSize(); ++k)
+      for (SparseMatrix::InnerIterator it(a, k); it; ++it) rows[it.row()] += std::abs(it.value());
+  };
+  add_rows(assembly.mass, row_size);
+  add_rows(assembly.stiffness, held);
+  add_rows(assembly.dampers, held);
+  std::vector<int> position(dofs.size(), -1);
+  int heavy = 0;
+  for (int i = 0; i < n; ++i) {
+    Dof& dof = dofs[static_cast<std::size_t>(i)];
+    dof.massless = row_size[i] == 0.0;
+    if (dof.massless && held[i] == 0.0)
+      throw SceneError(
+          place, "",
+          fmt::format("{} has neither mass nor stiffness nor damping, so nothing decides its motion",
+                      dof.displacement));
+    if (dof.massless) continue;
+    const double diagonal = assembly.mass.coeff(i, i);
+    if (!(diagonal > 0.0))
+      throw SceneError(
+          place, "matrices.mass",
+          fmt::format("found {} on the diagonal at {}, expected a number > 0, or a row of zeros for a "
+                      "massless degree of freedom",
+                      diagonal, dof.displacement));
+    s[i] = 1.0 / std::sqrt(diagonal);
+    position[static_cast<std::size_t>(i)] = heavy++;
+  }
+  if (heavy == 0) throw SceneError(place, "", "nothing in the scene has mass");
+  // Scaled to a unit diagonal, the pivots are pure numbers.
+  const SymmetricSolver solver(block(assembly.mass, position, heavy, s));
+  if (!solver.ok() || solver.smallest_pivot() <= 64.0 * heavy * std::numeric_limits<double>::epsilon())
+    throw SceneError(
+        place, "matrices.mass",
+        "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
+        "for a massless one all its row is zero");
+}
+
+void check_massless(const Model& model, const DofMap& map, const SourcePlace& place) {
+  std::vector<int> position, where;
+  for (int i = 0; i < model.size(); ++i) {
+    const bool massless = model.dofs[static_cast<std::size_t>(i)].massless;
+    position.push_back(massless ? static_cast<int>(where.size()) : -1);
+    if (massless) where.push_back(i);
+  }
+  if (where.empty()) return;
+  std::vector<LineSpring> springs;
+  for (const Contact& c : model.contacts) {
+    if (c.law == Law::compliant) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
+  }
+  const auto count = static_cast<int>(where.size());
+  const Vector ones = Vector::Ones(model.size());
+  const SparseMatrix k = block(with_springs(model.stiffness, springs), position, count, ones);
+  const SparseMatrix c = block(model.damping, position, count, ones);
+  const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
+  // Either holds a motion, so any positive weights will do; these make both count.
+  const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
+                            ? largest_diagonal(k) / largest_diagonal(c)
+                            : 1.0;
+  const Eigen::MatrixXd null = null_motions(SparseMatrix(k + weight * symmetric));
+  if (null.cols() == 0) return;
+  Vector motion = Vector::Zero(model.size());
+  for (std::size_t j = 0; j < where.size(); ++j) motion[where[j]] = null(static_cast<Eigen::Index>(j), 0);
+  throw SceneError(
+      place, "",
+      fmt::format("nothing decides the {}: it moves no mass, and no stiffness, damping or contact "
+                  "holds it",
+                  describe_motion(motion, map)));
+}
+
+}  // namespace signorini

@@ -1,0 +1,38 @@
+// mesh.hpp: nodes and beam elements of a node scene.
+//
+// Named nodes come first, in the order of the file; then the inner nodes of the members, in the order
+// of the file: on piece B-D of a member, "B-D.1", "B-D.2", ... from B to D.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+struct MeshNode {
+  std::string name;
+  double x = 0.0, y = 0.0;  ///< length
+};
+
+/// One beam between two mesh nodes.
+struct MeshElement {
+  int a = 0, b = 0;
+  int section = 0;  ///< index into Scene::sections
+  MassKind mass = MassKind::consistent;
+};
+
+struct Mesh {
+  std::vector<MeshNode> nodes;
+  std::vector<MeshElement> elements;
+  int named = 0;  ///< the first `named` nodes are those of the file
+};
+
+[[nodiscard]] Mesh make_mesh(const Scene& scene);
+
+/// Index of a named node. Errors: SceneError under `key`.
+[[nodiscard]] int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place,
+                            const std::string& key);
+
+}  // namespace signorini

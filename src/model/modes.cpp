@@ -1,0 +1,165 @@
+#include "model/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/eigen_dense.hpp"
+#include "model/lanczos.hpp"
+#include "model/null_motions.hpp"
+#include "model/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int dense_up_to = 200;
+
+Eigen::MatrixXd columns(const std::vector<Combination>& forms, int n) {
+  Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
+  for (std::size_t j = 0; j < forms.size(); ++j) t.col(static_cast<Eigen::Index>(j)) = full(forms[j], n);
+  return t;
+}
+
+/// Rows and columns of the numbered degrees of freedom (number -1: left out).
+SparseMatrix part(const SparseMatrix& a, const std::vector<int>& rows, const std::vector<int>& cols, int m,
+                  int n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < a.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(a, k); it; ++it) {
+      const int i = rows[static_cast<std::size_t>(it.row())], j = cols[static_cast<std::size_t>(k)];
+      if (i >= 0 && j >= 0) entries.emplace_back(i, j, it.value());
+    }
+  SparseMatrix b(m, n);
+  b.setFromTriplets(entries.begin(), entries.end());
+  return b;
+}
+
+struct Split {
+  std::vector<int> heavy, massless;  ///< new numbers, -1 for the others
+  int heavies = 0, massless_count = 0;
+};
+
+Split split(const SparseMatrix& mass) {
+  const auto n = static_cast<int>(mass.rows());
+  Vector size = Vector::Zero(n);
+  for (int k = 0; k < n; ++k)
+    for (SparseMatrix::InnerIterator it(mass, k); it; ++it) size[it.row()] += std::abs(it.value());
+  Split s;
+  for (int i = 0; i < n; ++i) {
+    s.heavy.push_back(size[i] > 0.0 ? s.heavies++ : -1);
+    s.massless.push_back(size[i] > 0.0 ? -1 : s.massless_count++);
+  }
+  return s;
+}
+
+double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
+
+double lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+  Eigen::MatrixXd m(mass), stiff(k);
+  if (!fixed.empty()) {
+    const Eigen::MatrixXd free = orthogonal_complement(columns(fixed, static_cast<int>(k.rows())));
+    m = (free.transpose() * m * free).eval();
+    stiff = (free.transpose() * stiff * free).eval();
+    if (free.cols() == 0) return 0.0;
+  }
+  if (null_motions(stiff.sparseView()).cols() > 0) return 0.0;
+  const Eigen::VectorXd mu = generalized_eigenvalues(m, stiff);
+  if (mu.size() == 0 || !(mu[mu.size() - 1] > 0.0)) return 0.0;
+  return 1.0 / std::sqrt(mu[mu.size() - 1]);
+}
+
+/// x -> F^T S F x with M = F F^T on the degrees of freedom with mass, S = K^-1 on the motions that
+/// respect T^T u = 0. K is made regular by springs along T, which do not change S.
+double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k0,
+                     const std::vector<Combination>& fixed) {
+  const auto n = static_cast<int>(k0.rows());
+  std::vector<LineSpring> springs;
+  for (const Combination& t : fixed) springs.push_back({t, own_stiffness(k0, t)});
+  const SparseMatrix k = with_springs(k0, springs);
+  if (null_motions(k).cols() > 0) return 0.0;
+  const SymmetricSolver solver(k);
+  const Eigen::MatrixXd t = columns(fixed, n);
+  Eigen::MatrixXd kt(n, t.cols());
+  for (Eigen::Index j = 0; j < t.cols(); ++j) kt.col(j) = solver.solve(t.col(j));
+  const Eigen::MatrixXd g = t.transpose() * kt;
+  const Eigen::MatrixXd correction =
+      t.cols() == 0 ? kt
+                    : Eigen::MatrixXd(kt * solve_dense(g, Eigen::MatrixXd::Identity(t.cols(), t.cols())));
+
+  const Split s = split(mass);
+  const CholeskyFactor factor(part(mass, s.heavy, s.heavy, s.heavies, s.heavies));
+  if (!factor.ok()) return 0.0;
+  auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    const Vector fx = factor.times(x);
+    Vector load = Vector::Zero(n);
+    for (int i = 0; i < n; ++i)
+      if (const int h = s.heavy[static_cast<std::size_t>(i)]; h >= 0) load[i] = fx[h];
+    Vector u = solver.solve(load);
+    if (t.cols() > 0) u -= correction * (t.transpose() * u);
+    Vector heavy(s.heavies);
+    for (int i = 0; i < n; ++i)
+      if (const int h = s.heavy[static_cast<std::size_t>(i)]; h >= 0) heavy[h] = u[i];
+    return factor.transposed_times(heavy);
+  };
+  const double mu = greatest_eigenvalue(s.heavies, apply, 1e-12);
+  return mu > 0.0 ? 1.0 / std::sqrt(mu) : 0.0;
+}
+
+double highest(const SparseMatrix& mass, const SparseMatrix& k) {
+  const Split s = split(mass);
+  const int h = s.heavies, l = s.massless_count;
+  if (h == 0) return 0.0;
+  const SparseMatrix m = part(mass, s.heavy, s.heavy, h, h);
+  const SparseMatrix kdd = part(k, s.heavy, s.heavy, h, h);
+  const SparseMatrix kmm = part(k, s.massless, s.massless, l, l);
+  const SparseMatrix kmd = part(k, s.massless, s.heavy, l, h);
+  // A massless motion without stiffness (dampers only) cannot be condensed; held, it gives a bound.
+  const bool condense = l > 0 && null_motions(kmm).cols() == 0;
+  const SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
+  auto condensed = [&](const Vector& x) -> Vector {
+    Vector y = kdd * x;
+    if (condense) y -= kmd.transpose() * massless.solve(kmd * x);
+    return y;
+  };
+  if (h <= dense_up_to) {
+    Eigen::MatrixXd kc(h, h);
+    for (int j = 0; j < h; ++j) kc.col(j) = condensed(Vector::Unit(h, j));
+    const Eigen::VectorXd values = generalized_eigenvalues(0.5 * (kc + kc.transpose()), Eigen::MatrixXd(m));
+    return values.size() == 0 ? 0.0 : frequency(values[values.size() - 1]);
+  }
+  const CholeskyFactor factor(m);
+  if (!factor.ok()) return 0.0;
+  auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
+  };
+  return frequency(greatest_eigenvalue(h, apply, 1e-4));
+}
+
+}  // namespace
+
+Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
+  Holding holding;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    if (!closed[k]) continue;
+    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.tangential_stiffness && !c.tangent.terms.empty())
+      holding.springs.push_back({c.tangent, *c.tangential_stiffness});
+    else if (c.law == Law::slider)
+      holding.fixed.push_back(c.tangent);
+  }
+  return holding;
+}
+
+double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness, const Holding& holding) {
+  if (mass.rows() == 0) return 0.0;
+  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  return mass.rows() <= dense_up_to ? lowest_dense(mass, k, holding.fixed)
+                                    : lowest_sparse(mass, k, holding.fixed);
+}
+
+double highest_frequency(const Model& model) {
+  const Holding holding = hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true));
+  return highest(model.mass, with_springs(model.stiffness, holding.springs));
+}
+
+}  // namespace signorini

@@ -1,0 +1,142 @@
+#include "model/scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/history_internal.hpp"
+#include "model/modes.hpp"
+#include "model/motion_names.hpp"
+#include "model/null_motions.hpp"
+#include "model/springs.hpp"
+
+namespace signorini {
+namespace {
+
+bool usable(double x) { return std::isfinite(x) && x > 0.0; }
+
+/// The first of the candidates that is positive and finite, else 1.
+template <class... Candidate>
+double first_usable(const Candidate&... candidates) {
+  for (double x : {candidates...})
+    if (usable(x)) return x;
+  return 1.0;
+}
+
+/// Force on one point for each unit of a load's history: the plane vector's length in node scenes, the
+/// greatest factor in matrix scenes.
+double force_factor(const Combination& direction, const DofMap& map) {
+  double greatest = 0.0, square = 0.0;
+  for (const auto& [i, a] : direction.terms) {
+    greatest = std::max(greatest, std::abs(a));
+    square += a * a;
+  }
+  return map.matrices() ? greatest : std::sqrt(square);
+}
+
+double force_of(const Model& model, const DofMap& map, double t_end) {
+  double force = 0.0;
+  for (double reaction : model.statics.reactions) force = std::max(force, reaction);
+  for (const Contact& c : model.contacts) {
+    if (c.law == Law::slider) force = std::max(force, magnitude(c.normal_force, t_end));
+    if (c.law == Law::compliant)
+      force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap + c.normal.dot(model.u0)));
+  }
+  for (const Load& load : model.loads) {
+    if (load.name == "gravity") {
+      if (model.static_start) continue;
+      double weight = 0.0;
+      for (const auto& [i, p] : load.direction.terms)
+        if (!map.dofs[static_cast<std::size_t>(i)].rotation) weight += std::abs(p);
+      force = std::max(force, weight);
+    } else {
+      force = std::max(force, force_factor(load.direction, map) * magnitude(load.history, t_end));
+    }
+  }
+  if (usable(force)) return force;
+  // Free vibration: the forces of the initial state, then those that would stop it.
+  const Vector elastic = model.stiffness * model.u0;
+  const Vector viscous = model.damping * model.v0;
+  force = std::max(elastic.size() ? elastic.cwiseAbs().maxCoeff() : 0.0,
+                   viscous.size() ? viscous.cwiseAbs().maxCoeff() : 0.0);
+  const Vector momentum = model.mass * model.v0;
+  return std::max(force, model.omega_max * (momentum.size() ? momentum.cwiseAbs().maxCoeff() : 0.0));
+}
+
+/// Greatest static displacement under the amplitude of any one load; 0 when the matrix is singular.
+double answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
+  const SparseMatrix k = with_springs(model.stiffness, holding.springs);
+  if (null_motions(k).cols() > 0) return 0.0;
+  const SymmetricSolver solver(k);
+  double result = 0.0;
+  for (const Load& load : model.loads) {
+    const Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
+    result = std::max(result, greatest_translation(solver.solve(p), map));
+  }
+  return result;
+}
+
+/// What the force does to the softest spring that there is.
+double spring_answer(const Model& model, double force) {
+  double softest = 0.0;
+  auto consider = [&](double k) {
+    if (k > 0.0 && (softest == 0.0 || k < softest)) softest = k;
+  };
+  for (const Contact& c : model.contacts) {
+    consider(c.normal_stiffness);
+    consider(c.tangential_stiffness.value_or(0.0));
+  }
+  return softest > 0.0 ? force / softest : 0.0;
+}
+
+double diagonal_of(const DofMap& map) {
+  if (map.mesh.nodes.empty()) return 0.0;
+  double x0 = map.mesh.nodes[0].x, x1 = x0, y0 = map.mesh.nodes[0].y, y1 = y0;
+  for (const MeshNode& node : map.mesh.nodes) {
+    x0 = std::min(x0, node.x);
+    x1 = std::max(x1, node.x);
+    y0 = std::min(y0, node.y);
+    y1 = std::max(y1, node.y);
+  }
+  return std::hypot(x1 - x0, y1 - y0);
+}
+
+}  // namespace
+
+Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool>& closed, double t_end) {
+  Scales scales;
+  const double length = diagonal_of(map);
+  const double force = force_of(model, map, t_end);
+  const double v0 = greatest_translation(model.v0, map);
+  const Holding holding = hold_contacts(model.contacts, closed);
+  const double omega = model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, {});
+
+  double displacement = greatest_translation(model.u0, map);
+  const double held = answer_to_loads(model, map, holding, t_end);
+  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, {}, t_end));
+  if (!usable(displacement)) displacement = spring_answer(model, force);
+  if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
+  if (!usable(displacement))
+    for (const Contact& c : model.contacts) displacement = std::max(displacement, std::abs(c.gap));
+  if (!usable(displacement)) displacement = v0 * t_end;
+  scales.displacement = first_usable(displacement, length);
+
+  double mass = 0.0;
+  for (int i = 0; i < model.size(); ++i)
+    if (!map.dofs[static_cast<std::size_t>(i)].rotation) mass = std::max(mass, model.mass.coeff(i, i));
+  scales.force = first_usable(force, mass * omega * omega * scales.displacement,
+                              mass * scales.displacement / (t_end * t_end));
+  // A state that the contacts cannot hold does not swing at omega1: energy bounds its velocity.
+  const Vector elastic = model.stiffness * model.u0;
+  const double driving = std::max(scales.force, elastic.cwiseAbs().maxCoeff());
+  const double bound = std::sqrt(driving * scales.displacement / mass);
+  double velocity = omega > 0.0 ? omega * scales.displacement : bound;
+  if (usable(bound)) velocity = std::min(velocity, bound);
+  scales.velocity =
+      first_usable(std::max(usable(velocity) ? velocity : 0.0, v0), scales.displacement / t_end);
+  const double arm = length > 0.0 ? length : 1.0;
+  scales.rotation = scales.displacement / arm;
+  scales.angular_velocity = scales.velocity / arm;
+  return scales;
+}
+
+}  // namespace signorini

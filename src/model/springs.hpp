@@ -1,0 +1,63 @@
+// springs.hpp: stiffness with line springs, and equations with such a matrix.
+//
+//   K + sum_k s_k a_k a_k^T,    K x = b
+//
+// Shapes: K n x n, symmetric, both triangles stored; a_k sparse forms on n degrees of freedom.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+struct LineSpring {
+  Combination form;
+  double stiffness = 0.0;
+};
+
+[[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
+
+/// The form as a full vector of length n.
+[[nodiscard]] Vector full(const Combination& form, int n);
+
+/// |x|^T |K| |x|: the size of the terms of x^T K x, whose roundoff is this times machine epsilon.
+[[nodiscard]] double term_size(const SparseMatrix& k, const Vector& x);
+
+/// L D L^T of a symmetric sparse matrix, with a fill-reducing order.
+class SymmetricSolver {
+ public:
+  explicit SymmetricSolver(const SparseMatrix& k);
+  ~SymmetricSolver();
+  SymmetricSolver(SymmetricSolver&&) noexcept;
+  SymmetricSolver& operator=(SymmetricSolver&&) noexcept;
+
+  /// False when a pivot was exactly zero.
+  [[nodiscard]] bool ok() const;
+  [[nodiscard]] Vector solve(const Vector& b) const;
+  /// The smallest pivot.
+  [[nodiscard]] double smallest_pivot() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// L L^T of a symmetric positive definite sparse matrix in a fill-reducing order: A = F F^T.
+class CholeskyFactor {
+ public:
+  explicit CholeskyFactor(const SparseMatrix& a);
+  ~CholeskyFactor();
+  [[nodiscard]] bool ok() const;
+  [[nodiscard]] Vector times(const Vector& x) const;                    ///< F x
+  [[nodiscard]] Vector transposed_times(const Vector& x) const;         ///< F^T x
+  [[nodiscard]] Vector solve_factor(const Vector& x) const;             ///< F^-1 x
+  [[nodiscard]] Vector solve_transposed_factor(const Vector& x) const;  ///< F^-T x
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,131 @@
+#include "model/static_system.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "model/eigen_dense.hpp"
+#include "model/motion_names.hpp"
+#include "model/springs.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+double own_stiffness(const SparseMatrix& k, const Combination& form) {
+  double sum = 0.0;
+  for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
+  double length = 0.0;
+  for (const auto& [i, a] : form.terms) length += a * a;
+  if (sum > 0.0) return sum / (length * length);
+  const double largest = k.diagonal().cwiseAbs().maxCoeff();  // nothing there: any of the structure's
+  return largest > 0.0 ? largest / length : 1.0 / length;
+}
+
+SparseMatrix StaticProblem::matrix(const std::vector<bool>& closed) const {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (is_support(k) && closed[k]) springs.push_back({contacts[k].normal, contacts[k].normal_stiffness});
+  return with_springs(stiffness, springs);
+}
+
+Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
+  Vector p = load;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (is_support(k) && closed[k])
+      contacts[k].normal.add_to(p, -contacts[k].normal_stiffness * contacts[k].gap);
+  return p;
+}
+
+std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                     const std::vector<bool>& closed) {
+  Eigen::MatrixXd null = motions;
+  for (Eigen::Index j = 0; j < null.cols(); ++j) {
+    const double size = greatest_translation(null.col(j), problem.map);
+    null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
+  }
+  const Eigen::Index m = null.cols();
+  std::vector<int> holders;
+  Eigen::MatrixXd rows(0, m);   // t_h . null
+  Eigen::MatrixXd basis(m, 0);  // orthonormal basis of the rows so far
+  auto consider = [&](std::size_t k) {
+    if (static_cast<Eigen::Index>(holders.size()) == m) return;
+    const Combination& tangent = problem.contacts[k].tangent;
+    Eigen::VectorXd row(m);
+    for (Eigen::Index j = 0; j < m; ++j) row[j] = tangent.dot(null.col(j));
+    const Eigen::VectorXd rest = row - basis * (basis.transpose() * row);
+    // Motions have size 1: a contact that takes part with a millionth does not hold one.
+    double form_size = 0.0;
+    for (const auto& [i, a] : tangent.terms) form_size = std::max(form_size, std::abs(a));
+    if (!(rest.norm() > 1e-6 * form_size)) return;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = rest.normalized();
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows(1) = row.transpose();
+    holders.push_back(static_cast<int>(k));
+  };
+  for (bool pressed : {true, false})
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      if ((!problem.is_support(k) || closed[k]) == pressed) consider(k);
+  std::vector<FreeMotion> result;
+  if (m == 0) return result;
+  // Rows of the held motions, completed by those that nobody holds.
+  const Eigen::MatrixXd unheld =
+      holders.empty() ? Eigen::MatrixXd::Identity(m, m) : orthogonal_complement(rows.transpose());
+  Eigen::MatrixXd complete(m, m);
+  complete << rows, unheld.transpose();
+  const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
+  for (Eigen::Index j = 0; j < m; ++j)
+    result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});
+  return result;
+}
+
+Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                  const std::vector<FreeMotion>& held) {
+  SparseMatrix k = problem.matrix(closed);
+  std::vector<LineSpring> springs;
+  bool loose = false;
+  for (const FreeMotion& f : held) {
+    if (f.holder < 0) {
+      loose = true;
+      continue;
+    }
+    const Combination& t = problem.contacts[static_cast<std::size_t>(f.holder)].tangent;
+    springs.push_back({t, own_stiffness(k, t)});
+  }
+  k = with_springs(k, springs);
+  if (loose) {  // a weak support everywhere leaves an undriven motion at zero
+    SparseMatrix weak(k.rows(), k.cols());
+    weak.setIdentity();
+    const double largest = k.diagonal().cwiseAbs().maxCoeff();
+    for (int i = 0; i < k.rows(); ++i) {
+      const double d = std::abs(k.coeff(i, i));
+      weak.coeffRef(i, i) = 1e-10 * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
+    }
+    k += weak;
+  }
+  const SymmetricSolver solver(k);
+  const Vector p = problem.right_side(closed);
+  Vector u = solver.solve(p);
+  return u + solver.solve(p - k * u);  // one refinement: contact springs may be much stiffer than the rest
+}
+
+double driving_work(const StaticProblem& problem, const std::vector<bool>& closed, const Vector& motion,
+                    const Vector& u) {
+  const SparseMatrix k = problem.matrix(closed);
+  const Vector p = problem.right_side(closed);
+  const double work = motion.dot(p - k * u);
+  const double roundoff = 64.0 * epsilon * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
+  double motion_size[2]{0.0, 0.0}, load_size[2]{0.0, 0.0};  // translations, rotations
+  for (int i = 0; i < problem.size(); ++i) {
+    const std::size_t kind = problem.map.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0;
+    motion_size[kind] = std::max(motion_size[kind], std::abs(motion[i]));
+    load_size[kind] = std::max(load_size[kind], std::abs(p[i]));
+  }
+  const double all = 1e-9 * (motion_size[0] * load_size[0] + motion_size[1] * load_size[1]);
+  return std::abs(work) > roundoff + all ? work : 0.0;
+}
+
+}  // namespace signorini

@@ -1,0 +1,53 @@
+// static_system.hpp: the equilibrium of a structure whose closed contacts are known.
+//
+//   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at the holders h
+#pragma once
+
+#include <vector>
+
+#include "model/dofs.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// A spring constant of the structure's own size along the form.
+[[nodiscard]] double own_stiffness(const SparseMatrix& k, const Combination& form);
+
+struct StaticProblem {
+  const SparseMatrix& stiffness;
+  const Vector& load;
+  const std::vector<Contact>& contacts;
+  const DofMap& map;
+
+  [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
+  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].law == Law::compliant; }
+  [[nodiscard]] double gap(std::size_t k, const Vector& u) const {
+    return contacts[k].gap + contacts[k].normal.dot(u);
+  }
+  /// K with the springs of the closed contacts; closed[k] is ignored for sliders.
+  [[nodiscard]] SparseMatrix matrix(const std::vector<bool>& closed) const;
+  /// P - sum_closed kn g0 n
+  [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
+};
+
+/// A free motion and the contact whose ut = 0 holds it (-1: none, it stays at zero).
+struct FreeMotion {
+  Vector motion;
+  int holder = -1;
+};
+
+/// The free motions of the null space `null` (n x m), one a holder: contacts in file order, closed ones
+/// and sliders first. Motions are scaled to t_h . motion = 1 at their own holder and 0 at the others.
+[[nodiscard]] std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& null,
+                                                   const std::vector<bool>& closed);
+
+/// The displacement with the free motions held.
+[[nodiscard]] Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                                const std::vector<FreeMotion>& held);
+
+/// Work of the loads on a free motion, at the displacement u that solve_held gave: zero in equilibrium.
+/// What is below roundoff, or below 1e-9 of the greatest load on the greatest displacement, counts as zero.
+[[nodiscard]] double driving_work(const StaticProblem& problem, const std::vector<bool>& closed,
+                                  const Vector& motion, const Vector& u);
+
+}  // namespace signorini

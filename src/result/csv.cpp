@@ -1,0 +1,95 @@
+#include "result/csv.hpp"
+
+#include <cerrno>
+#include <system_error>
+
+#include "base/number.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error == 0 ? EIO : error); }
+
+}  // namespace
+
+void CsvBlock::separate() {
+  if (row_begun_) text_ += ',';
+  row_begun_ = true;
+}
+
+CsvBlock& CsvBlock::number(double value) {
+  separate();
+  text_ += shortest(value);
+  return *this;
+}
+
+CsvBlock& CsvBlock::number(const std::optional<double>& value) { return value ? number(*value) : empty(); }
+
+CsvBlock& CsvBlock::text(std::string_view value) {
+  separate();
+  if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
+    text_ += value;
+    return *this;
+  }
+  text_ += '"';
+  for (const char c : value) {
+    if (c == '"') text_ += '"';
+    text_ += c;
+  }
+  text_ += '"';
+  return *this;
+}
+
+CsvBlock& CsvBlock::empty() {
+  separate();
+  return *this;
+}
+
+void CsvBlock::end_row() {
+  text_ += '\n';
+  row_begun_ = false;
+}
+
+CsvFile::CsvFile(const std::filesystem::path& path) : path_(path) {
+  errno = 0;
+  file_.reset(std::fopen(path.c_str(), "wb"));
+  if (!file_) throw FileError(path.string(), "cannot be created: " + reason(errno));
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // a block is one write
+}
+
+void CsvFile::write(CsvBlock& block) {
+  const std::string& text = block.str();
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
+  good_ += text.size();
+  block.clear();
+}
+
+void CsvFile::fail() {
+  const std::string why = reason(errno);
+  file_.reset();
+  std::error_code ignored;  // not every file can be cut, and the message matters more
+  std::filesystem::resize_file(path_, good_, ignored);
+  throw FileError(path_.string(), "cannot be written: " + why);
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::path draft = path;
+  draft += ".part";
+  errno = 0;
+  std::FILE* file = std::fopen(draft.c_str(), "wb");
+  if (file == nullptr) throw FileError(path.string(), "cannot be created: " + reason(errno));
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = std::fclose(file) == 0;
+  const int error = errno;
+  std::error_code renamed;
+  if (written && closed) std::filesystem::rename(draft, path, renamed);
+  if (written && closed && !renamed) return;
+  std::error_code ignored;
+  std::filesystem::remove(draft, ignored);
+  throw FileError(path.string(), "cannot be written: " + (renamed ? renamed.message() : reason(error)));
+}
+
+}  // namespace signorini

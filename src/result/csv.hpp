@@ -1,0 +1,61 @@
+// csv.hpp: a CSV file that is readable at every moment.
+//
+//   one header row, commas, no comments; numbers as shortest() writes them
+//
+// A block of rows is handed to the system in one write as soon as it is complete, so a killed run leaves
+// whole rows; a write that fails (disk full) is cut back to them and becomes a FileError.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace signorini {
+
+/// Collects the cells of one block of rows.
+class CsvBlock {
+ public:
+  CsvBlock& number(double value);
+  /// An empty cell when absent.
+  CsvBlock& number(const std::optional<double>& value);
+  /// Quoted if it holds a comma, a quote or a line break.
+  CsvBlock& text(std::string_view value);
+  CsvBlock& empty();
+  void end_row();
+
+  [[nodiscard]] const std::string& str() const { return text_; }
+  void clear() { text_.clear(); }
+
+ private:
+  void separate();
+
+  std::string text_;
+  bool row_begun_ = false;
+};
+
+/// The file. Errors of all members: FileError.
+class CsvFile {
+ public:
+  explicit CsvFile(const std::filesystem::path& path);
+  /// Writes all rows of the block and empties it.
+  void write(CsvBlock& block);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  [[noreturn]] void fail();
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::uintmax_t good_ = 0;  // bytes that surely arrived
+};
+
+/// Writes a whole text file through a neighbour that is renamed: the old one or the new one, never half.
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace signorini

@@ -1,0 +1,42 @@
+// csv_read.hpp: reads back the tables of a run, for the pictures.
+//
+//   CsvReader reader("pipeline-run/events.csv");
+//   const auto contact = reader.column("contact");
+//   while (reader.next()) use(reader.cell(contact), reader.number(0));
+//
+// A last line without its line break (a run that is being written, or was killed) is left out.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace signorini {
+
+/// Errors of all members: FileError.
+class CsvReader {
+ public:
+  /// Opens the file and reads its header.
+  explicit CsvReader(const std::filesystem::path& path);
+
+  [[nodiscard]] const std::vector<std::string>& header() const { return header_; }
+  /// Index of a column of that name.
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+
+  /// Moves to the next row; false at the end.
+  bool next();
+  [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
+  [[nodiscard]] double number(std::size_t index) const;
+
+ private:
+  bool read_row(std::vector<std::string>& cells);
+
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::vector<std::string> header_, cells_;
+  std::string line_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,113 @@
+#include <fmt/core.h>
+
+#include "result/plot_parts.hpp"
+
+namespace signorini {
+
+namespace {
+
+std::string friction_text(const RunFacts::Contact& contact) {
+  if (contact.static_friction == 0.0) return "no friction";
+  if (contact.static_friction == contact.kinetic_friction) {
+    return fmt::format("friction {}", contact.static_friction);
+  }
+  return fmt::format("friction {} static, {} kinetic", contact.static_friction, contact.kinetic_friction);
+}
+
+// A column of this contact's rows of contacts.csv.
+std::string rows(const PlottedRun& run, std::size_t k) {
+  return "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
+}
+
+std::vector<std::string> limit_elements(const std::string& data, double friction, const std::string& name,
+                                        const std::string& look) {
+  const std::string limit = fmt::format("{}*abs($8)", friction);
+  return {data + " using 1:(" + limit + ") with lines " + look + " title " + quoted(name),
+          data + " using 1:(-" + limit + ") with lines " + look + " notitle"};
+}
+
+}  // namespace
+
+std::string contact_script(const PlottedRun& run, std::size_t k) {
+  const RunFacts::Contact& contact = run.facts.contacts[k];
+  const Units& units = run.facts.units;
+  const std::string data = rows(run, k);
+  const std::string curve = " with lines linewidth 1.4 linecolor '#1a1a1a' title ";
+
+  std::string s = begin_script(run, {"contact-" + run.slugs[k] + run.suffix,
+                                     "Contact '" + contact.name + "', " + friction_text(contact), 860});
+
+  s += panel(run, 0.885, 0.915, "", false);
+  s += "unset ytics\nset grid noxtics noytics\n";
+  s += "set yrange [0:1]\n" + plot_command(band_elements(run, k, 1.0));
+  s += "set grid xtics ytics\n";
+
+  s += panel(run, 0.635, 0.86, "N [" + units.force + "]", false);
+  auto elements = band_elements(run, k, 0.28);
+  elements.push_back(data + " using 1:8" + curve + quoted("N"));
+  const auto legend = band_legend(run, k);
+  elements.insert(elements.end(), legend.begin(), legend.end());
+  s += plot_command(elements);
+
+  s += panel(run, 0.345, 0.61, "T [" + units.force + "]", false);
+  elements = band_elements(run, k, 0.28);
+  if (contact.static_friction > 0.0) {
+    const bool one = contact.static_friction == contact.kinetic_friction;
+    const std::string red = "linecolor '#c0182b' linewidth 1.0";
+    const auto outer =
+        limit_elements(data, contact.static_friction, one ? "limits ±f|N|" : "static ±f|N|", red);
+    elements.insert(elements.end(), outer.begin(), outer.end());
+    if (!one) {
+      const auto inner = limit_elements(data, contact.kinetic_friction, "kinetic ±f|N|", red + " dashtype 2");
+      elements.insert(elements.end(), inner.begin(), inner.end());
+    }
+  }
+  elements.push_back(data + " using 1:9" + curve + quoted("T"));
+  s += plot_command(elements);
+
+  s += panel(run, 0.075, 0.32, "[" + units.length + "]", true);
+  elements = band_elements(run, k, 0.28);
+  if (!contact.slider) {
+    elements.push_back(data + " using 1:4 with lines linewidth 1.4 linecolor '#2166ac' title " +
+                       quoted("gap g"));
+  }
+  elements.push_back(data + " using 1:5 with lines linewidth 1.4 linecolor '#1a1a1a' title " +
+                     quoted("motion ut"));
+  elements.push_back(data + " using 1:7 with lines linewidth 1.4 linecolor '#b35806' dashtype 2 title " +
+                     quoted("slip p"));
+  s += plot_command(elements);
+  return s + end_script();
+}
+
+std::string states_script(const PlottedRun& run) {
+  const std::size_t count = run.facts.contacts.size();
+  const int height = 150 + static_cast<int>(34 * count);
+  std::string s = begin_script(run, {"states", "States of the contacts", height});
+  const double line = 1.0 / height;
+  s += panel(run, 62.0 * line, 1.0 - 64.0 * line, "", true);
+  s += fmt::format("set yrange [{}.5:-0.5]\nset y2range [{}.5:-0.5]\nset grid noxtics noytics\n", count - 1,
+                   count - 1);
+  s += "set ytics (";
+  for (std::size_t k = 0; k < count; ++k) {
+    s += (k > 0 ? ", " : "") + quoted(run.facts.contacts[k].name) + fmt::format(" {}", k);
+  }
+  s += ") scale 0\n";
+  std::vector<std::string> elements;
+  for (const std::string& state : state_names()) {
+    bool named = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      bool occurs = false;
+      for (const auto& band : run.bands[k]) occurs = occurs || band.state == state;
+      if (!occurs) continue;
+      elements.push_back(quoted("states-" + run.slugs[k] + ".csv") + " skip 1 using (strcol(3) eq " +
+                         quoted(state) + fmt::format(" ? $1 : NaN):({0}):1:2:({0}-0.38):({0}+0.38)", k) +
+                         " with boxxy fillstyle solid 1.0 noborder linecolor '" + state_colour(state) + "' " +
+                         (named ? "notitle" : "title " + quoted(state)));
+      named = true;
+    }
+  }
+  s += plot_command(elements);
+  return s + end_script();
+}
+
+}  // namespace signorini

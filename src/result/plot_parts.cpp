@@ -1,0 +1,126 @@
+#include "result/plot_parts.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "base/number.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr std::size_t most_points = 20000;  // a curve; beyond that an SVG is slow to open and shows no more
+
+constexpr double left = 0.1, right = 0.835;
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string every(const PlottedRun& run, std::size_t group, std::size_t index) {
+  const std::size_t stride = (run.times + most_points - 1) / most_points;
+  if (stride <= 1 && group == 1) return "";
+  return fmt::format(" every {}::{}", std::max<std::size_t>(stride, 1) * group, index);
+}
+
+std::string begin_script(const PlottedRun& run, const Picture& picture) {
+  const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
+  const std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
+  std::string s = "# Draws " + picture.name + ".svg and " + picture.name +
+                  ".png from the tables of the run. In this folder: gnuplot " + picture.name + ".gp\n";
+  s += fmt::format("from = {}; to = {}   # the time shown\n", shortest(run.from), shortest(run.to));
+  s += "reset\nset datafile separator ','\nset encoding utf8\n";
+  s += "do for [format in 'svg png'] {\n";
+  s += fmt::format(
+      "if (format eq 'svg') {{ set terminal svg noenhanced size 1120,{0} background '#ffffff' font "
+      "'DejaVu Sans,13' }} else {{ set terminal pngcairo noenhanced size 1680,{1} background '#ffffff' font "
+      "'DejaVu Sans,13' fontscale 1.3 linewidth 1.5 }}\n",
+      picture.height, picture.height * 3 / 2);
+  s += "set output " + quoted(picture.name + ".") + ".format\n";
+  s += "set multiplot\n";
+  const double line = 1.0 / picture.height;
+  s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',15'\n", quoted(title + note), left,
+                   1.0 - 24.0 * line);
+  s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n", quoted(picture.subtitle),
+                   left, 1.0 - 46.0 * line);
+  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left, right);
+  s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
+  s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";
+  s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\nset y2range [0:1]\nunset y2tics\n";
+  return s;
+}
+
+std::string end_script() { return "unset multiplot\nunset output\n}\n"; }
+
+std::string panel(const PlottedRun& run, double bottom, double top, const std::string& label, bool last) {
+  std::string s = fmt::format("\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", bottom, top);
+  s += fmt::format(
+      "set ylabel {} offset character 0.5,0\nset autoscale y\nset ytics nomirror out scale 0.6 autofreq\n",
+      quoted(label));
+  s += fmt::format(
+      "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "
+      "noautotitle noenhanced\n",
+      right + 0.012, top + 0.008);
+  if (last) {
+    s += "set format x '%g'\nset xlabel " + quoted("time t [" + run.facts.units.time + "]") + "\n";
+  } else {
+    s += "set format x ''\nunset xlabel\n";
+  }
+  return s;
+}
+
+std::string state_colour(const std::string& state) {
+  if (state == "open") return "#bcd3e6";
+  if (state == "stick" || state == "closed") return "#5aae61";
+  if (state == "slip+") return "#f1a340";
+  if (state == "slip-") return "#8e6bbf";
+  return "#999999";
+}
+
+const std::vector<std::string>& state_names() {
+  static const std::vector<std::string> names = {"stick", "slip+", "slip-", "closed", "open"};
+  return names;
+}
+
+std::vector<std::string> band_elements(const PlottedRun& run, std::size_t k, double opacity) {
+  std::vector<std::string> elements;
+  for (const std::string& state : state_names()) {
+    const auto& bands = run.bands[k];
+    if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
+    std::string e = quoted("states-" + run.slugs[k] + ".csv") + " skip 1 using ";
+    e += "(strcol(3) eq " + quoted(state) + " ? $1 : NaN):(0.5):1:2:(0):(1) axes x1y2 with boxxy ";
+    e += fmt::format("fillstyle solid {} noborder linecolor '{}' notitle", opacity, state_colour(state));
+    elements.push_back(e);
+  }
+  return elements;
+}
+
+std::vector<std::string> band_legend(const PlottedRun& run, std::size_t k) {
+  std::vector<std::string> elements;
+  for (const std::string& state : state_names()) {
+    const auto& bands = run.bands[k];
+    if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
+    elements.push_back(fmt::format("keyentry with boxes fillstyle solid 1.0 noborder linecolor '{}' title {}",
+                                   state_colour(state), quoted(state)));
+  }
+  return elements;
+}
+
+std::string plot_command(const std::vector<std::string>& elements) {
+  std::string s = "plot ";
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (i > 0) s += ", \\\n     ";
+    s += elements[i];
+  }
+  return s + "\nunset label 1\nunset label 2\n";
+}
+
+}  // namespace signorini

@@ -1,0 +1,66 @@
+// plot_parts.hpp: what the pictures share: the run's facts, the look, and gnuplot's quoting.
+//
+// A script sets up, then draws once for each format; its panels share one time axis:
+//
+//   script = begin_script(run, "energy", panels) + panel(...) + "plot ..." + ... + end_script()
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "result/summary.hpp"
+
+namespace signorini {
+
+/// A run as the pictures see it.
+struct PlottedRun {
+  RunFacts facts;
+  std::vector<std::string> slugs;    ///< one a contact: its name made fit for a file name, unique
+  std::vector<std::string> columns;  ///< of history.csv
+  std::size_t times = 0;             ///< rows of history.csv
+  double t_first = 0.0, t_last = 0.0;
+  double from = 0.0, to = 0.0;  ///< the time shown
+  std::string suffix;           ///< of the pictures' names
+  /// Intervals of constant state, one list a contact.
+  struct Band {
+    double from, to;
+    std::string state;
+  };
+  std::vector<std::vector<Band>> bands;
+};
+
+/// 'text' for gnuplot: nothing in it is expanded.
+[[nodiscard]] std::string quoted(const std::string& text);
+/// " every ..." for rows of a table with `group` rows a time: thins out what no picture could show.
+[[nodiscard]] std::string every(const PlottedRun& run, std::size_t group, std::size_t index);
+
+/// Size and headings of a picture.
+struct Picture {
+  std::string name;      ///< of its files
+  std::string subtitle;  ///< below the run's title
+  int height = 760;      ///< points, of a width of 1120
+};
+[[nodiscard]] std::string begin_script(const PlottedRun& run, const Picture& picture);
+[[nodiscard]] std::string end_script();
+
+/// Axes of a panel between two heights (fractions of the picture); the last one carries the time axis.
+[[nodiscard]] std::string panel(const PlottedRun& run, double bottom, double top, const std::string& label,
+                                bool last);
+/// Fill colour of a state, "#rrggbb".
+[[nodiscard]] std::string state_colour(const std::string& state);
+/// States in the order of legends.
+[[nodiscard]] const std::vector<std::string>& state_names();
+/// Plot elements that fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.
+[[nodiscard]] std::vector<std::string> band_elements(const PlottedRun& run, std::size_t k, double opacity);
+/// Legend entries of the states that occur.
+[[nodiscard]] std::vector<std::string> band_legend(const PlottedRun& run, std::size_t k);
+/// "plot a, b, c", a line each.
+[[nodiscard]] std::string plot_command(const std::vector<std::string>& elements);
+
+[[nodiscard]] std::string displacement_script(const PlottedRun& run);
+[[nodiscard]] std::string contact_script(const PlottedRun& run, std::size_t k);
+[[nodiscard]] std::string states_script(const PlottedRun& run);
+/// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
+[[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);
+
+}  // namespace signorini

@@ -1,0 +1,182 @@
+#include "result/plots.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <system_error>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "result/csv_read.hpp"
+#include "result/plot_parts.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_bands = 5000;  // a contact; shorter ones are narrower than any picture resolves
+
+std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contacts) {
+  std::vector<std::string> slugs;
+  std::set<std::string> taken;
+  for (const auto& contact : contacts) {
+    std::string slug;
+    for (const char c : contact.name.substr(0, 80)) {
+      const bool plain =
+          (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+      slug += plain ? c : '_';
+    }
+    std::string unique = slug;
+    for (int n = 2; !taken.insert(unique).second; ++n) unique = slug + "-" + std::to_string(n);
+    slugs.push_back(unique);
+  }
+  return slugs;
+}
+
+void read_times(const fs::path& directory, PlottedRun& run) {
+  CsvReader history(directory / "history.csv");
+  run.columns = history.header();
+  while (history.next()) {
+    run.t_last = history.number(0);
+    if (run.times++ == 0) run.t_first = run.t_last;
+  }
+}
+
+// States at the first output time, then the events: the bands are exact, not sampled.
+void read_bands(const fs::path& directory, PlottedRun& run) {
+  std::map<std::string, std::size_t> index;
+  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) index[run.facts.contacts[k].name] = k;
+  run.bands.resize(index.size());
+
+  CsvReader contacts(directory / "contacts.csv");
+  const std::size_t name = contacts.column("contact"), state = contacts.column("state");
+  for (std::size_t row = 0; row < index.size() && contacts.next(); ++row) {
+    run.bands[index.at(contacts.cell(name))].push_back({run.t_first, run.t_first, contacts.cell(state)});
+  }
+
+  CsvReader events(directory / "events.csv");
+  const std::size_t who = events.column("contact"), to = events.column("to");
+  const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(most_bands);
+  while (events.next()) {
+    const double t = events.number(0);
+    if (events.cell(who).empty() || t <= run.t_first || t > run.t_last) continue;
+    auto& bands = run.bands[index.at(events.cell(who))];
+    if (bands.empty() || bands.back().state == events.cell(to)) continue;
+    bands.back().to = t;
+    if (bands.size() >= most_bands && t - bands.back().from < shortest_band) {
+      bands.back().state = events.cell(to);
+    } else {
+      bands.push_back({t, t, events.cell(to)});
+    }
+  }
+  for (auto& bands : run.bands) {
+    if (!bands.empty()) bands.back().to = run.t_last;
+  }
+}
+
+std::string band_table(const std::vector<PlottedRun::Band>& bands) {
+  CsvBlock block;
+  block.text("from").text("to").text("state").end_row();
+  for (const auto& band : bands) block.number(band.from).number(band.to).text(band.state).end_row();
+  return block.str();
+}
+
+std::string energy_script_of(const fs::path& directory, const PlottedRun& run) {
+  CsvReader energy(directory / "energy.csv");
+  std::vector<bool> used(energy.header().size(), false);
+  double start = 0.0;
+  for (bool first = true; energy.next(); first = false) {
+    for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || energy.number(i) != 0.0;
+    if (first) start = energy.number(energy.column("balance"));
+  }
+  return energy_script(run, used, start);
+}
+
+// From the first event of any contact to the last one, with some air.
+PlottedRun zoom(PlottedRun run) {
+  double first = run.t_last, last = run.t_first;
+  for (const auto& bands : run.bands) {
+    if (bands.size() < 2) continue;
+    first = std::min(first, bands[1].from);
+    last = std::max(last, bands.back().from);
+  }
+  const double air = 0.05 * std::max(last - first, 0.0);
+  run.from = std::max(first - air, run.t_first);
+  run.to = std::min(last + air, run.t_last);
+  run.suffix = "-events";
+  return run;
+}
+
+bool zoom_helps(const PlottedRun& run) {
+  constexpr std::size_t most_contacts = 6;  // more would bury the folder in pictures
+  std::size_t changes = 0;
+  for (const auto& bands : run.bands) changes += bands.empty() ? 0 : bands.size() - 1;
+  const PlottedRun zoomed = zoom(run);
+  const double part = (zoomed.to - zoomed.from) / (run.t_last - run.t_first);
+  return changes >= 4 && part > 0.0 && part < 0.6 && run.bands.size() <= most_contacts;
+}
+
+}  // namespace
+
+std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
+  PlottedRun run;
+  run.facts = read_run_facts(directory);
+  read_times(directory, run);
+  if (run.times < 2) return {};
+  run.slugs = make_slugs(run.facts.contacts);
+  read_bands(directory, run);
+  run.from = window.from.value_or(run.t_first);
+  run.to = window.to.value_or(run.t_last);
+  const bool closer = !window.from && !window.to && zoom_helps(run);
+
+  const fs::path folder = directory / "plots";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
+  remove_plots(directory);
+  fs::create_directories(folder, error);
+
+  std::vector<fs::path> scripts;
+  const auto add = [&](const std::string& name, const std::string& text) {
+    if (text.empty()) return;
+    scripts.push_back(folder / (name + ".gp"));
+    write_file(scripts.back(), text);
+  };
+  add("displacement", displacement_script(run));
+  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
+    write_file(folder / ("states-" + run.slugs[k] + ".csv"), band_table(run.bands[k]));
+    add("contact-" + run.slugs[k], contact_script(run, k));
+    if (closer) {
+      const PlottedRun zoomed = zoom(run);
+      add("contact-" + run.slugs[k] + zoomed.suffix, contact_script(zoomed, k));
+    }
+  }
+  if (!run.facts.contacts.empty()) add("states", states_script(run));
+  add("energy", energy_script_of(directory, run));
+  return scripts;
+}
+
+void remove_plots(const fs::path& directory) {
+  const fs::path folder = directory / "plots";
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
+    const bool picture = type == ".gp" || type == ".svg" || type == ".png";
+    const bool named =
+        stem == "displacement" || stem == "energy" || stem == "states" || stem.rfind("contact-", 0) == 0;
+    if ((picture && named) || (type == ".csv" && stem.rfind("states-", 0) == 0)) ours.push_back(entry.path());
+  }
+  for (const fs::path& file : ours) {
+    fs::remove(file, error);
+    if (error) throw FileError(file.string(), "cannot be removed: " + error.message());
+  }
+  if (fs::is_empty(folder, error) && !error) fs::remove(folder, error);
+}
+
+}  // namespace signorini

@@ -1,0 +1,32 @@
+// plots.hpp: gnuplot scripts that draw a run from its own tables.
+//
+//   DIR/plots/displacement.gp         displacements over time
+//   DIR/plots/contact-NAME.gp         N, T against its limits, gap and slip; states as coloured bands
+//   DIR/plots/contact-NAME-events.gp  the same from the first to the last event, where that is a short part
+//   DIR/plots/states.gp               the states of all contacts, one bar a contact
+//   DIR/plots/energy.gp               where the energy is and went, and what the balance is off by
+//   DIR/plots/states-NAME.csv         from,to,state: the bands, exact to the event
+//
+// Run in DIR/plots, each script writes an SVG and a PNG of its own name. Nothing here starts gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace signorini {
+
+/// The time shown; absent ends are those of the run.
+struct PlotWindow {
+  std::optional<double> from, to;
+};
+
+/// Writes scripts and bands for the run in `directory`; returns the scripts, none when there are fewer
+/// than two output times to draw. Errors: FileError.
+std::vector<std::filesystem::path> write_plots(const std::filesystem::path& directory,
+                                               const PlotWindow& window = {});
+
+/// Removes from DIR/plots what write_plots and its scripts put there, and the folder if that empties it.
+void remove_plots(const std::filesystem::path& directory);
+
+}  // namespace signorini

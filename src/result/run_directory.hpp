@@ -1,0 +1,58 @@
+// run_directory.hpp: the Recorder that keeps a run on disk.
+//
+//   RunDirectory directory("pipeline-run", scene, model, {.force = false, .command_line = ...});
+//   directory.finish(simulate(model, scene.run, directory));
+//
+// The constructor only looks; the directory is created by the first row, sign of progress or finish(), so a
+// run that never starts leaves nothing behind. What is there is never overwritten without `force`, and
+// `force` removes only files that Signorini writes.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "signorini/result.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+struct RunDirectoryOptions {
+  bool force = false;
+  std::vector<std::string> command_line;  ///< for summary.json
+};
+
+/// Errors of all members: FileError.
+class RunDirectory : public Recorder {
+ public:
+  /// Scene and model must outlive the directory.
+  RunDirectory(std::filesystem::path path, const Scene& scene, const Model& model,
+               RunDirectoryOptions options = {});
+  ~RunDirectory() override;
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override;
+  bool progress(double t) override;
+  /// Writes the final summary.json and returns its text.
+  std::string finish(const Report& report);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Whether anything has been written yet.
+  [[nodiscard]] bool started() const { return writers_ != nullptr; }
+
+ private:
+  struct Writers;
+  Writers& writers();
+
+  std::filesystem::path path_;
+  const Scene& scene_;
+  const Model& model_;
+  RunDirectoryOptions options_;
+  std::unique_ptr<Writers> writers_;
+};
+
+/// Throws FileError unless a run may be written there.
+void check_run_directory(const std::filesystem::path& path, bool force);
+
+}  // namespace signorini

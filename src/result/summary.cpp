@@ -1,0 +1,240 @@
+#include "result/summary.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/version.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* to_string(Outcome::Kind kind) {
+  switch (kind) {
+    case Outcome::Kind::done:
+      return "done";
+    case Outcome::Kind::stopped:
+      return "stopped";
+    case Outcome::Kind::interrupted:
+      return "interrupted";
+  }
+  return "?";
+}
+
+int exit_code(Outcome::Kind kind) {
+  switch (kind) {
+    case Outcome::Kind::done:
+      return static_cast<int>(ExitCode::done);
+    case Outcome::Kind::stopped:
+      return static_cast<int>(ExitCode::stopped);
+    case Outcome::Kind::interrupted:
+      return static_cast<int>(ExitCode::interrupted);
+  }
+  return static_cast<int>(ExitCode::bug);
+}
+
+Json unit_json(const Units& units) {
+  return {{"force", units.force},
+          {"mass", units.mass},
+          {"length", units.length},
+          {"time", units.time},
+          {"energy", units.force + " " + units.length},
+          {"power", units.force + " " + units.length + "/" + units.time},
+          {"angle", "rad"}};
+}
+
+Json version_json() {
+  return {{"signorini", version}, {"sundials", sundials_version}, {"compiler", "g++ " __VERSION__}};
+}
+
+Json model_json(const Model& model) {
+  long massless = 0;
+  for (const Dof& dof : model.dofs) massless += dof.massless ? 1 : 0;
+  Json json = {{"degrees_of_freedom", model.size()},
+               {"massless", massless},
+               {"alpha", model.alpha},
+               {"beta", model.beta},
+               {"omega1", model.omega1},
+               {"omega_max", model.omega_max},
+               {"static_start", model.static_start}};
+  if (model.static_start) json["free_motions"] = model.statics.free_motions;
+  json["scales"] = {{"displacement", model.scales.displacement},
+                    {"rotation", model.scales.rotation},
+                    {"velocity", model.scales.velocity},
+                    {"angular_velocity", model.scales.angular_velocity},
+                    {"force", model.scales.force}};
+  return json;
+}
+
+const char* law_name(Law law) {
+  switch (law) {
+    case Law::compliant:
+      return "compliant";
+    case Law::slider:
+      return "slider";
+  }
+  return "?";
+}
+
+Json contact_json(const Model& model, std::size_t k, const Report* report) {
+  const Contact& contact = model.contacts[k];
+  Json json = {{"name", contact.name},
+               {"law", law_name(contact.law)},
+               {"static_friction", contact.static_friction},
+               {"kinetic_friction", contact.kinetic_friction}};
+  if (contact.law != Law::slider) {
+    json["gap"] = contact.gap;
+    json["normal_stiffness"] = contact.normal_stiffness;
+  }
+  if (contact.tangential_stiffness) json["tangential_stiffness"] = *contact.tangential_stiffness;
+  if (model.static_start && k < model.statics.reactions.size()) {
+    json["static_reaction"] = model.statics.reactions[k];
+  }
+  if (report == nullptr) return json;
+  if (k < report->audit.friction_work.size()) json["friction_work"] = report->audit.friction_work[k];
+  if (k < report->peaks.size()) {
+    const Peak& peak = report->peaks[k];
+    json["peaks"] = {
+        {"tangential", peak.horizontal}, {"normal", peak.vertical}, {"N", peak.N}, {"T", peak.T}};
+  }
+  return json;
+}
+
+Json settings_json(const Scene& scene, const Settings& settings) {
+  return {{"t_end", scene.run.t_end},
+          {"rtol", settings.rtol},
+          {"atol",
+           {{"displacement", settings.atol_displacement},
+            {"rotation", settings.atol_rotation},
+            {"velocity", settings.atol_velocity},
+            {"angular_velocity", settings.atol_angular_velocity},
+            {"force", settings.atol_force}}},
+          {"max_order", settings.max_order},
+          {"max_order_reason", settings.max_order_reason},
+          {"max_events_at_once", scene.run.max_events_at_once}};
+}
+
+Json counter_json(const Counters& c) {
+  Json orders = Json::object();
+  for (const auto& [order, steps] : c.steps_by_order) orders[std::to_string(order)] = steps;
+  return {{"steps", c.steps},
+          {"steps_by_order", orders},
+          {"residuals", c.residuals},
+          {"jacobians", c.jacobians},
+          {"factorisations", c.factorisations},
+          {"refactorisations", c.refactorisations},
+          {"solves", c.solves},
+          {"error_test_failures", c.error_test_failures},
+          {"convergence_failures", c.convergence_failures},
+          {"guard_evaluations", c.guard_evaluations},
+          {"restarts", c.restarts},
+          {"rolled_back", c.rolled_back},
+          {"time_events", c.time_events}};
+}
+
+Json extreme_json(const Model& model, const Extreme& extreme, double scale) {
+  Json json = {{"value", extreme.value},
+               {"scale", scale},
+               {"relative", scale > 0.0 ? extreme.value / scale : 0.0},
+               {"t", extreme.t}};
+  if (extreme.contact >= 0) json["contact"] = model.contacts[static_cast<std::size_t>(extreme.contact)].name;
+  return json;
+}
+
+Json audit_json(const Model& model, const Audit& a) {
+  return {{"gap", extreme_json(model, a.gap, a.length_scale)},
+          {"tension", extreme_json(model, a.tension, a.force_scale)},
+          {"product", extreme_json(model, a.product, a.energy_scale)},
+          {"friction", extreme_json(model, a.friction, a.force_scale)},
+          {"direction", extreme_json(model, a.direction, a.power_scale)},
+          {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
+          {"penetration", extreme_json(model, a.penetration, a.length_scale)},
+          {"energy", extreme_json(model, a.energy, a.energy_scale)}};
+}
+
+Json energy_json(const Energy& e) {
+  return {{"kinetic", e.kinetic}, {"elastic", e.elastic},   {"contact", e.contact},
+          {"damping", e.damping}, {"friction", e.friction}, {"impact", e.impact},
+          {"loads", e.loads},     {"surface", e.surface},   {"balance", e.balance()}};
+}
+
+Json head_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line) {
+  return {{"title", scene.title},
+          {"scene", scene.file},
+          {"command_line", command_line},
+          {"versions", version_json()},
+          {"units", unit_json(scene.units)},
+          {"model", model_json(model)}};
+}
+
+// Names come from files in any encoding; a byte that is not UTF-8 must not cost the summary.
+std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+std::string summary_json(const Scene& scene, const Model& model, const Report& report,
+                         const std::vector<std::string>& command_line) {
+  Json json;
+  json["outcome"] = {{"kind", to_string(report.outcome.kind)},
+                     {"t", report.outcome.t},
+                     {"t_end", scene.run.t_end},
+                     {"reason", report.outcome.reason},
+                     {"exit_code", exit_code(report.outcome.kind)}};
+  json.update(head_json(scene, model, command_line));
+  json["engine"] = report.settings.engine;
+  json["settings"] = settings_json(scene, report.settings);
+  json["wall_time"] = report.wall_time;
+  long total = 0;
+  for (const auto& [type, count] : report.events_by_type) total += count;
+  json["events"] = {{"total", total}, {"by_type", report.events_by_type}};
+  json["counters"] = counter_json(report.counters);
+  json["audit"] = audit_json(model, report.audit);
+  json["energy"] = {{"initial", energy_json(report.audit.initial)},
+                    {"final", energy_json(report.audit.final)},
+                    {"greatest_work_of_loads", report.audit.work_of_loads}};
+  json["contacts"] = Json::array();
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    json["contacts"].push_back(contact_json(model, k, &report));
+  }
+  return text(json);
+}
+
+std::string running_json(const Scene& scene, const Model& model,
+                         const std::vector<std::string>& command_line) {
+  Json json;
+  json["outcome"] = {{"kind", "running"}, {"t_end", scene.run.t_end}};
+  json.update(head_json(scene, model, command_line));
+  json["contacts"] = Json::array();
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    json["contacts"].push_back(contact_json(model, k, nullptr));
+  }
+  return text(json);
+}
+
+RunFacts read_run_facts(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / "summary.json";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path.string(), "cannot be read; expected the directory of a run");
+  try {
+    const Json json = Json::parse(file);
+    RunFacts facts;
+    facts.title = json.at("title");
+    facts.outcome = json.at("outcome").at("kind");
+    facts.t_end = json.at("outcome").at("t_end");
+    const Json& units = json.at("units");
+    facts.units = {units.at("force"), units.at("mass"), units.at("length"), units.at("time")};
+    for (const Json& contact : json.at("contacts")) {
+      facts.contacts.push_back({contact.at("name"), contact.at("law") == "slider",
+                                contact.at("static_friction"), contact.at("kinetic_friction")});
+    }
+    return facts;
+  } catch (const Json::exception& error) {
+    throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
+  }
+}
+
+}  // namespace signorini

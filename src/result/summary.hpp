@@ -1,0 +1,41 @@
+// summary.hpp: summary.json, what a run was and how it went, written and read back (docs/output.md).
+//
+//   outcome.kind: running (not ended, or killed), done, stopped, interrupted
+//
+// The one translation unit behind this header is the only one that knows nlohmann-json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "signorini/result.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// summary.json of a run that has ended.
+[[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const Report& report,
+                                       const std::vector<std::string>& command_line);
+
+/// What can be said at the start: outcome.kind is "running", nothing counted yet.
+[[nodiscard]] std::string running_json(const Scene& scene, const Model& model,
+                                       const std::vector<std::string>& command_line);
+
+/// What the pictures need to know about a run.
+struct RunFacts {
+  struct Contact {
+    std::string name;
+    bool slider = false;
+    double static_friction = 0.0, kinetic_friction = 0.0;
+  };
+  std::string title, outcome;
+  Units units;
+  double t_end = 0.0;
+  std::vector<Contact> contacts;
+};
+
+/// Reads them from DIR/summary.json. Errors: FileError.
+[[nodiscard]] RunFacts read_run_facts(const std::filesystem::path& directory);
+
+}  // namespace signorini

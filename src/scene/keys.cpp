@@ -1,0 +1,229 @@
+#include "scene/keys.hpp"
+
+#include <sstream>
+
+namespace signorini {
+
+namespace {
+
+using enum KeyType;
+
+// clang-format off
+constexpr Key table_of_keys[] = {
+    {"", "schema", integer, "", "required", "", "Version of the scene format: 1; the first key of the file."},
+    {"", "title", text, "", "\"\"", "", "Title of the scene, shown in results and pictures."},
+    {"", "units", table, "", "required", "", "Names of the units of all numbers in the file."},
+    {"", "gravity", vector, "length/time^2", "[0.0, 0.0]", "", "Acceleration of gravity; acts on every mass."},
+    {"", "run", table, "", "required", "", "How long and how accurately to compute."},
+    {"", "damping", table, "", "", "", "Damping of the structure: C = alpha M + beta K, K without contact springs."},
+    {"", "sections", table, "", "", "", "Cross-sections of members, by name."},
+    {"", "nodes", table, "", "", "", "Points of the structure, by name; their order is the order of the degrees of freedom."},
+    {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
+    {"", "masses", tables, "", "", "", "Point masses."},
+    {"", "supports", tables, "", "", "", "Degrees of freedom that are held."},
+    {"", "springs", tables, "", "", "", "Springs and dampers, to the ground or between two nodes."},
+    {"", "matrices", table, "", "", "", "Mass, damping and stiffness matrices, instead of nodes and members."},
+    {"", "contacts", tables, "", "", "", "Unilateral or frictional contacts."},
+    {"", "loads", tables, "", "", "", "Loads that vary with time."},
+    {"", "base_motion", table, "", "", "", "Ground acceleration.", true},
+
+    {"units", "force", choice, "", "required", "N kN MN", "Unit of force; must be mass * length / time^2."},
+    {"units", "mass", choice, "", "required", "kg t", "Unit of mass."},
+    {"units", "length", choice, "", "required", "m mm cm", "Unit of length."},
+    {"units", "time", choice, "", "required", "s ms", "Unit of time."},
+
+    {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
+    {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
+    {"run", "engine", choice, "", "\"ida\"", "ida newmark friction-iteration exact", "Method of time integration."},
+    {"run", "rtol", fraction, "", "1e-8", "", "Relative tolerance of the integration."},
+    {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
+    {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
+    {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
+    {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
+    {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops."},
+    {"run", "dt", positive, "time", "", "", "Time step of the engines newmark and friction-iteration."},
+
+    {"run.atol", "displacement", positive, "length", "", "", "Absolute tolerance of displacements; rtol times the scale of displacements where absent."},
+    {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities; rtol times the scale of velocities where absent."},
+    {"run.atol", "force", positive, "force", "", "", "Absolute tolerance of contact forces; rtol times the scale of forces where absent."},
+
+    {"run.initial", "u", numbers, "", "", "", "With [matrices]: initial displacement of each degree of freedom."},
+    {"run.initial", "v", numbers, "", "", "", "With [matrices]: initial velocity of each degree of freedom."},
+    {"run.initial", "*", table, "", "", "", "Initial state of the node of this name."},
+    {"run.initial.*", "ux", number, "length", "", "", "Initial horizontal displacement."},
+    {"run.initial.*", "uy", number, "length", "", "", "Initial vertical displacement."},
+    {"run.initial.*", "rz", number, "", "", "", "Initial rotation, counter-clockwise, in rad."},
+    {"run.initial.*", "vx", number, "length/time", "", "", "Initial horizontal velocity."},
+    {"run.initial.*", "vy", number, "length/time", "", "", "Initial vertical velocity."},
+    {"run.initial.*", "wz", number, "1/time", "", "", "Initial angular velocity, counter-clockwise."},
+
+    {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
+    {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},
+    {"damping", "alpha_over_omega1", non_negative, "", "", "", "alpha as a multiple of omega1, the lowest circular frequency with every initially closed contact stuck; instead of alpha."},
+    {"damping", "ratios", numbers, "", "", "", "Damping ratios at two frequencies.", true},
+    {"damping", "frequencies", numbers, "1/time", "", "", "The two frequencies of `ratios`.", true},
+
+    {"sections", "*", table, "", "", "", "A cross-section of this name."},
+    {"sections.*", "EA", positive, "force", "required", "", "Axial stiffness."},
+    {"sections.*", "EI", positive, "force*length^2", "required", "", "Bending stiffness."},
+    {"sections.*", "mass_per_length", non_negative, "mass/length", "required", "", "Mass per length."},
+
+    {"nodes", "*", vector, "length", "", "", "Position [x, y] of the node of this name."},
+
+    {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next."},
+    {"members[]", "section", name, "", "required", "", "Name of the section."},
+    {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number."},
+    {"members[]", "type", choice, "", "\"beam\"", "beam ~bar", "Euler-Bernoulli beam."},
+    {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
+
+    {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
+    {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
+    {"masses[]", "inertia", non_negative, "mass*length^2", "0.0", "", "Moment of inertia about the node."},
+
+    {"supports[]", "node", name, "", "required", "", "Node that is held."},
+    {"supports[]", "fix", texts, "", "required", "", "What is held: any of \"ux\", \"uy\", \"rz\"."},
+
+    {"springs[]", "node", name, "", "required", "", "Node at one end."},
+    {"springs[]", "against", name, "", "", "", "Node at the other end; the ground where absent."},
+    {"springs[]", "direction", vector, "", "required", "", "Direction of the spring; its length does not matter."},
+    {"springs[]", "stiffness", non_negative, "force/length", "0.0", "", "Stiffness."},
+    {"springs[]", "damping", non_negative, "force*time/length", "0.0", "", "Damper beside the spring."},
+
+    {"matrices", "dofs", texts, "", "", "", "Names of the degrees of freedom; d0, d1, ... where absent."},
+    {"matrices", "mass", matrix, "", "required", "", "Mass matrix, symmetric."},
+    {"matrices", "damping", matrix, "", "", "", "Damping matrix, symmetric; zero where absent."},
+    {"matrices", "stiffness", matrix, "", "required", "", "Stiffness matrix, symmetric."},
+
+    {"contacts[]", "name", name, "", "", "", "Name in results and in --set; contact1, contact2, ... where absent."},
+    {"contacts[]", "node", name, "", "", "", "Node that touches; required with [nodes]."},
+    {"contacts[]", "against", name, "", "", "", "Node or segment that is touched, instead of the ground.", true},
+    {"contacts[]", "law", choice, "", "required", "compliant slider ~rigid", "\"compliant\": springs that open and slip; \"slider\": friction under a given compression."},
+    {"contacts[]", "normal", direction, "", "", "", "Direction in which the contact opens; it is made a unit vector with [nodes], taken as given with [matrices]. The tangent is (ny, -nx)."},
+    {"contacts[]", "tangent", direction, "", "", "", "Direction of sliding of a slider; with [matrices] of any contact with friction."},
+    {"contacts[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state."},
+    {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\"."},
+    {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction; a slider without it is rigid in stick."},
+    {"contacts[]", "normal_force", standing_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
+    {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }."},
+    {"contacts[]", "surface_velocity", standing_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
+    {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
+    {"contacts[]", "restitution", number, "", "", "", "Newton's coefficient of restitution.", true},
+    {"contacts[]", "capture_velocity", number, "length/time", "", "", "Slowest rebound.", true},
+    {"contacts[]", "normal_damping", number, "force*time/length", "", "", "Dashpot normal to the contact.", true},
+    {"contacts[]", "tangential_damping", number, "force*time/length", "", "", "Dashpot along the contact.", true},
+
+    {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
+    {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
+    {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Decay of friction with slip rate.", true},
+
+    {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes]."},
+    {"loads[]", "direction", direction, "", "required", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices]."},
+    {"loads[]", "amplitude", number, "force", "required", "", "Factor of the history."},
+    {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "The load's course in time."},
+
+    {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
+    {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},
+    {"history", "amplitude", number, "", "1.0", "", "Factor of the shape; not in [[loads]]."},
+    {"history", "start", number, "time", "0.0", "", "Start; without it a constant has held since ever."},
+    {"history", "end", number, "time", "", "", "End; never where absent. Required for rectangle and triangle."},
+    {"history", "duration", positive, "time", "", "", "half_sine: end - start."},
+    {"history", "omega", positive, "1/time", "", "", "harmonic, sin(omega (t - start) + phase): circular frequency in rad per time."},
+    {"history", "frequency", positive, "1/time", "", "", "harmonic: cycles per time, instead of omega."},
+    {"history", "phase", number, "", "0.0", "", "harmonic: phase in rad."},
+    {"history", "coefficients", numbers, "", "", "", "polynomial: coefficients of the ascending powers of t - start."},
+    {"history", "times", numbers, "time", "", "", "table: times, ascending; a repeated time is a jump."},
+    {"history", "values", numbers, "", "", "", "table: one value a time."},
+    {"history", "interpolation", choice, "", "\"linear\"", "linear steffen", "table: straight lines, or smooth without overshoot."},
+    {"history", "file", text, "", "", "", "table: file of times and values.", true},
+};
+// clang-format on
+
+std::vector<std::string> words_of(const Key& key, bool later) {
+  std::istringstream words{std::string(key.choices)};
+  std::vector<std::string> result;
+  for (std::string word; words >> word;) {
+    if ((word[0] == '~') == later) result.push_back(later ? word.substr(1) : word);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::span<const Key> all_keys() { return table_of_keys; }
+
+const Key* find_key(std::string_view table, std::string_view name) {
+  const Key* any = nullptr;
+  for (const Key& key : table_of_keys) {
+    if (key.table != table) continue;
+    if (key.name == name) return &key;
+    if (key.name == "*") any = &key;
+  }
+  return any;
+}
+
+std::vector<std::string> key_names(std::string_view table) {
+  std::vector<std::string> names;
+  for (const Key& key : table_of_keys) {
+    if (key.table == table && key.name != "*" && !key.later) names.emplace_back(key.name);
+  }
+  return names;
+}
+
+std::vector<std::string> choices_of(const Key& key) { return words_of(key, false); }
+
+std::vector<std::string> later_choices_of(const Key& key) { return words_of(key, true); }
+
+std::string describe_type(const Key& key) {
+  switch (key.type) {
+    case number:
+      return "a number";
+    case positive:
+      return "a number > 0";
+    case non_negative:
+      return "a number >= 0";
+    case fraction:
+      return "a number > 0 and < 1";
+    case count:
+      return "an integer >= 1";
+    case integer:
+      return "an integer";
+    case text:
+      return "a string";
+    case name:
+      return "a name";
+    case choice: {
+      std::string list;
+      for (const std::string& word : choices_of(key)) list += (list.empty() ? "\"" : ", \"") + word + '"';
+      return "one of " + list;
+    }
+    case vector:
+      return "an array of two numbers [x, y]";
+    case numbers:
+      return "an array of numbers";
+    case texts:
+      return "an array of strings";
+    case table:
+      return "a table";
+    case tables:
+      return "tables under [[" + std::string(key.name) + "]]";
+    case tolerance_order:
+      return "\"auto\" or an integer from 1 to 5";
+    case KeyType::elements:
+      return "an integer >= 1, or an array of them, one a piece";
+    case KeyType::initial:
+      return "\"static\" or a table";
+    case KeyType::friction:
+      return "a number >= 0 or a table { static, kinetic }";
+    case direction:
+      return "an array [x, y], or with [matrices] a table { degree of freedom = number }";
+    case KeyType::history:
+      return "a table { type = ... }";
+    case standing_history:
+      return "a number or a table { type = ... }";
+    case matrix:
+      return "the name of a Matrix Market file, or rows of numbers";
+  }
+  return {};
+}
+
+}  // namespace signorini

@@ -1,0 +1,68 @@
+// keys.hpp: the one table of all keys of a scene file.
+//
+// The reader takes types and defaults from it; `signorini keys` and the scene reference print it.
+// A table is named by its path: "" (top level), "run", "sections.*" (any name), "contacts[]" (each of
+// [[contacts]]), "history" (wherever a history may stand). The key "*" stands for a name of the user's.
+//
+//   const Key* key = find_key("contacts[]", "gap");   // key->unit == "length"
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace signorini {
+
+/// What a value may be. Numbers are finite; integers count as numbers.
+enum class KeyType {
+  number,
+  positive,
+  non_negative,
+  fraction,
+  count,
+  integer,
+  text,
+  name,
+  choice,
+  vector,
+  numbers,
+  texts,
+  table,
+  tables,
+  tolerance_order,
+  elements,
+  initial,
+  friction,
+  direction,
+  history,
+  standing_history,
+  matrix
+};
+
+struct Key {
+  std::string_view table, name;
+  KeyType type;
+  std::string_view unit;      ///< in units of force, mass, length, time; "" without
+  std::string_view fallback;  ///< TOML text of the default; "required"; "" for none
+  std::string_view choices;   ///< of a choice, separated by blanks; ~ before those that are for later
+  std::string_view meaning;   ///< one sentence
+  bool later = false;         ///< refused as not supported yet
+};
+
+[[nodiscard]] std::span<const Key> all_keys();
+
+/// The key, or that of "*" in the same table, or null.
+[[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
+
+/// Names of the keys of a table, in the order of the table; without those that are for later.
+[[nodiscard]] std::vector<std::string> key_names(std::string_view table);
+
+/// "a number > 0", "one of \"ida\", \"newmark\"".
+[[nodiscard]] std::string describe_type(const Key& key);
+
+/// The words that a choice may be, and those that will be.
+[[nodiscard]] std::vector<std::string> choices_of(const Key& key);
+[[nodiscard]] std::vector<std::string> later_choices_of(const Key& key);
+
+}  // namespace signorini

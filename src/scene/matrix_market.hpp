@@ -1,0 +1,28 @@
+// matrix_market.hpp: matrices from files in the Matrix Market format.
+//
+//   %%MatrixMarket matrix coordinate|array real|integer general|symmetric
+//   % comments
+//   rows columns [entries]
+//   row column value                 (array: values only, column by column)
+//
+// https://math.nist.gov/MatrixMarket/formats.html. Entries are sorted by row, then column; symmetric ones
+// are written out in full, duplicates added, zeros dropped.
+#pragma once
+
+#include <istream>
+#include <string>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+inline constexpr int most_dofs = 1'000'000;
+
+/// Sorted by row and column, duplicates added, zeros dropped.
+void tidy(MatrixSpec& matrix);
+
+/// Errors: SceneError at the line of the matrix file; `key` stands in front of the message.
+[[nodiscard]] MatrixSpec read_matrix_market(std::istream& in, const std::string& file,
+                                            const std::string& key);
+
+}  // namespace signorini

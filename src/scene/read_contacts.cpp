@@ -1,0 +1,145 @@
+// [[contacts]]: what each law needs, and what has no meaning for it.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/number.hpp"
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+namespace {
+
+FrictionSpec read_friction(Table& contact) {
+  FrictionSpec friction;
+  const toml::node* node = contact.raw("friction");
+  if (node && node->is_table()) {
+    Table table = contact.child("friction");
+    friction.static_ = table.number("static");
+    friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
+    if (friction.kinetic > friction.static_) {
+      table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
+                                        shortest(friction.kinetic), shortest(friction.static_)));
+    }
+    table.finish();
+  } else {
+    const std::string expected = "a number >= 0 or a table { static, kinetic }";
+    const double value = node ? finite_number(*node, contact.path("friction"), expected) : 0.0;
+    if (value < 0.0) contact.wrong("friction", expected);
+    friction = {value, value};
+  }
+  Record record;
+  record.set("static", toml_number(friction.static_));
+  record.set("kinetic", toml_number(friction.kinetic));
+  contact.record("friction", record.inline_table());
+  return friction;
+}
+
+/// Least value of a history where its shape shows it; harmonics and polynomials depend on their span.
+double least_value(const HistorySpec& spec) {
+  const auto at = [&](double shape) { return spec.offset + spec.amplitude * shape; };
+  switch (spec.type) {
+    case HistoryType::harmonic:
+    case HistoryType::polynomial:
+      return std::numeric_limits<double>::infinity();
+    case HistoryType::constant: {
+      const bool always = !spec.start_given && spec.end == std::numeric_limits<double>::infinity();
+      return always ? at(1.0) : std::min(at(0.0), at(1.0));
+    }
+    case HistoryType::table: {
+      double least = std::numeric_limits<double>::infinity();
+      for (const double value : spec.values) least = std::min(least, at(value));
+      return least;
+    }
+    default:
+      return std::min(at(0.0), at(1.0));
+  }
+}
+
+Direction tangent_of(const Direction& normal) {
+  Direction tangent = normal;
+  tangent.vector = {normal.vector[1], -normal.vector[0]};
+  return tangent;
+}
+
+void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
+  table.require("normal", " (compliant)");
+  contact.normal = read_direction(table, "normal", space);
+  if (space.matrices) {
+    const bool needed = contact.friction.static_ > 0.0;
+    if (needed) table.require("tangent", " (needed with friction)");
+    if (table.has("tangent")) contact.tangent = read_direction(table, "tangent", space);
+  } else {
+    if (table.has("tangent")) {
+      table.fail("tangent", "has no meaning beside normal; the tangent is (ny, -nx)");
+    }
+    contact.tangent = tangent_of(*contact.normal);
+  }
+  contact.gap = table.number("gap");
+  table.require("normal_stiffness", " (compliant)");
+  contact.normal_stiffness = table.number("normal_stiffness");
+  if (contact.friction.static_ > 0.0) table.require("tangential_stiffness", " (compliant with friction)");
+}
+
+void read_slider(Table& table, ContactSpec& contact, const Space& space) {
+  const bool from_normal = !space.matrices && table.has("normal");
+  if (from_normal && table.has("tangent")) {
+    table.fail("normal", "stands beside tangent, expected one of the two for a slider");
+  }
+  if (!from_normal) table.require("tangent", " (slider)");
+  contact.tangent = from_normal ? tangent_of(read_direction(table, "normal", space))
+                                : read_direction(table, "tangent", space);
+  table.require("normal_force", " (slider)");
+  contact.normal_force = read_standing_history(table, "normal_force");
+  const double least = least_value(contact.normal_force);
+  if (least < 0.0) {
+    table.fail("normal_force", fmt::format("found {}, expected a compression >= 0", shortest(least)));
+  }
+}
+
+}  // namespace
+
+void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
+  const Space space = space_of(scene);
+  Names names;
+  for (Table& table : tables_of(top, "contacts")) {
+    ContactSpec contact;
+    contact.place = table.place();
+    const std::string fallback = fmt::format("contact{}", names.size() + 1);
+    contact.name = table.optional_text("name").value_or(fallback);
+    if (!table.has("name")) table.record("name", toml_string(fallback));
+    if (!names.add(contact.name)) {
+      table.fail("name",
+                 fmt::format("found \"{}\" twice, expected each contact to have its own name", contact.name));
+    }
+
+    if (!space.matrices) table.require("node", "");
+    const std::string node = space.matrices ? "" : read_node(table, "node", space);
+    const std::string law = table.choice("law");
+    contact.law = law == "slider" ? Law::slider : Law::compliant;
+    contact.friction = read_friction(table);
+    contact.normal_force = constant_history(0.0);
+    if (contact.law == Law::compliant) {
+      read_compliant(table, contact, space);
+    } else {
+      read_slider(table, contact, space);
+    }
+    contact.tangential_stiffness = table.optional_number("tangential_stiffness");
+    contact.surface_velocity = read_standing_history(table, "surface_velocity");
+    if (contact.tangential_stiffness) {
+      contact.initial_shear = table.number("initial_shear");
+    } else if (table.has("initial_shear")) {
+      table.fail("initial_shear", "has no meaning without tangential_stiffness");
+    }
+    if (contact.normal) contact.normal->node = node;
+    if (contact.tangent) contact.tangent->node = node;
+    const bool stray_node = space.matrices && table.has("node");
+    table.finish(stray_node ? "has no meaning with [matrices]"
+                            : fmt::format("has no meaning for a contact with law = \"{}\"", law));
+    scene.contacts.push_back(std::move(contact));
+    record.add("contacts", "[[contacts]]", table.record());
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,113 @@
+// [run]: how long, how accurately, and when to write.
+#include <fmt/core.h>
+
+#include <map>
+
+#include "base/number.hpp"
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr double most_rows = 1e8;
+
+Engine engine_of(const std::string& name) {
+  static const std::map<std::string, Engine> engines = {{"ida", Engine::ida},
+                                                        {"newmark", Engine::newmark},
+                                                        {"friction-iteration", Engine::friction_iteration},
+                                                        {"exact", Engine::exact}};
+  return engines.at(name);
+}
+
+void read_output(Table& table, RunSpec& run) {
+  if (table.has("output_dt") && table.has("output_times")) {
+    table.fail("output_times", "stands beside output_dt, expected one of the two");
+  }
+  run.output_times = table.numbers("output_times");
+  run.output_dt = table.optional_number("output_dt");
+  if (!run.output_times && !run.output_dt) {
+    run.output_dt = run.t_end / 1000.0;
+    table.record("output_dt", toml_number(*run.output_dt));
+  }
+  if (run.output_dt && !(run.t_end / *run.output_dt <= most_rows)) {
+    table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
+                                        shortest(*run.output_dt), shortest(run.t_end)));
+  }
+  if (!run.output_times) return;
+  const std::vector<double>& times = *run.output_times;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < 0.0 || times[i] > run.t_end) {
+      table.fail("output_times", fmt::format("found {}, expected times from 0 to t_end = {}",
+                                             shortest(times[i]), shortest(run.t_end)));
+    }
+    if (i > 0 && times[i] <= times[i - 1]) {
+      table.fail("output_times", fmt::format("found {} after {}, expected strictly ascending times",
+                                             shortest(times[i]), shortest(times[i - 1])));
+    }
+  }
+}
+
+void read_tolerances(Table& table, RunSpec& run) {
+  run.rtol = table.number("rtol");
+  Table atol = table.child("atol");
+  run.atol.displacement = atol.optional_number("displacement");
+  run.atol.velocity = atol.optional_number("velocity");
+  run.atol.force = atol.optional_number("force");
+  atol.finish();
+  // Absent ones follow from the assembled scene.
+  if (table.has("atol")) table.record("atol", atol.record().inline_table());
+}
+
+void read_max_order(Table& table, RunSpec& run) {
+  const toml::node* node = table.raw("max_order");
+  const std::string expected = "\"auto\" or an integer from 1 to 5";
+  if (!node || node->value<std::string>() == "auto") {
+    table.record("max_order", "\"auto\"");
+    return;
+  }
+  if (!node->is_integer()) table.wrong("max_order", expected);
+  const int order = table.integer("max_order");
+  if (order < 1 || order > 5) table.wrong("max_order", expected);
+  run.max_order = order;
+}
+
+}  // namespace
+
+void read_run(Table& top, Scene& scene, RecordedScene& record) {
+  top.require("run", "");
+  Table table = top.child("run");
+  RunSpec& run = scene.run;
+  run.place = table.place();
+  run.t_end = table.number("t_end");
+  read_initial(table, scene);
+  run.engine = engine_of(table.choice("engine"));
+  read_tolerances(table, run);
+  read_output(table, run);
+  read_max_order(table, run);
+  run.max_events_at_once = table.integer("max_events_at_once");
+  run.dt = table.optional_number("dt");
+  table.finish();
+  record.add("run", "[run]", table.record());
+}
+
+std::vector<double> RunSpec::grid() const {
+  std::vector<double> times;
+  if (output_times) {
+    times = *output_times;
+    if (times.empty() || times.back() < t_end) times.push_back(t_end);
+    return times;
+  }
+  const double dt_out = output_dt.value_or(t_end / 1000.0);
+  if (!(t_end / dt_out <= most_rows)) throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
+  // Multiples, not sums: row k stands at k dt to the last digit. A multiple that is t_end but for
+  // roundoff is t_end.
+  times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);
+  for (long k = 0; static_cast<double>(k) * dt_out < t_end - 1e-6 * dt_out; ++k) {
+    times.push_back(static_cast<double>(k) * dt_out);
+  }
+  times.push_back(t_end);
+  return times;
+}
+
+}  // namespace signorini

@@ -1,0 +1,147 @@
+// From a file to a Scene: parse, apply --set, read concept by concept.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "scene/overrides.hpp"
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr std::size_t longest_file = 64u << 20;
+
+/// The parser builds and destroys a.a.a.a... by recursion: refuse what would overflow the stack.
+void check_depth(const std::string& text, const std::string& file) {
+  constexpr int most_dots = 1000;
+  int dots = 0, line = 1;
+  bool comment = false;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '#' || c == '\n') comment = c == '#';
+    if (comment || std::string_view("\n,=[]{}").find(c) != std::string_view::npos) dots = 0;
+    if (c == '.' && ++dots > most_dots)
+      throw SceneError({file, line, 0}, "", "found a key of more than 1000 parts");
+  }
+}
+
+toml::table parse_text(const std::string& text, const std::string& file) {
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
+    const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+    throw SceneError({file, static_cast<int>(lines) + 1, 0}, "", "found binary data, expected TOML text");
+  }
+  check_depth(text, file);
+  try {
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    std::string message(error.description());
+    for (char& c : message) {
+      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    }
+    throw SceneError(place_of(error.source()), "", "not TOML: " + message);
+  }
+}
+
+void check_schema(const toml::table& root, const std::string& file) {
+  const std::vector<Entry> entries = entries_of(root);
+  if (entries.empty()) throw SceneError({file, 1, 1}, "schema", "the file is empty, expected schema = 1");
+  const toml::node* schema = root.get("schema");
+  if (!schema) {
+    throw SceneError({file, 1, 1}, "schema", "missing, expected schema = 1 as the first key of the file");
+  }
+  if (schema->value<std::int64_t>() != 1) {
+    refuse(place_of(*schema), "schema", "found " + describe(*schema) + ", expected 1");
+  }
+  if (entries[0].name != "schema") {
+    refuse(place_of(*schema), "schema", fmt::format("found after \"{}\", expected first", entries[0].name));
+  }
+}
+
+Scene build(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  toml::table root = parse_text(text, file);
+  apply_overrides(root, overrides);
+  check_schema(root, file);
+
+  Scene scene;
+  RecordedScene record;
+  scene.file = file;
+  Table top(&root, "", "", {file, 1, 1});
+  record.top.set("schema", std::to_string(top.integer("schema")));
+  scene.title = top.text("title");
+  record.top.set("title", toml_string(scene.title));
+  read_units(top, scene, record);
+
+  if (top.has("matrices")) {
+    read_matrices(top, scene, record, std::filesystem::path(file).parent_path());
+  } else {
+    scene.gravity = top.vector("gravity");
+    record.top.set("gravity", toml_numbers(scene.gravity));
+    read_nodes(top, scene, record);
+    if (scene.nodes.empty())
+      throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes] or [matrices]");
+    read_sections(top, scene, record);
+    read_members(top, scene, record);
+    read_masses(top, scene, record);
+    read_supports(top, scene, record);
+    read_springs(top, scene, record);
+    read_damping(top, scene, record);
+  }
+  read_contacts(top, scene, record);
+  read_loads(top, scene, record);
+  read_run(top, scene, record);
+  top.finish();
+
+  std::vector<std::string> order;
+  for (const Entry& entry : entries_of(root)) order.push_back(entry.name);
+  scene.resolved = record.text(order);
+  return scene;
+}
+
+bool can_be_read(const std::string& text, const std::string& file) {
+  try {
+    (void)build(text, file, {});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  std::string message;
+  try {
+    return build(text, file, overrides);
+  } catch (const SceneError& error) {
+    // An override may have broken something elsewhere (kinetic above static).
+    if (overrides.empty() || !can_be_read(text, file)) throw;
+    message = error.what();
+  }
+  std::string all;
+  for (const Override& change : overrides) all += (all.empty() ? "" : " ") + text_of(change);
+  throw UsageError(all + ": " + message);
+}
+
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw FileError(path, "is a directory, expected a scene file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path, std::strerror(errno ? errno : EIO));
+  std::string text;
+  std::vector<char> block(1u << 16);
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > longest_file)
+      throw SceneError({path, 0, 0}, "", "larger than 64 MB, expected a scene file");
+  }
+  if (in.bad()) throw FileError(path, "cannot be read");
+  return parse_scene(text, path, overrides);
+}
+
+}  // namespace signorini

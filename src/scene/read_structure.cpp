@@ -1,0 +1,114 @@
+// Sections, nodes and members.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.hpp"
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr int most_elements = 1'000'000;
+
+void check_pieces(const Table& table, const Scene& scene, const std::vector<std::size_t>& nodes) {
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const Node& a = scene.nodes[nodes[i]];
+    const Node& b = scene.nodes[nodes[i + 1]];
+    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+    if (!(std::hypot(b.x - a.x, b.y - a.y) > 1e-12 * size)) {
+      table.fail("nodes", fmt::format("nodes \"{}\" and \"{}\" coincide, expected a piece with a length",
+                                      a.name, b.name));
+    }
+  }
+}
+
+std::vector<int> read_elements(Table& table, std::size_t pieces) {
+  const toml::node* node = table.raw("elements");
+  const auto count = [&](const toml::node& item) {
+    const auto* number = item.as_integer();
+    if (!number || number->get() < 1 || number->get() > most_elements) {
+      refuse(place_of(item), table.path("elements"),
+             fmt::format("found {}, expected an integer from 1 to {}", describe(item), most_elements));
+    }
+    return static_cast<int>(number->get());
+  };
+  std::vector<int> elements(pieces, 1);
+  if (node && node->is_array()) {
+    const toml::array& array = *node->as_array();
+    if (array.size() != pieces) {
+      table.fail("elements", fmt::format("found {}, expected one number, or one for each of the {}",
+                                         describe(*node), count_of(pieces, "piece")));
+    }
+    for (std::size_t i = 0; i < pieces; ++i) elements[i] = count(array[i]);
+  } else if (node) {
+    std::fill(elements.begin(), elements.end(), count(*node));
+  }
+  std::vector<std::string> texts;
+  for (const int n : elements) texts.push_back(std::to_string(n));
+  table.record("elements", toml_array(texts));
+  return elements;
+}
+
+}  // namespace
+
+void read_sections(Table& top, Scene& scene, RecordedScene& record) {
+  Table sections = top.child("sections");
+  for (const Entry& entry : entries_of(sections.node())) {
+    check_name(entry.name, entry.place, sections.path(entry.name));
+    if (!entry.node->is_table()) sections.wrong(entry.name, "a table [sections." + entry.name + "]");
+    Table table(entry.node->as_table(), "sections.*", sections.path(entry.name), place_of(*entry.node));
+    Section section;
+    section.name = entry.name;
+    section.EA = table.number("EA");
+    section.EI = table.number("EI");
+    section.mass_per_length = table.number("mass_per_length");
+    scene.sections.push_back(section);
+    record.add("sections", "[sections." + toml_key(entry.name) + "]", table.record());
+  }
+}
+
+void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
+  Table nodes = top.child("nodes");
+  for (const Entry& entry : entries_of(nodes.node())) {
+    check_name(entry.name, entry.place, nodes.path(entry.name));
+    const auto [x, y] = nodes.vector(entry.name);
+    scene.nodes.push_back({entry.name, x, y, entry.place});
+  }
+  if (!scene.nodes.empty()) record.add("nodes", "[nodes]", nodes.record());
+}
+
+void read_members(Table& top, Scene& scene, RecordedScene& record) {
+  const Space space = space_of(scene);
+  Names sections;
+  for (const Section& section : scene.sections) sections.add(section.name);
+  long total = 0;
+  for (Table& table : tables_of(top, "members")) {
+    Member member;
+    member.place = table.place();
+    member.nodes = table.texts("nodes");
+    if (member.nodes.size() < 2) table.wrong("nodes", "the names of two or more nodes");
+    std::vector<std::size_t> nodes;
+    for (const std::string& name : member.nodes) {
+      nodes.push_back(check_known(name, space.names, "node", table.place("nodes"), table.path("nodes")));
+    }
+    check_pieces(table, scene, nodes);
+    (void)table.choice("type");  // beams so far
+    member.section = table.text("section");
+    check_known(member.section, sections, "section", table.place("section"), table.path("section"));
+    member.elements = read_elements(table, member.nodes.size() - 1);
+    for (const int n : member.elements) total += n;
+    if (total > most_elements) {
+      table.fail("elements",
+                 fmt::format("found {} elements up to here, expected at most {}", total, most_elements));
+    }
+    member.mass = table.choice("mass") == "lumped" ? MassKind::lumped : MassKind::consistent;
+    table.finish();
+    scene.members.push_back(std::move(member));
+    record.add("members", "[[members]]", table.record());
+  }
+}
+
+}  // namespace signorini

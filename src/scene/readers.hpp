@@ -1,0 +1,54 @@
+// readers.hpp: one reader a concept; each fills its part of the scene and records what it understood.
+//
+//   read_units(top, scene.units, record);   read_run(top, scene, record);   ...
+//
+// Order matters: nodes, sections and matrices come before what refers to them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/record.hpp"
+#include "scene/table.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// What may be referred to by name: nodes, or degrees of freedom of [matrices].
+struct Space {
+  bool matrices = false;
+  Names names;
+};
+[[nodiscard]] Space space_of(const Scene& scene);
+
+void read_units(Table& top, Scene& scene, RecordedScene& record);
+void read_run(Table& top, Scene& scene, RecordedScene& record);
+/// Part of [run]; `run` is that table.
+void read_initial(Table& run, Scene& scene);
+void read_damping(Table& top, Scene& scene, RecordedScene& record);
+void read_sections(Table& top, Scene& scene, RecordedScene& record);
+void read_nodes(Table& top, Scene& scene, RecordedScene& record);
+void read_members(Table& top, Scene& scene, RecordedScene& record);
+void read_masses(Table& top, Scene& scene, RecordedScene& record);
+void read_springs(Table& top, Scene& scene, RecordedScene& record);
+void read_supports(Table& top, Scene& scene, RecordedScene& record);
+/// Matrix files are looked for in `directory`.
+void read_matrices(Table& top, Scene& scene, RecordedScene& record, const std::filesystem::path& directory);
+void read_contacts(Table& top, Scene& scene, RecordedScene& record);
+void read_loads(Table& top, Scene& scene, RecordedScene& record);
+
+/// A vector [x, y] made a unit vector.
+[[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
+/// The name of a node, required.
+[[nodiscard]] std::string read_node(Table& table, std::string_view key, const Space& space);
+/// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name.
+[[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
+
+/// A load's history: offset 0, amplitude 1.
+[[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key);
+/// A history that stands alone: a number, or a table with offset and amplitude. Absent: the default, or zero.
+[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key);
+[[nodiscard]] HistorySpec constant_history(double value);
+
+}  // namespace signorini

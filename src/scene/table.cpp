@@ -1,0 +1,275 @@
+#include "scene/table.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/suggest.hpp"
+
+namespace signorini {
+
+namespace {
+
+const toml::table empty_table;
+
+bool in_range(KeyType type, double value) {
+  switch (type) {
+    case KeyType::positive:
+      return value > 0.0;
+    case KeyType::non_negative:
+      return value >= 0.0;
+    case KeyType::fraction:
+      return value > 0.0 && value < 1.0;
+    case KeyType::count:
+      return value >= 1.0;
+    default:
+      return true;
+  }
+}
+
+}  // namespace
+
+double finite_number(const toml::node& node, const std::string& path, const std::string& expected) {
+  double value = std::nan("");
+  if (const auto* number = node.as_floating_point()) value = number->get();
+  if (const auto* number = node.as_integer()) value = static_cast<double>(number->get());
+  if (!std::isfinite(value)) {
+    const bool infinite = node.is_floating_point();
+    refuse(place_of(node), path,
+           "found " + describe(node) + ", expected " + expected + (infinite ? " that is finite" : ""));
+  }
+  return value;
+}
+
+std::vector<double> number_array(const toml::node& node, const std::string& path,
+                                 const std::string& expected) {
+  const toml::array* array = node.as_array();
+  if (!array) refuse(place_of(node), path, "found " + describe(node) + ", expected " + expected);
+  std::vector<double> values;
+  values.reserve(array->size());
+  for (const toml::node& item : *array) values.push_back(finite_number(item, path, "a number"));
+  return values;
+}
+
+void check_name(const std::string& name, const SourcePlace& place, const std::string& path) {
+  if (name.empty()) refuse(place, path, "found an empty name");
+  for (const char c : name) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code <= 0x20 || code == 0x7f || std::string_view(".,;*\"'=[]{}#").find(c) != std::string_view::npos) {
+      refuse(place, path,
+             "found a name with blanks or one of . , ; * \" ' = [ ] { } #, expected a plain name");
+    }
+  }
+}
+
+bool Names::add(const std::string& name) {
+  if (!index_.emplace(name, list_.size()).second) return false;
+  list_.push_back(name);
+  return true;
+}
+
+std::optional<std::size_t> Names::index(const std::string& name) const {
+  const auto found = index_.find(name);
+  return found == index_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
+                        const SourcePlace& place, const std::string& path) {
+  if (const auto index = known.index(name)) return *index;
+  refuse(place, path, fmt::format("unknown {} \"{}\"{}", what, name, suggestion(name, known.list())));
+}
+
+Table::Table(const toml::table* node, std::string kind, std::string path, SourcePlace place)
+    : node_(node ? node : &empty_table),
+      kind_(std::move(kind)),
+      path_(std::move(path)),
+      place_(std::move(place)) {
+  for (const Entry& entry : entries_of(*node_)) {
+    const Key* known = find_key(kind_, entry.name);
+    if (!known) {
+      refuse(entry.place, this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
+    }
+    if (known->later) refuse(entry.place, this->path(entry.name), "not supported yet");
+  }
+}
+
+std::string Table::path(std::string_view name) const {
+  return path_.empty() ? std::string(name) : path_ + "." + std::string(name);
+}
+
+SourcePlace Table::place(std::string_view name) const {
+  const toml::node* found = node_->get(name);
+  return found ? place_of(*found) : place_;
+}
+
+const Key& Table::key(std::string_view name) const {
+  const Key* found = find_key(kind_, name);
+  if (!found) throw std::logic_error(fmt::format("no key {} in the table of keys under '{}'", name, kind_));
+  return *found;
+}
+
+const toml::node* Table::raw(std::string_view name) {
+  read_.emplace(name);
+  return node_->get(name);
+}
+
+const toml::node* Table::value(const Key& key, std::string_view name) {
+  if (const toml::node* found = raw(name)) return found;
+  if (key.fallback == "required") require(name, "");
+  if (key.fallback.empty()) return nullptr;
+  toml::table parsed = toml::parse(fmt::format("value = {}", key.fallback));
+  return &defaults_.insert_or_assign(name, std::move(*parsed.get("value"))).first->second;
+}
+
+double Table::number(std::string_view name) {
+  require(name, "");
+  return *optional_number(name);
+}
+
+std::optional<double> Table::optional_number(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found) return std::nullopt;
+  const double result = finite_number(*found, path(name), describe_type(row));
+  if (!in_range(row.type, result)) wrong(name, describe_type(row));
+  record_.set(name, toml_number(result));
+  return result;
+}
+
+int Table::integer(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  const auto* number = found ? found->as_integer() : nullptr;
+  if (!number || number->get() < INT_MIN || number->get() > INT_MAX ||
+      !in_range(row.type, static_cast<double>(number->get()))) {
+    wrong(name, describe_type(row));
+  }
+  record_.set(name, fmt::format("{}", number->get()));
+  return static_cast<int>(number->get());
+}
+
+std::string Table::text(std::string_view name) {
+  require(name, "");
+  return *optional_text(name);
+}
+
+std::optional<std::string> Table::optional_text(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found) return std::nullopt;
+  if (!found->is_string()) wrong(name, describe_type(row));
+  const std::string& result = found->as_string()->get();
+  if (row.type == KeyType::name) check_name(result, place_of(*found), path(name));
+  record_.set(name, toml_string(result));
+  return result;
+}
+
+std::string Table::choice(std::string_view name) {
+  std::string result = text(name);
+  const std::vector<std::string> choices = choices_of(key(name));
+  const std::vector<std::string> later = later_choices_of(key(name));
+  if (std::find(later.begin(), later.end(), result) != later.end()) {
+    fail(name, fmt::format("\"{}\" is not supported yet", result));
+  }
+
+  if (std::find(choices.begin(), choices.end(), result) == choices.end()) {
+    const std::string best = nearest(result, choices);
+    wrong(name, describe_type(key(name)) + (best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best)));
+  }
+  return result;
+}
+
+std::array<double, 2> Table::vector(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found) require(name, "");
+  const std::string expected = "an array of two numbers [x, y]";
+  const std::vector<double> values = number_array(*found, path(name), expected);
+  if (values.size() != 2) wrong(name, expected);
+  record_.set(name, toml_numbers(values));
+  return {values[0], values[1]};
+}
+
+std::optional<std::vector<double>> Table::numbers(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found) return std::nullopt;
+  std::vector<double> values = number_array(*found, path(name), describe_type(row));
+  record_.set(name, toml_numbers(values));
+  return values;
+}
+
+std::vector<std::string> Table::texts(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found) return {};
+  const toml::array* array = found->as_array();
+  if (!array) wrong(name, describe_type(row));
+  std::vector<std::string> result;
+  for (const toml::node& item : *array) {
+    if (!item.is_string()) {
+      refuse(place_of(item), path(name), "found " + describe(item) + ", expected a string");
+    }
+    result.push_back(item.as_string()->get());
+  }
+  record_.set(name, toml_strings(result));
+  return result;
+}
+
+Table Table::child(std::string_view name) {
+  const toml::node* found = raw(name);
+  if (found && !found->is_table()) wrong(name, describe_type(key(name)));
+  const std::string kind = kind_.empty() ? std::string(name) : kind_ + "." + std::string(name);
+  return {found ? found->as_table() : nullptr, kind, path(name), place(name)};
+}
+
+void Table::require(std::string_view name, const std::string& why) {
+  const Key& row = key(name);
+  if (has(name) || (!row.fallback.empty() && row.fallback != "required")) return;
+  refuse(place_, path(name), fmt::format("missing{}, expected {}", why, describe_type(row)));
+}
+
+void Table::wrong(std::string_view name, const std::string& expected) const {
+  const toml::node* found = node_->get(name);
+  fail(name, (found ? "found " + describe(*found) : "missing") + ", expected " + expected);
+}
+
+void Table::fail(std::string_view name, const std::string& message) const {
+  refuse(place(name), path(name), message);
+}
+
+void Table::finish(const std::string& why) const {
+  for (const Entry& entry : entries_of(*node_)) {
+    if (!read_.contains(entry.name)) refuse(entry.place, path(entry.name), why);
+  }
+}
+
+Record Table::record() const {
+  std::vector<std::string> order;
+  for (const Entry& entry : entries_of(*node_)) order.push_back(entry.name);
+  return record_.arranged(order);
+}
+
+std::vector<Table> tables_of(Table& top, std::string_view key) {
+  std::vector<Table> result;
+  const toml::node* found = top.raw(key);
+  if (!found) return result;
+  const std::string expected = fmt::format("tables under [[{}]]", key);
+  const toml::array* array = found->as_array();
+  if (!array) top.wrong(key, expected);
+  for (const toml::node& item : *array) {
+    if (!item.is_table()) {
+      refuse(place_of(item), std::string(key), "found " + describe(item) + ", expected " + expected);
+    }
+    const std::optional<std::string> name = (*item.as_table())["name"].value<std::string>();
+    const std::string label = name && !name->empty() ? *name : fmt::format("{}", result.size() + 1);
+    result.emplace_back(item.as_table(), fmt::format("{}[]", key), fmt::format("{}.{}", key, label),
+                        place_of(item));
+  }
+  return result;
+}
+
+}  // namespace signorini

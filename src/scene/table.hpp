@@ -1,0 +1,118 @@
+// table.hpp: typed reads on one TOML table; they check, fill in defaults, record, and make all messages.
+//
+//   Table contact(node, "contacts[]", "contacts.first", place);
+//   spec.gap = contact.number("gap");      // type, range and default from the key table
+//   contact.finish();                      // refuses keys that nobody asked for
+//
+// Unknown keys are refused at once, with a suggestion. A key that is known but was not read has no
+// meaning where it stands (normal_stiffness of a slider); finish() says so.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/keys.hpp"
+#include "scene/record.hpp"
+#include "scene/toml_node.hpp"
+
+namespace signorini {
+
+class Table {
+ public:
+  /// `kind` names the table in the key table, `path` in messages. An absent table is an empty one.
+  Table(const toml::table* node, std::string kind, std::string path, SourcePlace place);
+
+  [[nodiscard]] bool has(std::string_view key) const { return node_->contains(key); }
+  /// The raw value, or null. Counts as read.
+  [[nodiscard]] const toml::node* raw(std::string_view key);
+
+  // With a default or required, as the key table says:
+  [[nodiscard]] double number(std::string_view key);
+  [[nodiscard]] int integer(std::string_view key);
+  [[nodiscard]] std::string text(std::string_view key);
+  [[nodiscard]] std::string choice(std::string_view key);
+  [[nodiscard]] std::array<double, 2> vector(std::string_view key);
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key);
+  // Nothing where absent:
+  [[nodiscard]] std::optional<double> optional_number(std::string_view key);
+  [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key);
+  [[nodiscard]] std::optional<std::string> optional_text(std::string_view key);
+  /// A table below this one, kind "KIND.KEY"; empty where absent. Record it with record().
+  [[nodiscard]] Table child(std::string_view key);
+
+  /// Refuses an absent key, saying why it is needed.
+  void require(std::string_view key, const std::string& why);
+  /// "found X, expected Y" for a given key.
+  [[noreturn]] void wrong(std::string_view key, const std::string& expected) const;
+  /// A free message at the value of the key, or at the table when the key is absent.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+  /// Refuses keys that were given but not read. `why` ends the message.
+  void finish(const std::string& why = "has no meaning here") const;
+
+  [[nodiscard]] SourcePlace place() const { return place_; }
+  [[nodiscard]] SourcePlace place(std::string_view key) const;
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string path(std::string_view key) const;
+  [[nodiscard]] const toml::table& node() const { return *node_; }
+
+  void record(std::string_view key, std::string value) { record_.set(key, std::move(value)); }
+  /// What was read: the keys of the file in its order, then the defaults.
+  [[nodiscard]] Record record() const;
+
+ private:
+  const Key& key(std::string_view name) const;
+  /// The given value or that of the default; null where there is neither.
+  const toml::node* value(const Key& key, std::string_view name);
+
+  const toml::table* node_;
+  std::string kind_, path_;
+  SourcePlace place_;
+  std::set<std::string, std::less<>> read_;
+  toml::table defaults_;
+  Record record_;
+};
+
+/// The tables under [[key]] of the top level; in messages "contacts.first" by name, or "loads.1".
+[[nodiscard]] std::vector<Table> tables_of(Table& top, std::string_view key);
+
+/// A finite number at this place, or a refusal. `expected` ends the message.
+[[nodiscard]] double finite_number(const toml::node& node, const std::string& path,
+                                   const std::string& expected);
+
+/// Reads an array of finite numbers.
+[[nodiscard]] std::vector<double> number_array(const toml::node& node, const std::string& path,
+                                               const std::string& expected);
+
+/// Refuses names that could not stand in a column of a CSV file or in the path of a --set.
+void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
+
+/// Names in the order of the file, with fast search.
+class Names {
+ public:
+  Names() = default;
+  Names(std::initializer_list<std::string> names) {
+    for (const std::string& name : names) add(name);
+  }
+  /// False if it is there already.
+  bool add(const std::string& name);
+  [[nodiscard]] std::optional<std::size_t> index(const std::string& name) const;
+  [[nodiscard]] const std::vector<std::string>& list() const { return list_; }
+  [[nodiscard]] std::size_t size() const { return list_.size(); }
+
+ private:
+  std::vector<std::string> list_;
+  std::unordered_map<std::string, std::size_t> index_;
+};
+
+/// Index of a name among the known ones, or a refusal. `what`: "node".
+std::size_t check_known(const std::string& name, const Names& known, const std::string& what,
+                        const SourcePlace& place, const std::string& path);
+
+}  // namespace signorini

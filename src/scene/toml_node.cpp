@@ -1,0 +1,69 @@
+#include "scene/toml_node.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/number.hpp"
+
+namespace signorini {
+
+namespace {
+
+bool is_override(const SourcePlace& place) { return place.file.starts_with(override_prefix); }
+
+/// A piece of text that is safe and short enough for a message.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string result = "\"";
+  for (const char c : text.substr(0, longest)) {
+    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  }
+  return result + (text.size() > longest ? "...\"" : "\"");
+}
+
+}  // namespace
+
+SourcePlace place_of(const toml::source_region& region) {
+  SourcePlace place;
+  if (region.path) place.file = *region.path;
+  if (is_override(place)) return place;  // has no lines
+  place.line = static_cast<int>(region.begin.line);
+  place.column = static_cast<int>(region.begin.column);
+  return place;
+}
+
+SourcePlace place_of(const toml::node& node) { return place_of(node.source()); }
+
+std::string describe(const toml::node& node) {
+  if (const auto* value = node.as_string()) return "the string " + quoted(value->get());
+  if (const auto* value = node.as_integer()) return fmt::format("the number {}", value->get());
+  if (const auto* value = node.as_floating_point()) return "the number " + shortest(value->get());
+  if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";
+  if (const auto* array = node.as_array()) {
+    return "an array of " + count_of(array->size(), "value");
+  }
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+void refuse(const SourcePlace& place, const std::string& key, const std::string& message) {
+  if (is_override(place)) throw UsageError(place.file + ": " + key + ": " + message);
+  throw SceneError(place, key, message);
+}
+
+std::vector<Entry> entries_of(const toml::table& table) {
+  std::vector<Entry> entries;
+  for (const auto& [key, node] : table) {
+    entries.push_back({std::string(key.str()), &node, place_of(key.source())});
+  }
+  const auto position = [](const Entry& entry) {
+    return std::tuple(is_override(entry.place), entry.place.line, entry.place.column);
+  };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const Entry& a, const Entry& b) { return position(a) < position(b); });
+  return entries;
+}
+
+}  // namespace signorini

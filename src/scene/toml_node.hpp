@@ -1,0 +1,38 @@
+// toml_node.hpp: what a TOML node is and where it stands, for messages.
+//
+//   refuse(place_of(node), "run.rtol", "found " + describe(node) + ", expected a number");
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+/// Values that come from `--set` carry this prefix and their text as the name of their file.
+inline constexpr std::string_view override_prefix = "--set ";
+
+[[nodiscard]] SourcePlace place_of(const toml::source_region& region);
+[[nodiscard]] SourcePlace place_of(const toml::node& node);
+
+/// "the number -0.3", "the string \"abc\"", "an array of 3 values".
+[[nodiscard]] std::string describe(const toml::node& node);
+
+/// A SceneError, or a UsageError where the place is a `--set`.
+[[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& message);
+
+/// An entry of a table.
+struct Entry {
+  std::string name;
+  const toml::node* node = nullptr;
+  SourcePlace place;  ///< of the key
+};
+
+/// The entries in the order of the file (toml++ sorts by name); those of `--set` follow.
+[[nodiscard]] std::vector<Entry> entries_of(const toml::table& table);
+
+}  // namespace signorini

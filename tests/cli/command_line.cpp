@@ -1,0 +1,85 @@
+#include <doctest/doctest.h>
+
+#include "program.hpp"
+
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::Shell;
+
+TEST_SUITE_BEGIN("cli/command_line");
+
+TEST_CASE("cli: --help and --version are data") {
+  const Shell shell;
+  const Ending help = shell.run({"--help"});
+  CHECK(help.code == 0);
+  CHECK(help.out.find("run") != std::string::npos);
+  CHECK(help.err.empty());
+  const Ending version = shell.run({"--version"});
+  CHECK(version.code == 0);
+  CHECK(version.out.rfind("signorini ", 0) == 0);
+  CHECK(version.err.empty());
+  CHECK(shell.run({"run", "--help"}).code == 0);
+}
+
+TEST_CASE("cli: a wrong command line is 2, said on stderr, and leaves nothing") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"walk"},
+      {"run"},
+      {"run", "belt.toml", "--fast"},
+      {"run", "belt.toml", "extra"},
+      {"run", "belt.toml", "--set", "run.rtol"},
+      {"run", "belt.toml", "--set", "=3"},
+      {"run", "belt.toml", "--set", "run.rtoll=3"},
+      {"run", "belt.toml", "--set", "contacts.nobody.friction=0.1"},
+      {"run", "belt.toml", "-o", ""},
+      {"plot"},
+  };
+  for (const auto& arguments : wrong) {
+    std::string line;
+    for (const auto& a : arguments) line += a + " ";
+    CAPTURE(line);
+    const Ending ending = shell.run(arguments);
+    CHECK(ending.code == 2);
+    CHECK(ending.out.empty());
+    CHECK(ending.err.rfind("error: ", 0) == 0);
+    CHECK(shell.list() == std::vector<std::string>{"belt.toml"});
+  }
+}
+
+TEST_CASE("cli: a wrong scene is 3, with its place, and leaves nothing") {
+  const Shell shell;
+  shell.write("wrong.toml", belt(10) + "frction = 0.3\n");
+  const Ending ending = shell.run({"run", "wrong.toml"});
+  CHECK(ending.code == 3);
+  CHECK(ending.out.empty());
+  CHECK(ending.err.rfind("error: wrong.toml:", 0) == 0);
+  CHECK(ending.err.find("frction") != std::string::npos);
+  CHECK(shell.list() == std::vector<std::string>{"wrong.toml"});
+}
+
+TEST_CASE("cli: what cannot be read or written is 6") {
+  const Shell shell;
+  CHECK(shell.run({"run", "missing.toml"}).code == 6);
+  CHECK(shell.run({"plot", "missing"}).code == 6);
+  CHECK(shell.list().empty());
+  shell.write("belt.toml", belt(1));
+  shell.write("taken", "a file");
+  const Ending ending = shell.run({"run", "belt.toml", "-o", "taken"});
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("taken") != std::string::npos);
+  CHECK(shell.read("taken") == "a file");
+}
+
+TEST_CASE("cli: a full disk behind stdout is 6") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(1));
+  const Ending ending = shell.wait(shell.start({"run", "belt.toml", "--no-plots"}, "/dev/full"));
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("No space left") != std::string::npos);
+}
+
+TEST_SUITE_END();

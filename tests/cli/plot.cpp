@@ -1,0 +1,41 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "program.hpp"
+
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::Shell;
+
+TEST_SUITE_BEGIN("cli/plot");
+
+TEST_CASE("cli plot: draws again what was removed") {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  const Ending ending = shell.run({"plot", "belt-run"});
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  for (const char* name : {"displacement", "contact-belt", "states", "energy"}) {
+    for (const char* type : {".png", ".svg"}) {
+      const std::string picture = std::string("belt-run/plots/") + name + type;
+      CAPTURE(picture);
+      CHECK(ending.out.find(picture + "\n") != std::string::npos);
+      CHECK(shell.read(picture).size() > 2000);
+    }
+  }
+}
+
+TEST_CASE("cli plot: a folder that holds no run is refused") {
+  const Shell shell;
+  std::filesystem::create_directory(shell / "empty");
+  shell.write("summary.json", "{ not json");
+  CHECK(shell.run({"plot", "empty"}).code == 6);
+  const Ending ending = shell.run({"plot", "."});
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("is not the summary of a run") != std::string::npos);
+}
+
+TEST_SUITE_END();

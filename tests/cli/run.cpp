@@ -1,0 +1,116 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::Shell;
+
+namespace {
+
+bool exists(const Shell& shell, const std::string& name) { return std::filesystem::exists(shell / name); }
+
+long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cli/run");
+
+TEST_CASE("cli run: tables on stdout, nothing on stderr, the whole directory") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const Ending ending = shell.run({"run", "belt.toml"});
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  CHECK(ending.out.find("Block on a moving belt") == 0);
+  CHECK(ending.out.find("slip") != std::string::npos);
+  CHECK(ending.out.find("belt-run") != std::string::npos);
+  CHECK(ending.out.find('\x1b') == std::string::npos);
+  for (const char* name : {"events.csv", "history.csv", "contacts.csv", "energy.csv", "summary.json",
+                           "run.toml", "plots/displacement.gp", "plots/contact-belt.gp", "plots/energy.gp"}) {
+    CAPTURE(name);
+    CHECK(exists(shell, std::string("belt-run/") + name));
+  }
+  CHECK(lines(shell.read("belt-run/history.csv")) == 202);
+  CHECK(shell.read("belt-run/history.csv").rfind("t,block.ux,block.vx\n0,0,0\n", 0) == 0);
+}
+
+TEST_CASE("cli run: run.toml gives the same bytes of events.csv") {
+  const Shell shell;
+  shell.write("belt.toml", belt(30));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots", "--set", "contacts.belt.friction=0.9"}).code == 0);
+  REQUIRE(shell.run({"run", "belt-run/run.toml", "-o", "again", "--no-plots"}).code == 0);
+  CHECK(lines(shell.read("again/events.csv")) > 1);
+  CHECK(shell.read("again/events.csv") == shell.read("belt-run/events.csv"));
+  CHECK(shell.read("again/run.toml") == shell.read("belt-run/run.toml"));
+}
+
+TEST_CASE("cli run: --json prints summary.json, --quiet nothing") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending as_json = shell.run({"run", "belt.toml", "--json", "--no-plots"});
+  CHECK(as_json.code == 0);
+  CHECK(as_json.out == shell.read("belt-run/summary.json"));
+  CHECK(json::parse(as_json.out)["outcome"]["kind"] == "done");
+  CHECK_FALSE(exists(shell, "belt-run/plots"));
+  const Ending quiet = shell.run({"run", "belt.toml", "--quiet", "--force", "--no-plots"});
+  CHECK(quiet.code == 0);
+  CHECK(quiet.out.empty());
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("cli run: an earlier run is kept unless forced") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  const std::string before = shell.read("belt-run/history.csv");
+  const Ending refused = shell.run({"run", "belt.toml", "--set", "run.t_end=2"});
+  CHECK(refused.code == 6);
+  CHECK(refused.out.empty());
+  CHECK(refused.err.find("--force") != std::string::npos);
+  CHECK(shell.read("belt-run/history.csv") == before);
+  CHECK(shell.run({"run", "belt.toml", "--set", "run.t_end=2", "--force", "--no-plots"}).code == 0);
+  CHECK(lines(shell.read("belt-run/history.csv")) == 22);
+}
+
+TEST_CASE("cli run: an interrupt keeps what was computed, says so, and ends with 130") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5e6));
+  const pid_t child = shell.start({"run", "belt.toml"});
+  for (int i = 0; i < 1000 && lines(shell.read("belt-run/events.csv")) < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(child, SIGINT);
+  const Ending ending = shell.wait(child);
+  CHECK(ending.code == 130);
+  CHECK(ending.err.rfind("error: interrupted at t = ", 0) == 0);
+  CHECK(ending.err.find("kept in belt-run") != std::string::npos);
+  const json summary = json::parse(shell.read("belt-run/summary.json"));
+  CHECK(summary["outcome"]["kind"] == "interrupted");
+  CHECK(summary["outcome"]["exit_code"] == 130);
+  CHECK(summary["outcome"]["t"].get<double>() > 0.0);
+  CHECK(shell.read("belt-run/history.csv").back() == '\n');
+}
+
+TEST_CASE("cli run: a killed run leaves whole rows") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5e6));
+  const pid_t child = shell.start({"run", "belt.toml"});
+  for (int i = 0; i < 1000 && lines(shell.read("belt-run/events.csv")) < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(child, SIGKILL);
+  CHECK(shell.wait(child).code == 128 + SIGKILL);
+  for (const char* name : {"events.csv", "history.csv", "contacts.csv", "energy.csv"}) {
+    CHECK(shell.read(std::string("belt-run/") + name).back() == '\n');
+  }
+  CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] == "running");
+  CHECK(exists(shell, "belt-run/run.toml"));
+}
+
+TEST_SUITE_END();

@@ -44,14 +44,14 @@ struct Combination {
 struct Contact {
   std::string name;
   Law law = Law::compliant;
-  Combination normal;                   ///< g = gap + normal . u; empty for sliders
-  Combination tangent;                  ///< ut = tangent . u - surface_motion
+  Combination normal;   ///< g = gap + normal . u; empty for sliders
+  Combination tangent;  ///< ut = tangent . u - surface_motion
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
   double static_friction = 0.0, kinetic_friction = 0.0;
-  History normal_force;                 ///< slider: compression >= 0
-  History surface_motion;               ///< integral of the surface velocity from t = 0
+  History normal_force;    ///< slider: compression >= 0
+  History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
   [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
@@ -74,10 +74,10 @@ struct ContactState {
 
 /// One contact at one instant (or a time derivative of it).
 struct ContactMotion {
-  double N = 0.0, T = 0.0;      ///< force
-  double gap = 0.0, ut = 0.0;   ///< length; ut relative to the surface
-  double vn = 0.0, vt = 0.0;    ///< g', ut'
-  double an = 0.0, at = 0.0;    ///< g'', ut''
+  double N = 0.0, T = 0.0;                     ///< force
+  double gap = 0.0, ut = 0.0;                  ///< length; ut relative to the surface
+  double vn = 0.0, vt = 0.0;                   ///< g', ut'
+  double an = 0.0, at = 0.0;                   ///< g'', ut''
   double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
 };
 

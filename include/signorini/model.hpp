@@ -36,7 +36,7 @@ struct Column {
 struct Load {
   std::string name;  ///< "gravity", "load 1", ...
   Combination direction;
-  History history;   ///< amplitude included
+  History history;         ///< amplitude included
   bool is_static = false;  ///< counts for initial = "static": gravity and constants that hold since ever
 };
 
@@ -47,8 +47,8 @@ struct Scales {
 
 /// What the static start found (initial = "static").
 struct StaticStart {
-  std::vector<double> reactions;              ///< -N a contact, >= 0
-  std::vector<std::string> free_motions;      ///< "horizontal motion held at contact 'first'"
+  std::vector<double> reactions;          ///< -N a contact, >= 0
+  std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
 };
 
 /// A drawn piece of the structure: dofs (ux, uy, rz) at both ends, -1 where fixed or absent.
@@ -66,13 +66,13 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Column> columns;
   std::vector<DrawnElement> drawing;
-  Vector u0, v0;        ///< initial state (static equilibrium where asked)
+  Vector u0, v0;  ///< initial state (static equilibrium where asked)
   bool static_start = false;
   StaticStart statics;
   Scales scales;
-  double alpha = 0.0, beta = 0.0;   ///< Rayleigh factors in force
-  double omega1 = 0.0;              ///< lowest circular frequency, initially closed contacts held; 0: none
-  double omega_max = 0.0;           ///< highest circular frequency, all contacts held by their springs
+  double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in force
+  double omega1 = 0.0;             ///< lowest circular frequency, initially closed contacts held; 0: none
+  double omega_max = 0.0;          ///< highest circular frequency, all contacts held by their springs
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
 };

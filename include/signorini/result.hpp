@@ -42,9 +42,7 @@ struct Energy {
   double damping = 0.0, friction = 0.0, impact = 0.0;  ///< dissipated
   double loads = 0.0, surface = 0.0;                   ///< work done on the structure
   [[nodiscard]] double stored() const { return kinetic + elastic + contact; }
-  [[nodiscard]] double balance() const {
-    return stored() + damping + friction + impact - loads - surface;
-  }
+  [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
 /// The state at an output time. u, v of length n.
@@ -68,8 +66,8 @@ class Recorder {
 /// How a run ended. Exit code: done 0, stopped 4, interrupted 130.
 struct Outcome {
   enum class Kind { done, stopped, interrupted } kind = Kind::done;
-  double t = 0.0;               ///< reached
-  std::string reason;           ///< one sentence with time, contact, guard; empty when done
+  double t = 0.0;      ///< reached
+  std::string reason;  ///< one sentence with time, contact, guard; empty when done
 };
 
 /// A greatest violation, where it happened, and the scale that it is relative to.
@@ -89,15 +87,15 @@ struct Audit {
   Extreme penetration;  ///< rigid contacts, length
   Extreme energy;       ///< |balance(t) - balance(0)|
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
-  double work_of_loads = 0.0;               ///< greatest |W_loads(t)|
-  std::vector<double> friction_work;        ///< dissipated by each contact
+  double work_of_loads = 0.0;         ///< greatest |W_loads(t)|
+  std::vector<double> friction_work;  ///< dissipated by each contact
   Energy initial, final;
 };
 
 struct Counters {
   long steps = 0, residuals = 0, jacobians = 0, factorisations = 0, refactorisations = 0, solves = 0;
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
-  long rolled_back = 0;   ///< events that lay inside a step and were found by the polynomial check
+  long rolled_back = 0;  ///< events that lay inside a step and were found by the polynomial check
   long time_events = 0;
   std::map<int, long> steps_by_order;
 };
@@ -123,9 +121,9 @@ struct Report {
   Settings settings;
   Counters counters;
   Audit audit;
-  std::vector<Peak> peaks;                   ///< one a contact
+  std::vector<Peak> peaks;  ///< one a contact
   std::map<std::string, long> events_by_type;
-  double wall_time = 0.0;                    ///< s, integration without reading and assembling
+  double wall_time = 0.0;  ///< s, integration without reading and assembling
 };
 
 /// Keeps all rows in memory.

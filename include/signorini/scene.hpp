@@ -23,9 +23,7 @@ struct Units {
   std::string force, mass, length, time;
 };
 
-enum class HistoryType {
-  constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table
-};
+enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
 /// f(t) = offset + amplitude * shape(t). A load's amplitude stands outside its history, so for loads
 /// offset is 0 and amplitude 1 here.
@@ -35,8 +33,8 @@ struct HistorySpec {
   double amplitude = 1.0;
   double start = 0.0;
   double end = std::numeric_limits<double>::infinity();
-  double omega = 0.0;  ///< harmonic: rad per time
-  double phase = 0.0;  ///< harmonic: rad
+  double omega = 0.0;                 ///< harmonic: rad per time
+  double phase = 0.0;                 ///< harmonic: rad
   std::vector<double> coefficients;   ///< polynomial: ascending powers of (t - start)
   std::vector<double> times, values;  ///< table
   bool steffen = false;               ///< table: interpolation = "steffen"
@@ -64,11 +62,11 @@ struct RunSpec {
   Engine engine = Engine::ida;
   double rtol = 1e-8;
   Tolerances atol;
-  std::optional<double> output_dt;           ///< grid 0, dt, 2 dt, ..., t_end
+  std::optional<double> output_dt;  ///< grid 0, dt, 2 dt, ..., t_end
   std::optional<std::vector<double>> output_times;
-  std::optional<int> max_order;              ///< ida: 1 to 5; absent: "auto"
-  int max_events_at_once = 100;              ///< rounds of state changes at one instant before the run stops
-  std::optional<double> dt;                  ///< newmark, friction-iteration
+  std::optional<int> max_order;  ///< ida: 1 to 5; absent: "auto"
+  int max_events_at_once = 100;  ///< rounds of state changes at one instant before the run stops
+  std::optional<double> dt;      ///< newmark, friction-iteration
   SourcePlace place;
 
   /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
@@ -155,8 +153,8 @@ struct ContactSpec {
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
   FrictionSpec friction;
-  HistorySpec normal_force;          ///< slider: compression, positive
-  HistorySpec surface_velocity;      ///< slip rate = t . v - surface_velocity
+  HistorySpec normal_force;      ///< slider: compression, positive
+  HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
   SourcePlace place;
 };

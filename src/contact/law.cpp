@@ -4,30 +4,39 @@ namespace signorini {
 
 const char* to_string(State state) {
   switch (state) {
-    case State::open: return "open";
-    case State::closed: return "closed";
-    case State::stick: return "stick";
-    case State::slip_plus: return "slip+";
-    case State::slip_minus: return "slip-";
+    case State::open:
+      return "open";
+    case State::closed:
+      return "closed";
+    case State::stick:
+      return "stick";
+    case State::slip_plus:
+      return "slip+";
+    case State::slip_minus:
+      return "slip-";
   }
   return "?";
 }
 
 const char* to_string(Guard guard) {
   switch (guard) {
-    case Guard::none: return "none";
-    case Guard::closing: return "gap";
-    case Guard::separation: return "compression";
-    case Guard::slip_plus: return "friction limit (+)";
-    case Guard::slip_minus: return "friction limit (-)";
-    case Guard::sliding: return "slip rate";
+    case Guard::none:
+      return "none";
+    case Guard::closing:
+      return "gap";
+    case Guard::separation:
+      return "compression";
+    case Guard::slip_plus:
+      return "friction limit (+)";
+    case Guard::slip_minus:
+      return "friction limit (-)";
+    case Guard::sliding:
+      return "slip rate";
   }
   return "?";
 }
 
-int slip_sign(State state) {
-  return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0;
-}
+int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
 
 Form slip_rate(const Contact& contact, int s) {
   Form form;
@@ -52,7 +61,8 @@ Rows rows(const Contact& contact, const ContactState& state) {
 
   switch (state.state) {
     case State::open:
-    case State::closed: break;
+    case State::closed:
+      break;
     case State::stick:
       if (contact.tangential_stiffness) {
         result.tangent.ut = -*contact.tangential_stiffness;
@@ -63,7 +73,9 @@ Rows rows(const Contact& contact, const ContactState& state) {
       }
       break;
     case State::slip_plus:
-    case State::slip_minus: result.tangent.N = slip_sign(state.state) * contact.kinetic_friction; break;
+    case State::slip_minus:
+      result.tangent.N = slip_sign(state.state) * contact.kinetic_friction;
+      break;
   }
   return result;
 }

@@ -29,9 +29,12 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
 ContactState next_state(const Contact& contact, const ContactState& now, Guard failed, const MotionJet& jet) {
   const ContactMotion& m = jet.motion[0];
   switch (failed) {
-    case Guard::none: return now;
-    case Guard::separation: return {State::open, 0.0};
-    case Guard::closing: return close(contact, jet);
+    case Guard::none:
+      return now;
+    case Guard::separation:
+      return {State::open, 0.0};
+    case Guard::closing:
+      return close(contact, jet);
     case Guard::slip_plus:
     case Guard::slip_minus: {
       const double s = failed == Guard::slip_plus ? 1.0 : -1.0;

@@ -123,7 +123,8 @@ Energy Auditor::energy(double t, const Point& point) {
     if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
   }
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
-  const double exchanged = std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});
+  const double exchanged =
+      std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});
   audit_.energy_scale = std::max(begun_ ? audit_.energy_scale : 0.0, exchanged);
   if (begun_) raise(audit_.energy, std::abs(e.balance() - audit_.initial.balance()), t);
   return e;
@@ -151,7 +152,8 @@ void Auditor::finish(Report& report, const Energy& last) const {
   report.audit.length_scale = model_.scales.displacement;
   report.audit.force_scale = model_.scales.force;
   report.audit.power_scale = model_.scales.force * model_.scales.velocity;
-  if (report.audit.energy_scale <= 0.0) report.audit.energy_scale = model_.scales.force * model_.scales.displacement;
+  if (report.audit.energy_scale <= 0.0)
+    report.audit.energy_scale = model_.scales.force * model_.scales.displacement;
   report.peaks = peaks_;
 }
 

@@ -38,14 +38,15 @@ class Auditor {
   void finish(Report& report, const Energy& last) const;
 
  private:
-  [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t, const Point& point) const {
+  [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t,
+                                     const Point& point) const {
     return motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
   const Model& model_;
   const Structure& structure_;
   Audit audit_;
-  Energy work_;                 // dissipations and works so far
+  Energy work_;  // dissipations and works so far
   std::vector<double> friction_;
   std::vector<ContactMotion> at_start_;
   std::vector<Peak> peaks_;

@@ -46,8 +46,8 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
     const Contact& contact = model.contacts[c];
     ContactState s;
     const double ut = contact.tangent.dot(u) - forcing.surface(c, t, 0);
-    const bool carries = contact.law == Law::slider ? !forcing.lifted(c)
-                                                    : contact.gap + contact.normal.dot(u) < 0.0;
+    const bool carries =
+        contact.law == Law::slider ? !forcing.lifted(c) : contact.gap + contact.normal.dot(u) < 0.0;
     if (carries) {
       s.state = at_rest(contact);
       if (contact.tangential_stiffness) {
@@ -72,9 +72,9 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
     Failure failure{c, Guard::none};
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
       if (guard.kind == Guard::none) continue;
-      const bool fired = first && std::any_of(instant.fired.begin(), instant.fired.end(), [&](const Fired& f) {
-        return f.contact == c && f.guard == guard.kind;
-      });
+      const bool fired =
+          first && std::any_of(instant.fired.begin(), instant.fired.end(),
+                               [&](const Fired& f) { return f.contact == c && f.guard == guard.kind; });
       // What the integrator located is zero, also where the last rounding leaves it positive.
       const bool is_zero = fired && guard.form.value(jets[c].motion[0]) > 0.0;
       if (sign_after(guard.form, jets[c], instant.resolution, is_zero ? 1 : 0) >= 0) continue;
@@ -146,7 +146,8 @@ bool Decider::enumerate(const Instant& instant, const Forcing& after, Decision& 
                         std::vector<MotionJet>& jets) const {
   std::vector<std::size_t> free;
   for (std::size_t c = 0; c < decision.mode.size(); ++c)
-    if (decision.visited[c] && model_.contacts[c].law == Law::slider && !model_.contacts[c].tangential_stiffness)
+    if (decision.visited[c] && model_.contacts[c].law == Law::slider &&
+        !model_.contacts[c].tangential_stiffness)
       free.push_back(c);
   if (free.empty() || free.size() > most_enumerated) return false;
   static constexpr State choices[] = {State::stick, State::slip_plus, State::slip_minus};
@@ -159,7 +160,8 @@ bool Decider::enumerate(const Instant& instant, const Forcing& after, Decision& 
       mode[c].state = choices[rest % 3];
       rest /= 3;
     }
-    if (evaluate(instant, after, mode, decision, jets) && failures(jets, mode, instant, false).empty()) return true;
+    if (evaluate(instant, after, mode, decision, jets) && failures(jets, mode, instant, false).empty())
+      return true;
   }
   return false;
 }
@@ -181,7 +183,8 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
 
   // The motion just before, in the old mode under the old forcing.
   if (!evaluate(instant, before, instant.mode, decision, jets)) {
-    decision.reason = "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    decision.reason =
+        "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
     return decision;
   }
   std::vector<ContactMotion> noise;
@@ -195,7 +198,8 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
   std::set<std::vector<State>> seen{states(mode)};
   bool first = true;
   if (instant.jump && !evaluate(instant, after, mode, decision, jets)) {
-    decision.reason = "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    decision.reason =
+        "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
     return decision;
   }
   for (;;) {
@@ -203,8 +207,9 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     first = false;
     if (failed.empty()) break;
     if (++decision.rounds > max_rounds_) {
-      decision.reason = fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
-                                    max_rounds_, describe(failed));
+      decision.reason =
+          fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
+                      max_rounds_, describe(failed));
       return decision;
     }
     for (const Failure& f : failed) {
@@ -219,7 +224,8 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
         mode = decision.mode;
         break;
       }
-      decision.reason = fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
+      decision.reason =
+          fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
       return decision;
     }
     solved = evaluate(instant, after, mode, decision, jets);

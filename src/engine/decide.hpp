@@ -24,22 +24,22 @@ struct Instant {
   double t = 0.0;
   double resolution = 0.0;  ///< events closer than this in time are one instant
   Vector u, v;
-  Mode mode;                ///< just before
+  Mode mode;  ///< just before
   std::vector<Fired> fired;
-  bool start = false;       ///< t = 0: states are guesses, velocities of stuck contacts are not trusted
-  bool jump = false;        ///< the forcing is not smooth here
+  bool start = false;  ///< t = 0: states are guesses, velocities of stuck contacts are not trusted
+  bool jump = false;   ///< the forcing is not smooth here
 };
 
 /// One guard in force after the decision.
 struct GuardStart {
   Guard kind = Guard::none;
   Form form;
-  bool at_zero = false;     ///< starts at zero and rises
+  bool at_zero = false;  ///< starts at zero and rises
 };
 
 struct Decision {
   bool consistent = false;
-  std::string reason;       ///< why not: contacts, guards
+  std::string reason;  ///< why not: contacts, guards
   Mode mode;
   Vector u, v;
   Jet jet;

@@ -31,7 +31,7 @@ class Forcing {
 
  private:
   const Model* model_;
-  Vector constant_;                                   // the loads that do not change
+  Vector constant_;                                            // the loads that do not change
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
   std::vector<bool> lifted_;

@@ -6,8 +6,7 @@
 
 namespace signorini {
 
-Layout::Layout(const Model& model)
-    : dofs(model.size()), contacts(static_cast<int>(model.contacts.size())) {
+Layout::Layout(const Model& model) : dofs(model.size()), contacts(static_cast<int>(model.contacts.size())) {
   for (const Dof& dof : model.dofs) velocity.push_back(dof.massless ? -1 : dofs + massive++);
 }
 

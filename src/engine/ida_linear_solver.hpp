@@ -21,7 +21,9 @@ struct Layout {
 
   int dofs = 0, massive = 0, contacts = 0;
   std::vector<int> velocity;  ///< index of v_i, or -1 where u_i' is the velocity
-  [[nodiscard]] int force(std::size_t contact) const { return dofs + massive + 2 * static_cast<int>(contact); }
+  [[nodiscard]] int force(std::size_t contact) const {
+    return dofs + massive + 2 * static_cast<int>(contact);
+  }
   [[nodiscard]] int size() const { return dofs + massive + 2 * contacts; }
 };
 

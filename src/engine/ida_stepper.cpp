@@ -9,12 +9,13 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/fast_vector.hpp"
 #include "engine/ida_problem.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr int most_retries = 4;        // restarts with a tenth of the first step before giving up
+constexpr int most_retries = 4;          // restarts with a tenth of the first step before giving up
 constexpr double first_step_part = 0.4;  // of the step whose local error would just be accepted
 
 void check(int flag, const char* what) {
@@ -28,7 +29,7 @@ struct IdaStepper::Memory {
       : problem(model, structure, settings) {
     SUNContext_Create(nullptr, &context);
     const auto size = static_cast<sunindextype>(problem.layout().size());
-    for (N_Vector* v : {&y, &yp, &work}) *v = N_VNew_Serial(size, context);
+    for (N_Vector* v : {&y, &yp, &work}) *v = make_vector(size, context);
     N_VConst(0.0, y);
     N_VConst(0.0, yp);
     ida = IDACreate(context);
@@ -111,7 +112,8 @@ struct IdaStepper::Memory {
       factorial *= static_cast<double>(order);
       problem.fill(jet, order, NV_DATA_S(yp));
       const double norm = N_VWrmsNorm(yp, work);
-      if (norm > 0.0) h = std::min(h, first_step_part * std::pow(factorial / norm, 1.0 / static_cast<double>(order)));
+      if (norm > 0.0)
+        h = std::min(h, first_step_part * std::pow(factorial / norm, 1.0 / static_cast<double>(order)));
     }
     return h;
   }
@@ -153,7 +155,7 @@ struct IdaStepper::Memory {
   double held_time = 0.0;     // time of what y and yp hold
   std::vector<int> found;
   long guard_evaluations = 0;
-  Counters counted;           // what IDA has counted since its last restart
+  Counters counted;  // what IDA has counted since its last restart
 };
 
 IdaStepper::IdaStepper(const Model& model, const Structure& structure, const Settings& settings)

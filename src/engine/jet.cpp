@@ -131,6 +131,35 @@ ContactMotion Expander::motion(const Forcing& forcing, const Jet& jet, std::size
   return m;
 }
 
+ContactMotion Expander::magnitude(const Forcing& forcing, const Jet& jet, std::size_t c,
+                                  std::size_t k) const {
+  const Contact& contact = model_.contacts[c];
+  const int order = static_cast<int>(k);
+  const auto sum = [](const Combination& form, const Vector& x) {
+    double total = 0.0;
+    for (const auto& [dof, factor] : form.terms) total += std::abs(factor * x[dof]);
+    return total;
+  };
+  ContactMotion m;
+  m.gap = sum(contact.normal, jet.u[k]) + (k == 0 ? std::abs(contact.gap) : 0.0);
+  m.ut = sum(contact.tangent, jet.u[k]) + std::abs(forcing.surface(c, jet.t, order));
+  m.vn = sum(contact.normal, jet.u[k + 1]);
+  m.vt = sum(contact.tangent, jet.u[k + 1]) + std::abs(forcing.surface(c, jet.t, order + 1));
+  m.an = sum(contact.normal, jet.u[k + 2]);
+  m.at = sum(contact.tangent, jet.u[k + 2]) + std::abs(forcing.surface(c, jet.t, order + 2));
+  m.pressing = std::abs(forcing.pressing(c, jet.t, order));
+  m.pressing_rate = std::abs(forcing.pressing(c, jet.t, order + 1));
+  const auto force = [&](const Form& row, double value) {
+    return row.magnitude(m) + (k == 0 ? std::abs(row.constant) : 0.0) + std::abs(value);
+  };
+  // Rows are read for N and T before these are filled in, so each sees the terms of its own law.
+  const double N = force(rows_[c].normal, jet.forces[k][static_cast<Eigen::Index>(2 * c)]);
+  const double T = force(rows_[c].tangent, jet.forces[k][static_cast<Eigen::Index>(2 * c) + 1]);
+  m.N = N;
+  m.T = T + std::abs(rows_[c].tangent.N) * N;
+  return m;
+}
+
 std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet) const {
   const Disturbance disturbance;
   const Jet other = expand(forcing, jet.t, jet.u[0], jet.u[1], levels_, &disturbance);
@@ -138,20 +167,22 @@ std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet)
   for (std::size_t c = 0; c < result.size(); ++c)
     for (std::size_t k = 0; k <= static_cast<std::size_t>(orders); ++k) {
       const ContactMotion a = motion(forcing, jet, c, k), b = motion(forcing, other, c, k);
-      const auto noise = [](double x, double y, double floor) {
-        return noise_factor * (std::abs(x - y) + epsilon * std::abs(floor));
+      // One sample of rounding can be small by chance, so the terms of each sum count as well.
+      const ContactMotion terms = magnitude(forcing, jet, c, k);
+      const auto noise = [](double x, double y, double size) {
+        return noise_factor * (std::abs(x - y) + epsilon * size);
       };
       ContactMotion d;
-      d.N = noise(a.N, b.N, a.N);
-      d.T = noise(a.T, b.T, a.T);
-      d.gap = noise(a.gap, b.gap, k == 0 ? model_.contacts[c].gap : a.gap);
-      d.ut = noise(a.ut, b.ut, forcing.surface(c, jet.t, static_cast<int>(k)));
-      d.vn = noise(a.vn, b.vn, a.vn);
-      d.vt = noise(a.vt, b.vt, forcing.surface(c, jet.t, static_cast<int>(k) + 1));
-      d.an = noise(a.an, b.an, a.an);
-      d.at = noise(a.at, b.at, forcing.surface(c, jet.t, static_cast<int>(k) + 2));
-      d.pressing = noise_factor * epsilon * std::abs(a.pressing);
-      d.pressing_rate = noise_factor * epsilon * std::abs(a.pressing_rate);
+      d.N = noise(a.N, b.N, terms.N);
+      d.T = noise(a.T, b.T, terms.T);
+      d.gap = noise(a.gap, b.gap, terms.gap);
+      d.ut = noise(a.ut, b.ut, terms.ut);
+      d.vn = noise(a.vn, b.vn, terms.vn);
+      d.vt = noise(a.vt, b.vt, terms.vt);
+      d.an = noise(a.an, b.an, terms.an);
+      d.at = noise(a.at, b.at, terms.at);
+      d.pressing = noise_factor * epsilon * terms.pressing;
+      d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
       result[c].motion.push_back(a);
       result[c].noise.push_back(d);
     }

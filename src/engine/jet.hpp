@@ -53,6 +53,9 @@ class Expander {
                            const Disturbance* disturbance) const;
   [[nodiscard]] ContactMotion motion(const Forcing& forcing, const Jet& jet, std::size_t contact,
                                      std::size_t order) const;
+  /// The same entries with the magnitudes of the terms that are summed in them.
+  [[nodiscard]] ContactMotion magnitude(const Forcing& forcing, const Jet& jet, std::size_t contact,
+                                        std::size_t order) const;
 
   const Model& model_;
   const Structure& structure_;

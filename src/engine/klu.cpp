@@ -63,15 +63,14 @@ bool Klu::factor(const std::vector<double>& values) {
 bool Klu::refactor(const std::vector<double>& values) {
   if (h_->numeric == nullptr) return factor(values);
   ++refactorisations;
-  if (klu_l_refactor(raw(column_start_), raw(row_), raw(values), h_->symbolic, h_->numeric, &h_->common) == 0 ||
+  if (klu_l_refactor(raw(column_start_), raw(row_), raw(values), h_->symbolic, h_->numeric, &h_->common) ==
+          0 ||
       h_->common.status == KLU_SINGULAR)
     return factor(values);
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   return h_->common.rcond >= kept_quality * fresh_rcond_ || factor(values);
 }
 
-void Klu::solve(double* b) {
-  klu_l_solve(h_->symbolic, h_->numeric, h_->symbolic->n, 1, b, &h_->common);
-}
+void Klu::solve(double* b) { klu_l_solve(h_->symbolic, h_->numeric, h_->symbolic->n, 1, b, &h_->common); }
 
 }  // namespace signorini

@@ -9,7 +9,8 @@ namespace {
 // about a twelfth of the shortest period whatever the tolerance, order 2 is free of that bound but needs
 // more steps for accuracy; the two cross between these tolerances.
 constexpr double loose = 5e-4;
-constexpr double many_modes = 50.0;  // omega_max / omega1 above which the high modes are not the scene's subject
+constexpr double many_modes =
+    50.0;  // omega_max / omega1 above which the high modes are not the scene's subject
 
 }  // namespace
 
@@ -27,8 +28,9 @@ void choose_order(const Model& model, const RunSpec& run, Settings& settings) {
                     model.omega_max / model.omega1);
   } else {
     settings.max_order = 5;
-    settings.max_order_reason = stiff ? "auto: the tolerance resolves the high modes, orders 3 and 4 pass quickly"
-                                      : "auto: few modes, all resolved";
+    settings.max_order_reason =
+        stiff ? "auto: the tolerance resolves the high modes, orders 3 and 4 pass quickly"
+              : "auto: few modes, all resolved";
   }
 }
 

@@ -85,8 +85,7 @@ class Run {
     report_.counters.rolled_back = rolled_back_;
     report_.counters.time_events = time_events_;
     auditor_.finish(report_, last_energy_);
-    report_.wall_time =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return report_;
   }
 
@@ -173,7 +172,8 @@ class Run {
   std::optional<Located> first_event(const Step& step) {
     const double h = step.end - step.begin;
     std::vector<Located> candidates;
-    for (const Fall& fall : watch_.check(history_, 1.0)) candidates.push_back({fall.slot, step.begin + fall.x * h});
+    for (const Fall& fall : watch_.check(history_, 1.0))
+      candidates.push_back({fall.slot, step.begin + fall.x * h});
     for (const Fired& fired : step.fired)
       for (std::size_t i = 0; i < guards_per_contact; ++i) {
         const std::size_t slot = guards_per_contact * fired.contact + i;

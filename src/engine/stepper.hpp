@@ -19,7 +19,7 @@ struct Segment {
   double end = 0.0;
   const Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
   const Forcing* forcing = nullptr;
-  const Watch* watch = nullptr;        ///< which guards are armed
+  const Watch* watch = nullptr;  ///< which guards are armed
 };
 
 struct Step {

@@ -42,7 +42,7 @@ class SystemMatrix {
  private:
   struct ContactSlots {  // positions in values_ of the entries of one contact
     std::vector<int> dof;
-    std::vector<double> n, t;                         // components at dof
+    std::vector<double> n, t;                          // components at dof
     std::vector<std::size_t> normal_row, tangent_row;  // row of the contact, column dof
     std::vector<std::size_t> N_column, T_column;       // row dof, column of the force
     std::size_t NN, NT, TN, TT;

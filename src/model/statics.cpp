@@ -51,11 +51,14 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
     names += ", " + describe_motion(null.col(j), problem.map);
   if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
+  // Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits.
+  const std::string fine =
+      problem.size() > 10000 ? " (or fewer elements: in so fine a mesh roundoff hides what holds it)" : "";
   throw SceneError(
       place, key,
-      fmt::format("a static start is impossible, the structure is a mechanism: nothing holds its "
-                  "{}; add a support, a spring or a contact, or give the initial state",
-                  names));
+      fmt::format("a static start is impossible, the structure is a mechanism: nothing holds its {}; "
+                  "add a support, a spring or a contact, or give the initial state{}",
+                  names, fine));
 }
 
 [[noreturn]] void refuse_driven(const StaticProblem& problem, const std::vector<bool>& all,

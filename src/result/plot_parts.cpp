@@ -63,7 +63,8 @@ std::string end_script() { return "unset multiplot\nunset output\n}\n"; }
 std::string panel(const PlottedRun& run, double bottom, double top, const std::string& label, bool last) {
   std::string s = fmt::format("\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", bottom, top);
   s += fmt::format(
-      "set ylabel {} offset character 0.5,0\nset autoscale y\nset ytics nomirror out scale 0.6 autofreq\n",
+      "set ylabel {} offset character 0.5,0\nset yrange [*:*] noextend\nset ytics nomirror out scale 0.6 "
+      "autofreq\n",
       quoted(label));
   s += fmt::format(
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "

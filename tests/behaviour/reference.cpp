@@ -13,11 +13,13 @@ namespace {
 constexpr double simultaneous = 1e-7;
 
 void order(std::vector<EventRow>& events) {
-  std::stable_sort(events.begin(), events.end(), [](const EventRow& a, const EventRow& b) { return a.t < b.t; });
+  std::stable_sort(events.begin(), events.end(),
+                   [](const EventRow& a, const EventRow& b) { return a.t < b.t; });
   for (std::size_t i = 0; i < events.size();) {
     std::size_t j = i + 1;
     while (j < events.size() && events[j].t - events[i].t < simultaneous) ++j;
-    std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(i), events.begin() + static_cast<std::ptrdiff_t>(j),
+    std::stable_sort(events.begin() + static_cast<std::ptrdiff_t>(i),
+                     events.begin() + static_cast<std::ptrdiff_t>(j),
                      [](const EventRow& a, const EventRow& b) { return a.contact < b.contact; });
     i = j;
   }
@@ -31,7 +33,9 @@ std::string show(const std::vector<EventRow>& events, std::size_t i) {
 
 }  // namespace
 
-double Table::number(const std::string& column, std::size_t row) const { return std::stod(text(column, row)); }
+double Table::number(const std::string& column, std::size_t row) const {
+  return std::stod(text(column, row));
+}
 
 const std::string& Table::text(const std::string& column, std::size_t row) const {
   return columns.at(column).at(row);
@@ -68,11 +72,13 @@ Comparison run_case(const std::string& name, const std::vector<Override>& overri
   const Table events = read_csv(base + ".events.csv");
   for (std::size_t i = 0; i < events.rows; ++i) {
     if (events.number("t", i) > scene.run.t_end) continue;
-    expected.push_back({events.number("t", i), events.text("contact", i), events.text("from", i), events.text("to", i)});
+    expected.push_back(
+        {events.number("t", i), events.text("contact", i), events.text("from", i), events.text("to", i)});
   }
   for (const Event& e : c.result.events)
     if (e.type != EventType::time)
-      found.push_back({e.t, model.contacts[static_cast<std::size_t>(e.contact)].name, to_string(e.from), to_string(e.to)});
+      found.push_back({e.t, model.contacts[static_cast<std::size_t>(e.contact)].name, to_string(e.from),
+                       to_string(e.to)});
   order(expected);
   order(found);
   c.expected = expected.size();
@@ -84,8 +90,8 @@ Comparison run_case(const std::string& name, const std::vector<Override>& overri
     c.event_time = std::max(c.event_time, std::abs(a.t - b.t));
   }
   if (c.agreeing < std::max(expected.size(), found.size()))
-    c.first_difference = fmt::format("event {}: expected {}, found {}", c.agreeing + 1, show(expected, c.agreeing),
-                                     show(found, c.agreeing));
+    c.first_difference = fmt::format("event {}: expected {}, found {}", c.agreeing + 1,
+                                     show(expected, c.agreeing), show(found, c.agreeing));
 
   const Table samples = read_csv(base + ".samples.csv");
   double u_scale = 0.0, v_scale = 0.0;
@@ -112,7 +118,8 @@ Comparison run_case(const std::string& name, const std::vector<Override>& overri
     const std::size_t k = i % model.contacts.size(), row = i / model.contacts.size();
     if (row >= c.result.rows.size()) break;
     const ContactSample& sample = c.result.rows[row].contacts[k];
-    if (contacts.text("contact", i) != model.contacts[k].name) throw std::runtime_error("contacts in another order");
+    if (contacts.text("contact", i) != model.contacts[k].name)
+      throw std::runtime_error("contacts in another order");
     c.N = std::max(c.N, std::abs(sample.N - contacts.number("N", i)) / scale);
     c.T = std::max(c.T, std::abs(sample.T - contacts.number("T", i)) / scale);
   }

@@ -52,7 +52,8 @@ TEST_CASE("random quintics: the first fall is where sampling sees the first sign
     for (int i = 0; i < 5; ++i) {
       const double r = root(random);
       for (int j = i + 1; j > 0; --j)
-        a[static_cast<std::size_t>(j)] = a[static_cast<std::size_t>(j - 1)] - r * a[static_cast<std::size_t>(j)];
+        a[static_cast<std::size_t>(j)] =
+            a[static_cast<std::size_t>(j - 1)] - r * a[static_cast<std::size_t>(j)];
       a[0] *= -r;
       at_zero *= -r;
       if (r > 0.0) first = std::min(first, r);

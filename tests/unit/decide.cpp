@@ -11,7 +11,8 @@ SparseMatrix matrix(const std::vector<std::vector<double>>& rows) {
   SparseMatrix m(n, n);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t j = 0; j < rows.size(); ++j)
-      if (rows[i][j] != 0.0) m.insert(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
+      if (rows[i][j] != 0.0)
+        m.insert(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
   return m;
 }
 

@@ -10,7 +10,8 @@ using namespace signorini;
 namespace {
 
 /// Steps of size h on one guard g(t), degree of the method as IDA raises it; the falls found.
-std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, double level, double h, int steps) {
+std::vector<double> falls(const std::function<double(double)>& g, bool at_zero, double level, double h,
+                          int steps) {
   GuardStart start;
   start.kind = Guard::separation;
   start.at_zero = at_zero;

@@ -1,0 +1,12 @@
+// engines.hpp: the engines that every behaviour test runs through.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace signorini::tests {
+
+/// Engines with event localisation, by their names in scene files.
+inline const std::vector<std::string> engines{"ida"};
+
+}  // namespace signorini::tests

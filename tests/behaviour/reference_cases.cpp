@@ -1,0 +1,85 @@
+// Exact answers: complete event lists in order, times and states within the tolerances named here.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include "behaviour/engines.hpp"
+#include "behaviour/reference.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+struct Expectation {
+  const char* name;
+  double event_time;  // s, at rtol 1e-10
+  double state;       // of the scale of u, v, N, T
+};
+
+void check(const Expectation& expected) {
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Comparison c = run_case(expected.name, {{"run.engine", engine}, {"run.rtol", "1e-10"}});
+    INFO(c.first_difference);
+    CHECK(c.result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(c.agreeing == c.expected);
+    CHECK(c.found == c.expected);
+    CHECK(c.event_time < expected.event_time);
+    CHECK(c.displacement < expected.state);
+    CHECK(c.velocity < expected.state);
+    CHECK(c.N < expected.state);
+    CHECK(c.T < expected.state);
+  }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/reference");
+
+TEST_CASE("01a: Coulomb decay, slider without stiffness") { check({"01a_coulomb_decay_rigid", 1e-9, 1e-8}); }
+TEST_CASE("01b: Coulomb decay, slider with stiffness") { check({"01b_coulomb_decay_compliant", 1e-8, 1e-6}); }
+TEST_CASE("02b: belt, static above kinetic friction") { check({"02b_belt_fs_gt_fk", 1e-7, 1e-7}); }
+TEST_CASE("03b: Den Hartog's oscillator, two stops a cycle") { check({"03b_den_hartog_2stop", 1e-8, 1e-8}); }
+TEST_CASE("05b: two masses, simultaneous events") { check({"05b_two_mass_symmetric", 1e-8, 1e-8}); }
+TEST_CASE("05g: two masses on sliders with stiffness") { check({"05g_two_mass_compliant", 1e-7, 1e-7}); }
+TEST_CASE("06: point mass that slips, lifts off and lands") {
+  check({"06_point_compliant_kn1e+06", 1e-9, 1e-7});
+}
+TEST_CASE("07: plane frame, four elements") { check({"07_frame_4el_kn1e6_f0.3", 1e-8, 1e-6}); }
+TEST_CASE("08b: massless degrees of freedom") { check({"08b_lumped_singular_M", 1e-6, 1e-6}); }
+
+TEST_CASE("02c: belt at the margin, where only the trajectory is unique") {
+  for (const std::string& engine : engines) {
+    const Comparison c = run_case("02c_belt_marginal_graze", {{"run.engine", engine}, {"run.rtol", "1e-10"}});
+    CHECK(c.displacement < 1e-7);
+    CHECK(c.velocity < 1e-7);
+  }
+}
+
+TEST_CASE("03b keeps all 32 events from rtol 1e-3 to 1e-12, and its error follows the tolerance") {
+  for (double rtol : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    CAPTURE(rtol);
+    const Comparison c = run_case("03b_den_hartog_2stop", {{"run.rtol", fmt::format("{}", rtol)}});
+    CHECK(c.agreeing == 32);
+    CHECK(c.found == 32);
+    CHECK(c.event_time < 200.0 * rtol + 1e-9);
+  }
+}
+
+TEST_SUITE_END();
+
+TEST_SUITE_BEGIN("slow/reference");
+
+TEST_CASE("10a: chain of twenty blocks, 487 events in order") {
+  // The chain amplifies errors 1e6-fold over the run; up to t = 35 all times are sharp.
+  const Comparison c =
+      run_case("10a_bk_chain_20", {{"run.rtol", "1e-10"}, {"run.t_end", "35.0"}, {"run.output_dt", "2.5"}});
+  INFO(c.first_difference);
+  CHECK(c.agreeing == c.expected);
+  CHECK(c.found == c.expected);
+  CHECK(c.event_time < 1e-5);
+}
+
+TEST_CASE("07: plane frame, ten elements") { check({"07_frame_10el_kn1e6_f0.5", 1e-6, 1e-5}); }
+
+TEST_SUITE_END();

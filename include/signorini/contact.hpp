@@ -49,6 +49,7 @@ struct Contact {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
+  double normal_damping = 0.0, tangential_damping = 0.0;  ///< dashpots beside the springs
   double static_friction = 0.0, kinetic_friction = 0.0;
   History normal_force;    ///< slider: compression >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0
@@ -68,6 +69,7 @@ enum class State : unsigned char { open, closed, stick, slip_plus, slip_minus };
 struct ContactState {
   State state = State::open;
   double anchor = 0.0;  ///< p; meaningful in stick with tangential stiffness
+  bool inside = false;  ///< open with g < 0: a dashpot let go before the gap opened
 
   friend bool operator==(const ContactState&, const ContactState&) = default;
 };

@@ -51,10 +51,31 @@ struct StaticStart {
   std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
 };
 
-/// A drawn piece of the structure: dofs (ux, uy, rz) at both ends, -1 where fixed or absent.
+// What deformed shapes are drawn from; empty in matrix scenes. dofs (ux, uy, rz): -1 where fixed or absent.
+
+/// A node of the mesh, inner ones of beams included.
+struct DrawnNode {
+  std::string name;
+  double x = 0.0, y = 0.0;
+  int dofs[3] = {-1, -1, -1};
+  bool named = true;  ///< stands in the scene file
+  bool held = false;  ///< by a support
+};
+
+/// A beam, a bar, or a spring between two nodes; dofs at both ends.
 struct DrawnElement {
+  enum class Kind : unsigned char { beam, bar, spring };
   double x1, y1, x2, y2;
   int dofs[6];
+  int nodes[2] = {-1, -1};  ///< indices into Model::drawn_nodes
+  Kind kind = Kind::beam;
+};
+
+/// Where a contact acts and along which unit vectors.
+struct DrawnContact {
+  int node = -1;
+  double x = 0.0, y = 0.0;
+  double nx = 0.0, ny = 0.0, tx = 0.0, ty = 0.0;
 };
 
 struct Model {
@@ -66,7 +87,9 @@ struct Model {
   std::vector<Contact> contacts;
   std::vector<Column> columns;
   std::vector<DrawnElement> drawing;
-  Vector u0, v0;  ///< initial state (static equilibrium where asked)
+  std::vector<DrawnNode> drawn_nodes;
+  std::vector<DrawnContact> drawn_contacts;  ///< one a contact
+  Vector u0, v0;                             ///< initial state (static equilibrium where asked)
   bool static_start = false;
   StaticStart statics;
   Scales scales;

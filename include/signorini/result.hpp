@@ -59,6 +59,8 @@ class Recorder {
   virtual ~Recorder() = default;
   virtual void event(const Event& event) = 0;
   virtual void sample(const Sample& sample) = 0;
+  /// At the times of RunSpec::frames: a deformed shape.
+  virtual void frame(const Sample& /*sample*/) {}
   /// Called often with the time reached; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };

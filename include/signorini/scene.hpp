@@ -64,6 +64,7 @@ struct RunSpec {
   Tolerances atol;
   std::optional<double> output_dt;  ///< grid 0, dt, 2 dt, ..., t_end
   std::optional<std::vector<double>> output_times;
+  std::vector<double> frames;    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order;  ///< ida: 1 to 5; absent: "auto"
   int max_events_at_once = 100;  ///< rounds of state changes at one instant before the run stops
   std::optional<double> dt;      ///< newmark, friction-iteration
@@ -86,7 +87,8 @@ struct InitialSpec {
   SourcePlace place;
 };
 
-/// C = alpha M + beta K. alpha_over_omega1: alpha = that times omega1.
+/// C = alpha M + beta K. alpha_over_omega1: alpha = that times omega1. Ratios at two frequencies are
+/// alpha and beta here.
 struct DampingSpec {
   double alpha = 0.0;
   double beta = 0.0;
@@ -96,7 +98,7 @@ struct DampingSpec {
 
 struct Section {
   std::string name;
-  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;
+  double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI 0: for bars only
 };
 
 struct Node {
@@ -106,12 +108,14 @@ struct Node {
 };
 
 enum class MassKind { consistent, lumped };
+enum class MemberType { beam, bar };
 
-/// A chain of straight pieces between named nodes; elements[i] beams on piece i.
+/// A chain of straight pieces between named nodes; elements[i] beams on piece i, one bar a piece.
 struct Member {
   std::vector<std::string> nodes;
   std::string section;
   std::vector<int> elements;
+  MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
   SourcePlace place;
 };
@@ -152,6 +156,7 @@ struct ContactSpec {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
+  double normal_damping = 0.0, tangential_damping = 0.0;  ///< dashpots beside the springs, >= 0
   FrictionSpec friction;
   HistorySpec normal_force;      ///< slider: compression, positive
   HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity

@@ -21,6 +21,8 @@ struct Program {
 };
 
 void add_run(Program& program);
+void add_check(Program& program);
 void add_plot(Program& program);
+void add_keys(Program& program);
 
 }  // namespace signorini::cli

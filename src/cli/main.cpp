@@ -35,7 +35,9 @@ int main_program(int argc, char** argv) {
       "6 a file could not be read or written, 130 interrupted.");
   Program program{app, std::vector<std::string>(argv, argv + argc), {}};
   add_run(program);
+  add_check(program);
   add_plot(program);
+  add_keys(program);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

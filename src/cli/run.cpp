@@ -9,6 +9,7 @@
 #include "cli/gnuplot.hpp"
 #include "cli/live.hpp"
 #include "cli/report.hpp"
+#include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
@@ -26,19 +27,6 @@ struct RunOptions {
   std::vector<std::string> settings;
   bool force = false, quiet = false, json = false, no_plots = false;
 };
-
-std::vector<Override> overrides(const RunOptions& options) {
-  std::vector<Override> list;
-  for (const std::string& setting : options.settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError("--set " + setting + ": expected path=value, such as run.rtol=1e-10");
-    }
-    list.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
-  }
-  if (!options.engine.empty()) list.push_back({"run.engine", options.engine});
-  return list;
-}
 
 fs::path directory_of(const RunOptions& options) {
   if (!options.directory) return fs::path(options.scene).stem().string() + "-run";
@@ -78,7 +66,8 @@ ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& di
 }
 
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
-  const std::vector<Override> changes = overrides(options);
+  std::vector<Override> changes = overrides_of(options.settings);
+  if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
   const fs::path path = directory_of(options);
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
@@ -122,11 +111,7 @@ void add_run(Program& program) {
       ->option_text("DIR");
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");
-  command
-      ->add_option("--set", options->settings,
-                   "change a key of the scene: run.rtol=1e-10, contacts.first.friction=0.5 (may be repeated)")
-      ->option_text("PATH=VALUE")
-      ->allow_extra_args(false);
+  add_settings(*command, options->settings);
   command->add_flag("--force", options->force, "replace an earlier run in the directory");
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->add_flag("--json", options->json, "print summary.json instead of tables");

@@ -24,6 +24,8 @@ const char* to_string(Guard guard) {
       return "none";
     case Guard::closing:
       return "gap";
+    case Guard::clearing:
+      return "open gap";
     case Guard::separation:
       return "compression";
     case Guard::slip_plus:
@@ -43,10 +45,12 @@ Form slip_rate(const Contact& contact, int s) {
   form.vt = 1.0;
   if (!contact.tangential_stiffness) return form;
   const double ratio = s * contact.kinetic_friction / *contact.tangential_stiffness;
-  if (contact.law == Law::compliant)
+  if (contact.law == Law::compliant) {
     form.vn = ratio * contact.normal_stiffness;
-  else
+    form.an = ratio * contact.normal_damping;
+  } else {
     form.pressing_rate = -ratio;
+  }
   return form;
 }
 
@@ -54,10 +58,12 @@ Rows rows(const Contact& contact, const ContactState& state) {
   Rows result;
   result.normal.N = 1.0;
   result.tangent.T = 1.0;
-  if (contact.law == Law::slider)
+  if (contact.law == Law::slider) {
     result.normal.pressing = 1.0;
-  else if (state.state != State::open)
+  } else if (state.state != State::open) {
     result.normal.gap = -contact.normal_stiffness;
+    result.normal.vn = -contact.normal_damping;
+  }
 
   switch (state.state) {
     case State::open:
@@ -87,6 +93,11 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
     if (!slider) {
       result[0].kind = Guard::closing;
       result[0].form.gap = 1.0;
+    }
+    if (state.inside) {
+      result[0].form.vn = contact.normal_damping / contact.normal_stiffness;
+      result[1].kind = Guard::clearing;
+      result[1].form.gap = -1.0;
     }
     return result;
   }

@@ -3,12 +3,15 @@
 //   law        open            closed, stick, slip: normal   stick                        slip s
 //   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
+//   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
+//   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
 //
 //   guards     open    g                        (sliders: none; q = 0 there)
+//              inside  g + (cn/kn) g', -g
 //              closed  -N
 //              stick   -N, -fs N - T, -fs N + T
 //              slip s  -N, s p'
-//   slip rate  p' = ut' + s fk (kn/kt) g'       compliant, from T = -s fk N, T' = kt (ut' - p')
+//   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
 //              p' = ut'                         slider without kt
 //
@@ -24,7 +27,7 @@
 namespace signorini {
 
 /// What a guard stands for.
-enum class Guard : unsigned char { none, closing, separation, slip_plus, slip_minus, sliding };
+enum class Guard : unsigned char { none, closing, clearing, separation, slip_plus, slip_minus, sliding };
 [[nodiscard]] const char* to_string(Guard guard);
 
 inline constexpr int guards_per_contact = 3;

@@ -12,6 +12,7 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
   ContactState next{State::closed, jet.motion[0].ut};
   if (!contact.has_friction()) return next;
   next.state = State::stick;
+  if (contact.normal_damping > 0.0) return next;  // N jumps and T does not: the caller's guards decide
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
     const ContactMotion& d = jet.motion[m];
     const bool normal_moves = std::abs(d.gap) > jet.noise[m].gap;
@@ -32,6 +33,8 @@ ContactState next_state(const Contact& contact, const ContactState& now, Guard f
     case Guard::none:
       return now;
     case Guard::separation:
+      return {State::open, 0.0, contact.normal_damping > 0.0 && m.gap < 0.0};
+    case Guard::clearing:
       return {State::open, 0.0};
     case Guard::closing:
       return close(contact, jet);

@@ -1,7 +1,8 @@
 // transition.hpp: which state a contact takes when one of its guards has failed.
 //
 //   guard failed    from     to
-//   separation      closed   open
+//   separation      closed   open (inside while g < 0, which a dashpot makes possible)
+//   open gap        inside   open
 //   closing         open     stick  iff  kt |ut^(m)| <= fs kn |g^(m)|, else slip s = sign ut^(m)
 //                            (m: the first derivative of g that is not zero; p := ut, so T = 0)
 //   friction limit  stick    slip s,  p := ut - s fk |N| / kt

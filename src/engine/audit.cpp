@@ -29,6 +29,7 @@ void Auditor::powers(const Forcing& forcing, double t, const Mode& mode, const P
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion(k, forcing, t, point);
     const int s = slip_sign(mode[k].state);
+    if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
     out[2 + 2 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
     out[3 + 2 * k] = -m.T * forcing.surface(k, t, 1);
   }
@@ -72,7 +73,12 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
 
     raise(audit_.tension, m.N, t, index);
     if (contact.law == Law::compliant) {
-      const double gap = m.gap - m.N / contact.normal_stiffness;
+      // The surface in contact: the element's own length, which a dashpot may leave short (inside).
+      const bool closed = mode[k].state != State::open;
+      const double element = closed ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
+                             : mode[k].inside ? m.gap
+                                              : 0.0;
+      const double gap = m.gap - element;
       raise(audit_.gap, -gap, t, index);
       raise(audit_.product, std::abs(gap * m.N), t, index);
     }
@@ -96,9 +102,12 @@ void Auditor::instant(const Decision& decision, const Vector& u_before, const Fo
     work_.loads += 0.5 * scratch_.dot(du);
   }
   for (std::size_t k = 0; k < friction_.size(); ++k) {
-    const auto& kt = model_.contacts[k].tangential_stiffness;
-    const bool carries = decision.mode[k].state != State::open;
-    if (!kt || !carries || !decision.jumped[k]) continue;
+    const Contact& contact = model_.contacts[k];
+    const auto& kt = contact.tangential_stiffness;
+    // A dashpot that lets go leaves its spring compressed; what the spring holds is lost in the dashpot.
+    if (decision.mode[k].inside && decision.opened[k])
+      work_.damping += 0.5 * contact.normal_stiffness * decision.after[k].gap * decision.after[k].gap;
+    if (!kt || !decision.jumped[k]) continue;
     const double T0 = decision.before[k].T, T1 = decision.after[k].T;
     if (std::abs(T1) >= std::abs(T0)) continue;
     const double loss = (T0 * T0 - T1 * T1) / (2.0 * *kt);
@@ -119,7 +128,10 @@ Energy Auditor::energy(double t, const Point& point) {
     const Contact& contact = model_.contacts[k];
     const double N = point.forces[static_cast<Eigen::Index>(2 * k)];
     const double T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
-    if (contact.law == Law::compliant) e.contact += N * N / (2.0 * contact.normal_stiffness);
+    if (contact.law == Law::compliant) {
+      const double spring = N - contact.normal_damping * contact.normal.dot(point.v);
+      if (N != 0.0) e.contact += spring * spring / (2.0 * contact.normal_stiffness);
+    }
     if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
   }
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 namespace signorini {
 namespace {
@@ -29,9 +30,12 @@ bool starts_at_zero(const Form& form, const MotionJet& jet, double resolution) {
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
-std::vector<State> states(const Mode& mode) {
-  std::vector<State> result;
-  for (const ContactState& c : mode) result.push_back(c.state);
+using Memory = std::tuple<State, double, bool>;
+
+/// States and memories, for recognising a cycle.
+std::vector<Memory> states(const Mode& mode) {
+  std::vector<Memory> result;
+  for (const ContactState& c : mode) result.emplace_back(c.state, c.anchor, c.inside);
   return result;
 }
 
@@ -195,7 +199,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
 
   Mode mode = instant.mode;
   if (instant.jump) follow_forcing(instant, before, after, decision.before, mode);
-  std::set<std::vector<State>> seen{states(mode)};
+  std::set<std::vector<Memory>> seen{states(mode)};
   bool first = true;
   if (instant.jump && !evaluate(instant, after, mode, decision, jets)) {
     decision.reason =
@@ -218,7 +222,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     }
     const bool repeated = !seen.insert(states(mode)).second;
     bool solved = true;
-    if (repeated && decision.rounds > 2) {
+    if (repeated) {
       decision.mode = mode;
       if (enumerate(instant, after, decision, jets)) {
         mode = decision.mode;
@@ -244,6 +248,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     decision.after.push_back(after_motion);
     decision.jumped[c] = std::abs(after_motion.N - decision.before[c].N) > noise[c].N + jets[c].noise[0].N ||
                          std::abs(after_motion.T - decision.before[c].T) > noise[c].T + jets[c].noise[0].T;
+    decision.opened.push_back(instant.mode[c].state != State::open && mode[c].state == State::open);
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
       decision.guards.push_back(
           {guard.kind, guard.form,

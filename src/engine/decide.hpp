@@ -47,6 +47,7 @@ struct Decision {
   std::vector<GuardStart> guards;            ///< guards_per_contact a contact
   std::vector<bool> visited;                 ///< contacts that changed state in between, one a contact
   std::vector<bool> jumped;                  ///< contacts whose N or T jumps
+  std::vector<bool> opened;                  ///< contacts that were closed just before and are open now
   int rounds = 0;
 };
 

@@ -127,7 +127,8 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
     for (std::size_t i = 0; i < guards_per_contact; ++i) {
       const std::size_t slot = guards_per_contact * k + i;
       const GuardStart& guard = segment_.decision->guards[slot];
-      if (guard.kind == Guard::none || !segment_.watch->armed(slot)) {
+      // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
+      if (guard.kind == Guard::none || guard.form.an != 0.0 || !segment_.watch->armed(slot)) {
         g[slot] = 1.0;
         continue;
       }

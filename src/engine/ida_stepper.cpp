@@ -199,6 +199,7 @@ Step IdaStepper::advance() {
   IDAGetLastOrder(m_->ida, &step.order);
   double end = 0.0;
   IDAGetCurrentTime(m_->ida, &end);
+  if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself, where IDA's clock is off by a rounding
   step.begin = m_->reported_end;
   step.end = end;
   m_->reported_end = end;

@@ -189,12 +189,10 @@ std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet)
   return result;
 }
 
-void Expander::consistent(const Forcing& forcing, double t, Vector& u, Vector& v, Vector& forces) const {
+void Expander::consistent(const Forcing& forcing, double t, Point& point) const {
   const bool massless = levels_ > orders;
-  const Jet jet = expand(forcing, t, u, v, massless ? 1 : 0, nullptr);
-  u = jet.u[0];
-  v = jet.u[1];
-  forces = jet.forces[0];
+  Jet jet = expand(forcing, t, point.u, point.v, massless ? 1 : 0, nullptr);
+  point = {std::move(jet.u[0]), std::move(jet.u[1]), std::move(jet.forces[0]), std::move(jet.u[2])};
 }
 
 void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const {

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "contact/transition.hpp"
-#include "engine/forcing.hpp"
+#include "engine/point.hpp"
 #include "engine/system_matrix.hpp"
 
 namespace signorini {
@@ -38,9 +38,8 @@ class Expander {
   [[nodiscard]] Jet expand(const Forcing& forcing, double t, const Vector& u, const Vector& v) const;
   /// The motion of every contact, orders 0 to `orders`, with its noise.
   [[nodiscard]] std::vector<MotionJet> motions(const Forcing& forcing, const Jet& jet) const;
-  /// Level 0 alone: forces and v of massless degrees of freedom are made consistent with u, v.
-  /// forces: length 2 x contacts.
-  void consistent(const Forcing& forcing, double t, Vector& u, Vector& v, Vector& forces) const;
+  /// Level 0 alone: makes forces, accelerations and v of massless degrees of freedom consistent with u, v.
+  void consistent(const Forcing& forcing, double t, Point& point) const;
   /// v += the smallest impulsive change that makes t.v equal the surface velocity at contacts that
   /// stick without tangential stiffness.
   void hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const;

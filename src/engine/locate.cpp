@@ -34,7 +34,7 @@ double locate(Stepper& stepper, const Expander& expander, const Forcing& forcing
   Point point;
   const std::function<double(double)> value = [&](double t) {
     stepper.evaluate(t, point);
-    expander.consistent(forcing, t, point.u, point.v, point.forces);
+    expander.consistent(forcing, t, point);
     return guard.form.value(motion_of(model.contacts[contact], contact, forcing, t, point));
   };
   const double g = value(time);

@@ -10,9 +10,10 @@ namespace signorini {
 /// u, v (length n) and forces (N_1, T_1, N_2, ...) at one time.
 struct Point {
   Vector u, v, forces;
+  Vector a = {};  ///< empty where it is not needed
 };
 
-/// Motion of contact k; accelerations are left at zero.
+/// Motion of contact k; g'' and ut'' are zero without accelerations in the point.
 [[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
                                              double t, const Point& point) {
   ContactMotion m;
@@ -22,6 +23,10 @@ struct Point {
   m.ut = contact.tangent.dot(point.u) - forcing.surface(k, t, 0);
   m.vn = contact.normal.dot(point.v);
   m.vt = contact.tangent.dot(point.v) - forcing.surface(k, t, 1);
+  if (point.a.size() > 0) {
+    m.an = contact.normal.dot(point.a);
+    m.at = contact.tangent.dot(point.a) - forcing.surface(k, t, 2);
+  }
   m.pressing = forcing.pressing(k, t, 0);
   m.pressing_rate = forcing.pressing(k, t, 1);
   return m;

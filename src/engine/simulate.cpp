@@ -72,6 +72,8 @@ class Run {
     report_.settings = settings_for(model, spec);
     report_.settings.engine = "ida";
     choose_order(model, spec, report_.settings);
+    for (const Contact& contact : model.contacts)
+      accelerations_ = accelerations_ || contact.normal_damping > 0.0;
     stepper_ = std::make_unique<IdaStepper>(model, structure_, report_.settings);
   }
 
@@ -92,7 +94,7 @@ class Run {
  private:
   bool stop(const std::string& reason, Outcome::Kind kind = Outcome::Kind::stopped) {
     report_.outcome.kind = kind;
-    report_.outcome.reason = fmt::format("at t = {}: {}", t_, reason);
+    report_.outcome.reason = reason;
     return false;
   }
 
@@ -115,6 +117,15 @@ class Run {
 
   /// Guards and powers at the end of a step, for its polynomials.
   void fill(double t, const Point& point, double* out) {
+    if (accelerations_) {
+      Point complete = point;
+      expander_.consistent(forcing_, t, complete);
+      return fill_scalars(t, complete, out);
+    }
+    fill_scalars(t, point, out);
+  }
+
+  void fill_scalars(double t, const Point& point, double* out) {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const ContactMotion m = motion_of(model_.contacts[k], k, forcing_, t, point);
       for (std::size_t i = 0; i < guards_per_contact; ++i)
@@ -284,19 +295,38 @@ class Run {
     }
   }
 
-  void emit(double t, const Point& point) {
-    Sample sample;
-    sample.t = t;
-    sample.u = &point.u;
-    sample.v = &point.v;
+  [[nodiscard]] Sample sample(double t, const Point& point) {
+    Sample result;
+    result.t = t;
+    result.u = &point.u;
+    result.v = &point.v;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-      sample.contacts.push_back(auditor_.sample(k, forcing_, t, decision_.mode[k], point));
-    sample.energy = auditor_.energy(t, point);
-    recorder_.sample(sample);
+      result.contacts.push_back(auditor_.sample(k, forcing_, t, decision_.mode[k], point));
+    result.energy = auditor_.energy(t, point);
+    return result;
+  }
+
+  /// The next time of the grid or of a frame.
+  [[nodiscard]] double next_record() const {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    return std::min(next_output_ < grid_.size() ? grid_[next_output_] : never,
+                    next_frame_ < spec_.frames.size() ? spec_.frames[next_frame_] : never);
+  }
+
+  void emit(double t, const Point& point) {
+    const Sample now = sample(t, point);
+    if (next_output_ < grid_.size() && grid_[next_output_] == t) {
+      recorder_.sample(now);
+      ++next_output_;
+    }
+    if (next_frame_ < spec_.frames.size() && spec_.frames[next_frame_] == t) {
+      recorder_.frame(now);
+      ++next_frame_;
+    }
     audit_due_ = true;
   }
 
-  /// Output times before `reached`, inside the last step, and the works up to there.
+  /// Records before `reached`, inside the last step, and the works up to there.
   void record_between(double begin, double h, double reached) {
     double from = 0.0;
     const auto integrate_to = [&](double t) {
@@ -304,21 +334,18 @@ class Run {
       auditor_.integrate(history_, decision_.guards.size(), from, to);
       from = to;
     };
-    for (; next_output_ < grid_.size() && grid_[next_output_] < reached; ++next_output_) {
+    for (double t = next_record(); t < reached; t = next_record()) {
       Point point;
-      stepper_->evaluate(grid_[next_output_], point);
-      integrate_to(grid_[next_output_]);
-      emit(grid_[next_output_], point);
+      stepper_->evaluate(t, point);
+      integrate_to(t);
+      emit(t, point);
     }
     integrate_to(reached);
   }
 
-  /// The output time t itself, with the values after everything at that instant.
+  /// The time t itself, with the values after everything at that instant.
   void record_at(double t) {
-    if (next_output_ < grid_.size() && grid_[next_output_] <= t) {
-      emit(grid_[next_output_], point_);
-      ++next_output_;
-    }
+    if (const double next = next_record(); next <= t) emit(next, point_);
   }
 
   const Model& model_;
@@ -340,8 +367,9 @@ class Run {
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
   int instants_ = 0;
-  std::size_t next_breakpoint_ = 0, next_output_ = 0;
+  std::size_t next_breakpoint_ = 0, next_output_ = 0, next_frame_ = 0;
   bool audit_due_ = false;
+  bool accelerations_ = false;  // a guard needs them
   long rolled_back_ = 0, time_events_ = 0;
 };
 

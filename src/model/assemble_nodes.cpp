@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/assembly.hpp"
+#include "model/bar.hpp"
 #include "model/beam.hpp"
 
 namespace signorini {
@@ -15,7 +16,6 @@ struct Builder {
   const DofMap& map;
   Triplets mass, dampers, stiffness;
   Vector weight;
-  std::vector<DrawnElement> drawing;
 
   /// Adds an element matrix with the numbers of its unknowns, negative ones left out.
   template <std::size_t n, class Matrix>
@@ -35,17 +35,17 @@ struct Builder {
     const auto& nb = map.number[static_cast<std::size_t>(e.b)];
     const std::array<int, 6> numbers{na[0], na[1], na[2], nb[0], nb[1], nb[2]};
     const double dx = b.x - a.x, dy = b.y - a.y;
-    const BeamMatrix m = beam_mass(dx, dy, section.mass_per_length, e.mass);
-    add(stiffness, beam_stiffness(dx, dy, section.EA, section.EI), numbers);
+    const bool bar = e.type == MemberType::bar;
+    const BeamMatrix m = bar ? bar_mass(dx, dy, section.mass_per_length, e.mass)
+                             : beam_mass(dx, dy, section.mass_per_length, e.mass);
+    add(stiffness, bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI),
+        numbers);
     add(mass, m, numbers);
     Eigen::Matrix<double, 6, 1> g;
     g << scene.gravity[0], scene.gravity[1], 0.0, scene.gravity[0], scene.gravity[1], 0.0;
     const Eigen::Matrix<double, 6, 1> p = m * g;
     for (std::size_t i = 0; i < 6; ++i)
       if (numbers[i] >= 0) weight[numbers[i]] += p[static_cast<int>(i)];
-    DrawnElement drawn{a.x, a.y, b.x, b.y, {}};
-    for (std::size_t i = 0; i < 6; ++i) drawn.dofs[i] = numbers[i] >= 0 ? numbers[i] : -1;
-    drawing.push_back(drawn);
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
@@ -83,7 +83,7 @@ struct Builder {
 
 Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
   const int n = map.size();
-  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n), {}};
+  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n)};
   for (const MeshElement& e : map.mesh.elements) builder.add_element(e);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
     builder.add_mass(scene.masses[i], fmt::format("masses.{}", i + 1));
@@ -94,8 +94,7 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
     a.setFromTriplets(entries.begin(), entries.end());
     return a;
   };
-  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight,
-          builder.drawing};
+  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight};
 }
 
 }  // namespace signorini

@@ -6,8 +6,6 @@
 // beam next to a support arrives complete. Shapes: n x n, symmetric, both triangles stored.
 #pragma once
 
-#include <vector>
-
 #include "model/dofs.hpp"
 #include "signorini/model.hpp"
 
@@ -16,7 +14,6 @@ namespace signorini {
 struct Assembly {
   SparseMatrix mass, dampers, stiffness;
   Vector weight;  ///< P_g: force, moments on rotations
-  std::vector<DrawnElement> drawing;
 };
 
 [[nodiscard]] Assembly assemble_nodes(const Scene& scene, const DofMap& map);

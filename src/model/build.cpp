@@ -6,6 +6,7 @@
 #include "model/assembly.hpp"
 #include "model/contacts.hpp"
 #include "model/dofs.hpp"
+#include "model/drawing.hpp"
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
 #include "model/modes.hpp"
@@ -86,7 +87,7 @@ Model build_model(const Scene& scene) {
   model.loads = make_loads(scene, map, assembly.weight);
   model.mass = std::move(assembly.mass);
   model.stiffness = std::move(assembly.stiffness);
-  model.drawing = std::move(assembly.drawing);
+  if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
   check_massless(model, map, place);
   set_initial_state(scene, map, model);

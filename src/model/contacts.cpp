@@ -44,7 +44,7 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end,
     throw SceneError(spec.place, key + ".tangent", "a support fixes all motion along the tangent");
   if (const double t = negative_at(contact.normal_force, t_end); t >= 0.0)
     throw SceneError(
-        spec.place, key + ".normal_force",
+        spec.normal_force.place, key + ".normal_force",
         fmt::format("found {} at time {}, expected a compression >= 0", contact.normal_force.value(t), t));
 }
 
@@ -60,6 +60,8 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.gap = spec.gap;
     c.normal_stiffness = spec.normal_stiffness;
     c.tangential_stiffness = spec.tangential_stiffness;
+    c.normal_damping = spec.normal_damping;
+    c.tangential_damping = spec.tangential_damping;
     c.static_friction = spec.friction.static_;
     c.kinetic_friction = spec.friction.kinetic;
     c.initial_shear = spec.initial_shear;

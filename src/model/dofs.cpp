@@ -22,7 +22,10 @@ void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
 
 void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
   for (const MeshElement& e : mesh.elements)
-    for (int node : {e.a, e.b}) numbers[static_cast<std::size_t>(node)] = {needed, needed, needed};
+    for (int node : {e.a, e.b}) {
+      need(numbers, node, {1.0, 1.0});
+      if (e.type == MemberType::beam) numbers[static_cast<std::size_t>(node)][2] = needed;
+    }
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
     const int node = find_node(mesh, m.node, m.place, fmt::format("masses.{}.node", i + 1));

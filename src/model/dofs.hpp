@@ -3,8 +3,8 @@
 //   node i, component c (0 ux, 1 uy, 2 rz)  ->  number, or `absent`, or `fixed`
 //
 // A degree of freedom exists only where a member, mass, spring or contact needs it: beams need ux, uy
-// and rz of all their nodes, masses ux and uy (rz with an inertia), springs and contacts the components
-// of their directions. Supports fix what exists. Numbers follow the order of the nodes.
+// and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
+// components of their directions. Supports fix what exists. Numbers follow the order of the nodes.
 #pragma once
 
 #include <array>

@@ -19,6 +19,9 @@ struct EigenPairs {
 /// Eigenvalues of A x = mu B x, B positive definite; empty when B is not.
 [[nodiscard]] Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// The same with eigenvectors, x^T B x = 1; both empty when B is not positive definite.
+[[nodiscard]] EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// Orthonormal columns that span those of a (n x m, m <= n, full rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a);
 

@@ -18,8 +18,9 @@ namespace signorini {
 /// otherwise. Units of f.
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
-/// A time in [0, t_end] at which f is negative beyond roundoff, as far as the pieces' ends and full
-/// periods of their sines can tell; -1 when there is none.
+/// A time in [0, t_end] at which f is negative beyond roundoff, -1 when it is nowhere: proved with the
+/// troughs of sines and with bounds on polynomials, not sampled. Pieces count up to and including the time
+/// at which the next one begins.
 [[nodiscard]] double negative_at(const History& f, double t_end);
 
 }  // namespace signorini

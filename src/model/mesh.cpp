@@ -13,9 +13,11 @@ int find_section(const Scene& scene, const Member& member, const std::string& ke
                                [&](const Section& s) { return s.name == member.section; });
   if (it == scene.sections.end())
     throw SceneError(member.place, key + ".section", fmt::format("no section is named '{}'", member.section));
-  if (!(it->EA > 0.0) || !(it->EI > 0.0) || !(it->mass_per_length >= 0.0))
+  const bool bends = member.type == MemberType::beam;
+  if (!(it->EA > 0.0) || (bends && !(it->EI > 0.0)) || !(it->mass_per_length >= 0.0))
     throw SceneError(member.place, key + ".section",
-                     fmt::format("section '{}' needs EA > 0, EI > 0 and mass_per_length >= 0", it->name));
+                     fmt::format("section '{}' needs EA > 0{} and mass_per_length >= 0", it->name,
+                                 bends ? ", EI > 0" : ""));
   return static_cast<int>(it - scene.sections.begin());
 }
 
@@ -32,6 +34,10 @@ void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section,
   if (count < 1)
     throw SceneError(member.place, key + ".elements",
                      fmt::format("found {}, expected at least one element", count));
+  if (count > 1 && member.type == MemberType::bar)
+    throw SceneError(
+        member.place, key + ".elements",
+        fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
   int previous = a;
   for (int i = 1; i <= count; ++i) {
     int next = b;
@@ -41,7 +47,7 @@ void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section,
       mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), from.x + s * (to.x - from.x),
                             from.y + s * (to.y - from.y)});
     }
-    mesh.elements.push_back({previous, next, section, member.mass});
+    mesh.elements.push_back({previous, next, section, member.type, member.mass});
     previous = next;
   }
 }

@@ -1,4 +1,4 @@
-// mesh.hpp: nodes and beam elements of a node scene.
+// mesh.hpp: nodes and elements of a node scene.
 //
 // Named nodes come first, in the order of the file; then the inner nodes of the members, in the order
 // of the file: on piece B-D of a member, "B-D.1", "B-D.2", ... from B to D.
@@ -16,10 +16,11 @@ struct MeshNode {
   double x = 0.0, y = 0.0;  ///< length
 };
 
-/// One beam between two mesh nodes.
+/// One beam or bar between two mesh nodes.
 struct MeshElement {
   int a = 0, b = 0;
   int section = 0;  ///< index into Scene::sections
+  MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
 };
 

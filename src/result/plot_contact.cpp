@@ -43,6 +43,7 @@ std::string contact_script(const PlottedRun& run, std::size_t k) {
   s += "set grid xtics ytics\n";
 
   s += panel(run, 0.635, 0.86, "N [" + units.force + "]", false);
+  s += "set yrange [*:0] noextend\n";  // N <= 0; a constant one stands below zero
   auto elements = band_elements(run, k, 0.28);
   elements.push_back(data + " using 1:8" + curve + quoted("N"));
   const auto legend = band_legend(run, k);

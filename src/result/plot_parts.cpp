@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t most_points = 20000;  // a curve; beyond that an SVG is slow to open and shows no more
 
-constexpr double left = 0.1, right = 0.835;
-
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -36,7 +34,9 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
   std::string s = "# Draws " + picture.name + ".svg and " + picture.name +
                   ".png from the tables of the run. In this folder: gnuplot " + picture.name + ".gp\n";
-  s += fmt::format("from = {}; to = {}   # the time shown\n", shortest(run.from), shortest(run.to));
+  if (picture.over_time) {
+    s += fmt::format("from = {}; to = {}   # the time shown\n", shortest(run.from), shortest(run.to));
+  }
   s += "reset\nset datafile separator ','\nset encoding utf8\n";
   s += "do for [format in 'svg png'] {\n";
   s += fmt::format(
@@ -47,14 +47,15 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
   s += "set output " + quoted(picture.name + ".") + ".format\n";
   s += "set multiplot\n";
   const double line = 1.0 / picture.height;
-  s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',15'\n", quoted(title + note), left,
+  s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',15'\n", quoted(title + note), panel_left,
                    1.0 - 24.0 * line);
   s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n", quoted(picture.subtitle),
-                   left, 1.0 - 46.0 * line);
-  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", left, right);
+                   panel_left, 1.0 - 46.0 * line);
+  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", panel_left, panel_right);
   s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
   s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";
-  s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\nset y2range [0:1]\nunset y2tics\n";
+  if (picture.over_time) s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\n";
+  s += "set y2range [0:1]\nunset y2tics\n";
   return s;
 }
 
@@ -69,7 +70,7 @@ std::string panel(const PlottedRun& run, double bottom, double top, const std::s
   s += fmt::format(
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "
       "noautotitle noenhanced\n",
-      right + 0.012, top + 0.008);
+      panel_right + 0.012, top + 0.008);
   if (last) {
     s += "set format x '%g'\nset xlabel " + quoted("time t [" + run.facts.units.time + "]") + "\n";
   } else {

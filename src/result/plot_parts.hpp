@@ -5,6 +5,7 @@
 //   script = begin_script(run, "energy", panels) + panel(...) + "plot ..." + ... + end_script()
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,13 @@ struct PlottedRun {
     std::string state;
   };
   std::vector<std::vector<Band>> bands;
+  std::vector<std::string> event_types;      ///< those that occur
+  std::vector<double> greatest_compression;  ///< -N at output times and events, one a contact
 };
+
+/// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
+inline constexpr double panel_left = 0.1, panel_right = 0.835;
+inline constexpr int picture_width = 1120;
 
 /// 'text' for gnuplot: nothing in it is expanded.
 [[nodiscard]] std::string quoted(const std::string& text);
@@ -39,6 +46,7 @@ struct Picture {
   std::string name;      ///< of its files
   std::string subtitle;  ///< below the run's title
   int height = 760;      ///< points, of a width of 1120
+  bool over_time = true;
 };
 [[nodiscard]] std::string begin_script(const PlottedRun& run, const Picture& picture);
 [[nodiscard]] std::string end_script();
@@ -59,6 +67,14 @@ struct Picture {
 
 [[nodiscard]] std::string displacement_script(const PlottedRun& run);
 [[nodiscard]] std::string contact_script(const PlottedRun& run, std::size_t k);
+/// Where a contact is in the plane of -N and T, with its friction cone; empty without friction.
+[[nodiscard]] std::string cone_script(const PlottedRun& run);
+/// The events of all contacts over time, a row a contact, a lane a type.
+[[nodiscard]] std::string raster_script(const PlottedRun& run);
+/// row,t,event,N,T for both: thinned to what a picture can resolve.
+[[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
+/// Colour of an event, "#rrggbb".
+[[nodiscard]] std::string event_colour(const std::string& event);
 [[nodiscard]] std::string states_script(const PlottedRun& run);
 /// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
 [[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);

@@ -9,6 +9,7 @@
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
+#include "result/plot_frames.hpp"
 #include "result/plot_parts.hpp"
 #include "signorini/error.hpp"
 
@@ -54,17 +55,29 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
 
   CsvReader contacts(directory / "contacts.csv");
   const std::size_t name = contacts.column("contact"), state = contacts.column("state");
-  for (std::size_t row = 0; row < index.size() && contacts.next(); ++row) {
-    run.bands[index.at(contacts.cell(name))].push_back({run.t_first, run.t_first, contacts.cell(state)});
+  const std::size_t force = contacts.column("N");
+  run.greatest_compression.assign(index.size(), 0.0);
+  const auto compressed = [&](std::size_t k, double by) {
+    run.greatest_compression[k] = std::max(run.greatest_compression[k], by);
+  };
+  for (std::size_t row = 0; contacts.next(); ++row) {
+    const std::size_t k = index.at(contacts.cell(name));
+    if (row < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
+    compressed(k, -contacts.number(force));
   }
 
   CsvReader events(directory / "events.csv");
   const std::size_t who = events.column("contact"), to = events.column("to");
   const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(most_bands);
+  const std::size_t type = events.column("event");
   while (events.next()) {
     const double t = events.number(0);
+    if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
+      run.event_types.push_back(events.cell(type));
     if (events.cell(who).empty() || t <= run.t_first || t > run.t_last) continue;
-    auto& bands = run.bands[index.at(events.cell(who))];
+    const std::size_t k = index.at(events.cell(who));
+    compressed(k, -events.number(events.column("N")));
+    auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;
     bands.back().to = t;
     if (bands.size() >= most_bands && t - bands.back().from < shortest_band) {
@@ -155,7 +168,17 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
       add("contact-" + run.slugs[k] + zoomed.suffix, contact_script(zoomed, k));
     }
   }
-  if (!run.facts.contacts.empty()) add("states", states_script(run));
+  if (!run.facts.contacts.empty()) {
+    write_file(folder / "marks.csv", marks_table(directory, run));
+    add("states", states_script(run));
+    add("raster", raster_script(run));
+    if (closer) {
+      write_file(folder / "marks-events.csv", marks_table(directory, zoom(run)));
+      add("raster-events", raster_script(zoom(run)));
+    }
+    add("cone", cone_script(run));
+  }
+  for (const FramePicture& picture : frame_pictures(directory, run)) add(picture.name, picture.script);
   add("energy", energy_script_of(directory, run));
   return scripts;
 }
@@ -168,9 +191,12 @@ void remove_plots(const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
     const bool picture = type == ".gp" || type == ".svg" || type == ".png";
-    const bool named =
-        stem == "displacement" || stem == "energy" || stem == "states" || stem.rfind("contact-", 0) == 0;
-    if ((picture && named) || (type == ".csv" && stem.rfind("states-", 0) == 0)) ours.push_back(entry.path());
+    const bool named = stem == "displacement" || stem == "energy" || stem == "states" || stem == "cone" ||
+                       stem.starts_with("raster") || stem.starts_with("contact-") ||
+                       stem.starts_with("frame-");
+    const bool table = stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" ||
+                       stem == "marks-events";
+    if ((picture && named) || (type == ".csv" && table)) ours.push_back(entry.path());
   }
   for (const fs::path& file : ours) {
     fs::remove(file, error);

@@ -4,8 +4,12 @@
 //   DIR/plots/contact-NAME.gp         N, T against its limits, gap and slip; states as coloured bands
 //   DIR/plots/contact-NAME-events.gp  the same from the first to the last event, where that is a short part
 //   DIR/plots/states.gp               the states of all contacts, one bar a contact
+//   DIR/plots/raster.gp               the events of all contacts, a row a contact; raster-events.gp as above
+//   DIR/plots/cone.gp                 paths of (-N, T) with the friction cones
+//   DIR/plots/frame-1.gp              deformed shapes at the times of run.frames (plot_frames.hpp)
 //   DIR/plots/energy.gp               where the energy is and went, and what the balance is off by
 //   DIR/plots/states-NAME.csv         from,to,state: the bands, exact to the event
+//   DIR/plots/marks.csv               row,t,event,N,T: the events of raster and cone
 //
 // Run in DIR/plots, each script writes an SVG and a PNG of its own name. Nothing here starts gnuplot.
 #pragma once

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "result/csv.hpp"
+#include "result/frames.hpp"
 #include "result/plots.hpp"
 #include "result/summary.hpp"
 #include "result/writers.hpp"
@@ -16,8 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 6> run_files = {"events.csv", "history.csv",  "contacts.csv",
-                                                       "energy.csv", "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 8> run_files = {"events.csv",   "history.csv", "contacts.csv",
+                                                       "energy.csv",   "frames.csv",  "frame_contacts.csv",
+                                                       "summary.json", "run.toml"};
 
 void remove_old_run(const fs::path& path) {
   std::error_code error;
@@ -59,6 +61,7 @@ struct RunDirectory::Writers {
   HistoryWriter history;
   ContactWriter contacts;
   EnergyWriter energy;
+  std::unique_ptr<FrameWriter> frames;
 };
 
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
@@ -88,6 +91,12 @@ void RunDirectory::sample(const Sample& sample) {
   w.history.write(sample);
   w.contacts.write(sample);
   w.energy.write(sample);
+}
+
+void RunDirectory::frame(const Sample& sample) {
+  Writers& w = writers();
+  if (!w.frames) w.frames = std::make_unique<FrameWriter>(path_, model_);
+  w.frames->write(sample);
 }
 
 bool RunDirectory::progress(double /*t*/) {

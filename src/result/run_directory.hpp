@@ -33,6 +33,7 @@ class RunDirectory : public Recorder {
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
+  void frame(const Sample& sample) override;
   bool progress(double t) override;
   /// Writes the final summary.json and returns its text.
   std::string finish(const Report& report);

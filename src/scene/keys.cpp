@@ -39,6 +39,7 @@ constexpr Key table_of_keys[] = {
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
     {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
+    {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
     {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops."},
     {"run", "dt", positive, "time", "", "", "Time step of the engines newmark and friction-iteration."},
@@ -60,12 +61,12 @@ constexpr Key table_of_keys[] = {
     {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
     {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},
     {"damping", "alpha_over_omega1", non_negative, "", "", "", "alpha as a multiple of omega1, the lowest circular frequency with every initially closed contact stuck; instead of alpha."},
-    {"damping", "ratios", numbers, "", "", "", "Damping ratios at two frequencies.", true},
-    {"damping", "frequencies", numbers, "1/time", "", "", "The two frequencies of `ratios`.", true},
+    {"damping", "ratios", numbers, "", "", "", "Damping ratios [z1, z2] at the two `frequencies`, instead of alpha and beta."},
+    {"damping", "frequencies", numbers, "1/time", "", "", "The two frequencies [f1, f2] of `ratios`, in cycles per time."},
 
     {"sections", "*", table, "", "", "", "A cross-section of this name."},
     {"sections.*", "EA", positive, "force", "required", "", "Axial stiffness."},
-    {"sections.*", "EI", positive, "force*length^2", "required", "", "Bending stiffness."},
+    {"sections.*", "EI", positive, "force*length^2", "", "", "Bending stiffness; required for beams, unused by bars."},
     {"sections.*", "mass_per_length", non_negative, "mass/length", "required", "", "Mass per length."},
 
     {"nodes", "*", vector, "length", "", "", "Position [x, y] of the node of this name."},
@@ -73,7 +74,7 @@ constexpr Key table_of_keys[] = {
     {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next."},
     {"members[]", "section", name, "", "required", "", "Name of the section."},
     {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number."},
-    {"members[]", "type", choice, "", "\"beam\"", "beam ~bar", "Euler-Bernoulli beam."},
+    {"members[]", "type", choice, "", "\"beam\"", "beam bar", "\"beam\": Euler-Bernoulli beam; \"bar\": truss member with EA and mass only, hinged at its ends, one element a piece."},
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
 
     {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
@@ -109,8 +110,8 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
     {"contacts[]", "restitution", number, "", "", "", "Newton's coefficient of restitution.", true},
     {"contacts[]", "capture_velocity", number, "length/time", "", "", "Slowest rebound.", true},
-    {"contacts[]", "normal_damping", number, "force*time/length", "", "", "Dashpot normal to the contact.", true},
-    {"contacts[]", "tangential_damping", number, "force*time/length", "", "", "Dashpot along the contact.", true},
+    {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
+    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; it acts while the contact sticks."},
 
     {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
@@ -134,7 +135,7 @@ constexpr Key table_of_keys[] = {
     {"history", "times", numbers, "time", "", "", "table: times, ascending; a repeated time is a jump."},
     {"history", "values", numbers, "", "", "", "table: one value a time."},
     {"history", "interpolation", choice, "", "\"linear\"", "linear steffen", "table: straight lines, or smooth without overshoot."},
-    {"history", "file", text, "", "", "", "table: file of times and values.", true},
+    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values."},
 };
 // clang-format on
 

@@ -1,10 +1,9 @@
 // [[contacts]]: what each law needs, and what has no meaning for it.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "base/number.hpp"
+#include "model/history_from_spec.hpp"
+#include "model/history_internal.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
@@ -36,25 +35,14 @@ FrictionSpec read_friction(Table& contact) {
   return friction;
 }
 
-/// Least value of a history where its shape shows it; harmonics and polynomials depend on their span.
-double least_value(const HistorySpec& spec) {
-  const auto at = [&](double shape) { return spec.offset + spec.amplitude * shape; };
-  switch (spec.type) {
-    case HistoryType::harmonic:
-    case HistoryType::polynomial:
-      return std::numeric_limits<double>::infinity();
-    case HistoryType::constant: {
-      const bool always = !spec.start_given && spec.end == std::numeric_limits<double>::infinity();
-      return always ? at(1.0) : std::min(at(0.0), at(1.0));
-    }
-    case HistoryType::table: {
-      double least = std::numeric_limits<double>::infinity();
-      for (const double value : spec.values) least = std::min(least, at(value));
-      return least;
-    }
-    default:
-      return std::min(at(0.0), at(1.0));
-  }
+/// Refuses a compression that would pull at any time of the run.
+void check_pressing(const Table& table, const HistorySpec& spec, double t_end) {
+  const History history = make_history(spec, table.path("normal_force"));
+  const double t = negative_at(history, t_end);
+  if (t < 0.0) return;
+  const std::string when = history.is_constant() ? "" : " at time " + shortest(t);
+  table.fail("normal_force",
+             fmt::format("found {}{}, expected a compression >= 0", shortest(history.value(t)), when));
 }
 
 Direction tangent_of(const Direction& normal) {
@@ -79,10 +67,11 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
   contact.gap = table.number("gap");
   table.require("normal_stiffness", " (compliant)");
   contact.normal_stiffness = table.number("normal_stiffness");
+  contact.normal_damping = table.number("normal_damping");
   if (contact.friction.static_ > 0.0) table.require("tangential_stiffness", " (compliant with friction)");
 }
 
-void read_slider(Table& table, ContactSpec& contact, const Space& space) {
+void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {
   const bool from_normal = !space.matrices && table.has("normal");
   if (from_normal && table.has("tangent")) {
     table.fail("normal", "stands beside tangent, expected one of the two for a slider");
@@ -91,11 +80,8 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space) {
   contact.tangent = from_normal ? tangent_of(read_direction(table, "normal", space))
                                 : read_direction(table, "tangent", space);
   table.require("normal_force", " (slider)");
-  contact.normal_force = read_standing_history(table, "normal_force");
-  const double least = least_value(contact.normal_force);
-  if (least < 0.0) {
-    table.fail("normal_force", fmt::format("found {}, expected a compression >= 0", shortest(least)));
-  }
+  contact.normal_force = read_standing_history(table, "normal_force", directory_of(scene));
+  check_pressing(table, contact.normal_force, scene.run.t_end);
 }
 
 }  // namespace
@@ -123,14 +109,17 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
     if (contact.law == Law::compliant) {
       read_compliant(table, contact, space);
     } else {
-      read_slider(table, contact, space);
+      read_slider(table, contact, space, scene);
     }
     contact.tangential_stiffness = table.optional_number("tangential_stiffness");
-    contact.surface_velocity = read_standing_history(table, "surface_velocity");
+    contact.surface_velocity = read_standing_history(table, "surface_velocity", directory_of(scene));
     if (contact.tangential_stiffness) {
       contact.initial_shear = table.number("initial_shear");
-    } else if (table.has("initial_shear")) {
-      table.fail("initial_shear", "has no meaning without tangential_stiffness");
+      contact.tangential_damping = table.number("tangential_damping");
+    } else {
+      for (const char* key : {"initial_shear", "tangential_damping"}) {
+        if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
+      }
     }
     if (contact.normal) contact.normal->node = node;
     if (contact.tangent) contact.tangent->node = node;

@@ -1,9 +1,51 @@
 // Point masses, springs, supports and damping.
-#include <algorithm>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/number.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
+
+namespace {
+
+std::array<double, 2> read_pair(Table& table, std::string_view key, bool zero_too) {
+  table.require(key, key == "ratios" ? " (beside frequencies)" : " (beside ratios)");
+  const std::vector<double> values = *table.numbers(key);
+  const bool wrong = values.size() != 2 || std::any_of(values.begin(), values.end(), [&](double x) {
+                       return zero_too ? x < 0.0 : !(x > 0.0);
+                     });
+  if (wrong) table.wrong(key, zero_too ? "two numbers >= 0" : "two numbers > 0");
+  return {values[0], values[1]};
+}
+
+/// zeta(w) = alpha / (2 w) + beta w / 2 at two circular frequencies.
+void read_ratios(Table& table, DampingSpec& damping) {
+  const auto [z1, z2] = read_pair(table, "ratios", true);
+  const auto [f1, f2] = read_pair(table, "frequencies", false);
+  if (f1 == f2) table.wrong("frequencies", "two different ones");
+  const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
+  // A difference of roundoff is zero: damping by mass or by stiffness alone.
+  const auto difference = [](double a, double b) {
+    return std::abs(a - b) <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(a, b) ? 0.0 : a - b;
+  };
+  const double bottom = (w2 - w1) * (w2 + w1);
+  damping.alpha = 2.0 * w1 * w2 * difference(z1 * w2, z2 * w1) / bottom;
+  damping.beta = 2.0 * difference(z2 * w2, z1 * w1) / bottom;
+  if (!(damping.alpha >= 0.0 && damping.beta >= 0.0 && std::isfinite(damping.alpha + damping.beta))) {
+    const double r = std::max(f1, f2) / std::min(f1, f2);
+    table.fail("ratios",
+               fmt::format("alpha would be {:.6g} and beta {:.6g}, expected both >= 0: the ratio at "
+                           "{} between {:.6g} and {:.6g}",
+                           damping.alpha, damping.beta, shortest(f2), z1 / r, z1 * r));
+  }
+}
+
+}  // namespace
 
 void read_masses(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
@@ -63,6 +105,12 @@ void read_damping(Table& top, Scene& scene, RecordedScene& record) {
   Table table = top.child("damping");
   DampingSpec& damping = scene.damping;
   damping.place = table.place();
+  if (table.has("ratios") || table.has("frequencies")) {
+    read_ratios(table, damping);
+    table.finish("stands beside ratios, expected one of the two");
+    record.add("damping", "[damping]", table.record());
+    return;
+  }
   if (table.has("alpha") && table.has("alpha_over_omega1")) {
     table.fail("alpha_over_omega1", "stands beside alpha, expected one of the two");
   }

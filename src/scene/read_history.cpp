@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/number.hpp"
+#include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
@@ -58,12 +59,36 @@ void read_harmonic(Table& table, HistorySpec& spec) {
   spec.phase = table.number("phase");
 }
 
-void read_table(Table& table, HistorySpec& spec) {
-  table.require("times", " (table)");
+void read_table_file(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+  constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
+  for (const char* other : {"times", "values"}) {
+    if (table.has(other)) table.fail(other, "stands beside file, expected one of the two");
+  }
+  const toml::node* node = table.raw("file");
+  if (!node->is_string()) table.wrong("file", "the name of a file");
+  const std::filesystem::path path = directory / node->as_string()->get();
+  std::ifstream in = open_data_file(table, "file", path);
+  TimeTable rows = read_time_table(in, path.string(), table.path("file"));
+  spec.times = std::move(rows.times);
+  spec.values = std::move(rows.values);
+  if (spec.times.size() > most_inline_rows) {
+    table.record("file", toml_string(std::filesystem::absolute(path).lexically_normal().string()));
+    return;
+  }
+  table.record("times", toml_numbers(spec.times));
+  table.record("values", toml_numbers(spec.values));
+}
+
+void read_table(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+  spec.steffen = table.choice("interpolation") == "steffen";
+  if (table.has("file")) {
+    read_table_file(table, spec, directory);
+    return;
+  }
+  table.require("times", " (table; or file)");
   table.require("values", " (table)");
   spec.times = *table.numbers("times");
   spec.values = *table.numbers("values");
-  spec.steffen = table.choice("interpolation") == "steffen";
   if (spec.times.empty()) table.wrong("times", "at least one time");
   if (spec.values.size() != spec.times.size()) {
     table.fail("values",
@@ -82,7 +107,8 @@ void read_table(Table& table, HistorySpec& spec) {
   }
 }
 
-HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone) {
+HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone,
+                         const std::filesystem::path& directory) {
   const toml::node* node = parent.raw(key);
   if (node && !node->is_table()) parent.wrong(key, describe_type(*find_key("loads[]", "history")));
   Table table(node ? node->as_table() : nullptr, "history", parent.path(key), parent.place(key));
@@ -104,7 +130,7 @@ HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone)
   }
   read_span(table, spec);
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
-  if (spec.type == HistoryType::table) read_table(table, spec);
+  if (spec.type == HistoryType::table) read_table(table, spec, directory);
   if (spec.type == HistoryType::polynomial) {
     table.require("coefficients", " (polynomial)");
     spec.coefficients = *table.numbers("coefficients");
@@ -126,11 +152,14 @@ HistorySpec constant_history(double value) {
   return spec;
 }
 
-HistorySpec read_load_history(Table& table, std::string_view key) { return read_history(table, key, false); }
+HistorySpec read_load_history(Table& table, std::string_view key, const std::filesystem::path& directory) {
+  return read_history(table, key, false, directory);
+}
 
-HistorySpec read_standing_history(Table& table, std::string_view key) {
+HistorySpec read_standing_history(Table& table, std::string_view key,
+                                  const std::filesystem::path& directory) {
   const toml::node* node = table.raw(key);
-  if (node && node->is_table()) return read_history(table, key, true);
+  if (node && node->is_table()) return read_history(table, key, true, directory);
   if (node && !node->is_number()) table.wrong(key, "a number or a table { type = ... }");
   HistorySpec spec = constant_history(table.optional_number(key).value_or(0.0));
   spec.place = table.place(key);

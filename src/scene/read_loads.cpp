@@ -12,7 +12,7 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
     load.direction = read_direction(table, "direction", space);
     load.direction.node = node;
     load.amplitude = table.number("amplitude");
-    load.history = read_load_history(table, "history");
+    load.history = read_load_history(table, "history", directory_of(scene));
     table.finish("has no meaning with [matrices]");
     scene.loads.push_back(std::move(load));
     record.add("loads", "[[loads]]", table.record());

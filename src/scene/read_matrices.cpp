@@ -2,13 +2,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <set>
 
 #include "base/number.hpp"
+#include "scene/data_file.hpp"
 #include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"
 
@@ -18,20 +16,8 @@ namespace {
 
 constexpr int most_inline_rows = 100;  // larger matrices stay in their file in run.toml
 
-[[noreturn]] void no_file(const Table& table, std::string_view key, const std::string& file,
-                          const std::string& why) {
-  const SourcePlace place = table.place(key);
-  const std::string where =
-      place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
-  throw FileError(where, fmt::format("{}: {}: {}", table.path(key), file, why));
-}
-
 MatrixSpec from_file(const Table& table, std::string_view key, const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) no_file(table, key, path.string(), "is a directory");
-  errno = 0;
-  std::ifstream in(path);
-  if (!in) no_file(table, key, path.string(), std::strerror(errno ? errno : EIO));
+  std::ifstream in = open_data_file(table, key, path);
   return read_matrix_market(in, path.string(), table.path(key));
 }
 
@@ -144,7 +130,8 @@ std::vector<std::string> read_dofs(Table& table, int size) {
 
 }  // namespace
 
-void read_matrices(Table& top, Scene& scene, RecordedScene& record, const std::filesystem::path& directory) {
+void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
+  const std::filesystem::path directory = directory_of(scene);
   Table table = top.child("matrices");
   for (const char* other :
        {"gravity", "nodes", "members", "masses", "springs", "damping", "supports", "sections"}) {

@@ -16,6 +16,10 @@ Space space_of(const Scene& scene) {
   return space;
 }
 
+std::filesystem::path directory_of(const Scene& scene) {
+  return std::filesystem::path(scene.file).parent_path();
+}
+
 std::array<double, 2> read_unit_vector(Table& table, std::string_view key) {
   const auto [x, y] = table.vector(key);
   const double length = std::hypot(x, y);

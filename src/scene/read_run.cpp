@@ -20,6 +20,19 @@ Engine engine_of(const std::string& name) {
   return engines.at(name);
 }
 
+void check_times(const Table& table, std::string_view key, const std::vector<double>& times, double t_end) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < 0.0 || times[i] > t_end) {
+      table.fail(key, fmt::format("found {}, expected times from 0 to t_end = {}", shortest(times[i]),
+                                  shortest(t_end)));
+    }
+    if (i > 0 && times[i] <= times[i - 1]) {
+      table.fail(key, fmt::format("found {} after {}, expected strictly ascending times", shortest(times[i]),
+                                  shortest(times[i - 1])));
+    }
+  }
+}
+
 void read_output(Table& table, RunSpec& run) {
   if (table.has("output_dt") && table.has("output_times")) {
     table.fail("output_times", "stands beside output_dt, expected one of the two");
@@ -34,18 +47,15 @@ void read_output(Table& table, RunSpec& run) {
     table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
                                         shortest(*run.output_dt), shortest(run.t_end)));
   }
-  if (!run.output_times) return;
-  const std::vector<double>& times = *run.output_times;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < 0.0 || times[i] > run.t_end) {
-      table.fail("output_times", fmt::format("found {}, expected times from 0 to t_end = {}",
-                                             shortest(times[i]), shortest(run.t_end)));
-    }
-    if (i > 0 && times[i] <= times[i - 1]) {
-      table.fail("output_times", fmt::format("found {} after {}, expected strictly ascending times",
-                                             shortest(times[i]), shortest(times[i - 1])));
-    }
+  if (run.output_times) check_times(table, "output_times", *run.output_times, run.t_end);
+}
+
+void read_frames(Table& table, RunSpec& run, bool matrices) {
+  if (matrices && table.has("frames")) {
+    table.fail("frames", "has no meaning with [matrices], which have no shape");
   }
+  run.frames = table.numbers("frames").value_or(std::vector<double>{});
+  check_times(table, "frames", run.frames, run.t_end);
 }
 
 void read_tolerances(Table& table, RunSpec& run) {
@@ -84,6 +94,7 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   run.engine = engine_of(table.choice("engine"));
   read_tolerances(table, run);
   read_output(table, run);
+  read_frames(table, run, scene.matrices.has_value());
   read_max_order(table, run);
   run.max_events_at_once = table.integer("max_events_at_once");
   run.dt = table.optional_number("dt");

@@ -76,7 +76,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   read_units(top, scene, record);
 
   if (top.has("matrices")) {
-    read_matrices(top, scene, record, std::filesystem::path(file).parent_path());
+    read_matrices(top, scene, record);
   } else {
     scene.gravity = top.vector("gravity");
     record.top.set("gravity", toml_numbers(scene.gravity));
@@ -90,9 +90,9 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_springs(top, scene, record);
     read_damping(top, scene, record);
   }
-  read_contacts(top, scene, record);
-  read_loads(top, scene, record);
   read_run(top, scene, record);
+  read_contacts(top, scene, record);  // compressions are checked up to t_end
+  read_loads(top, scene, record);
   top.finish();
 
   std::vector<std::string> order;

@@ -52,6 +52,18 @@ std::vector<int> read_elements(Table& table, std::size_t pieces) {
   return elements;
 }
 
+/// The inner nodes of a chain of bars could move sideways: nothing holds them.
+void check_bar(const Table& table, const Member& member) {
+  if (member.type != MemberType::bar) return;
+  for (const int n : member.elements) {
+    if (n > 1) {
+      table.fail("elements", fmt::format("found {}, expected 1: the inner nodes of a bar would have nothing "
+                                         "that holds them sideways",
+                                         n));
+    }
+  }
+}
+
 }  // namespace
 
 void read_sections(Table& top, Scene& scene, RecordedScene& record) {
@@ -63,7 +75,7 @@ void read_sections(Table& top, Scene& scene, RecordedScene& record) {
     Section section;
     section.name = entry.name;
     section.EA = table.number("EA");
-    section.EI = table.number("EI");
+    section.EI = table.optional_number("EI").value_or(0.0);
     section.mass_per_length = table.number("mass_per_length");
     scene.sections.push_back(section);
     record.add("sections", "[sections." + toml_key(entry.name) + "]", table.record());
@@ -95,10 +107,16 @@ void read_members(Table& top, Scene& scene, RecordedScene& record) {
       nodes.push_back(check_known(name, space.names, "node", table.place("nodes"), table.path("nodes")));
     }
     check_pieces(table, scene, nodes);
-    (void)table.choice("type");  // beams so far
+    member.type = table.choice("type") == "bar" ? MemberType::bar : MemberType::beam;
     member.section = table.text("section");
-    check_known(member.section, sections, "section", table.place("section"), table.path("section"));
+    const Section& section = scene.sections[check_known(member.section, sections, "section",
+                                                        table.place("section"), table.path("section"))];
+    if (member.type == MemberType::beam && section.EI == 0.0) {
+      table.fail("section",
+                 fmt::format("section \"{}\" has no EI, expected one with EI for a beam", section.name));
+    }
     member.elements = read_elements(table, member.nodes.size() - 1);
+    check_bar(table, member);
     for (const int n : member.elements) total += n;
     if (total > most_elements) {
       table.fail("elements",

@@ -22,6 +22,9 @@ struct Space {
 };
 [[nodiscard]] Space space_of(const Scene& scene);
 
+/// Where the scene's own files are looked for.
+[[nodiscard]] std::filesystem::path directory_of(const Scene& scene);
+
 void read_units(Table& top, Scene& scene, RecordedScene& record);
 void read_run(Table& top, Scene& scene, RecordedScene& record);
 /// Part of [run]; `run` is that table.
@@ -33,8 +36,7 @@ void read_members(Table& top, Scene& scene, RecordedScene& record);
 void read_masses(Table& top, Scene& scene, RecordedScene& record);
 void read_springs(Table& top, Scene& scene, RecordedScene& record);
 void read_supports(Table& top, Scene& scene, RecordedScene& record);
-/// Matrix files are looked for in `directory`.
-void read_matrices(Table& top, Scene& scene, RecordedScene& record, const std::filesystem::path& directory);
+void read_matrices(Table& top, Scene& scene, RecordedScene& record);
 void read_contacts(Table& top, Scene& scene, RecordedScene& record);
 void read_loads(Table& top, Scene& scene, RecordedScene& record);
 
@@ -45,10 +47,12 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record);
 /// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
 
-/// A load's history: offset 0, amplitude 1.
-[[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key);
+/// A load's history: offset 0, amplitude 1. Files of tables are looked for in `directory`.
+[[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key,
+                                            const std::filesystem::path& directory);
 /// A history that stands alone: a number, or a table with offset and amplitude. Absent: the default, or zero.
-[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key);
+[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key,
+                                                const std::filesystem::path& directory);
 [[nodiscard]] HistorySpec constant_history(double value);
 
 }  // namespace signorini

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "behaviour/engines.hpp"
-#include "signorini/simulate.hpp"
+#include "behaviour/one_mass.hpp"
 
 using namespace signorini;
 using namespace signorini::tests;
@@ -15,17 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::string one_mass(const std::string& run, const std::string& matrices, const std::string& contact,
-                     const std::string& rest = "") {
-  return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\n" + run +
-         "\n[matrices]\n" + matrices + "\n[[contacts]]\nname = \"c\"\n" + contact + "\n" + rest;
-}
-
-Result run(const std::string& text, const std::string& engine, const char* rtol = "1e-10") {
-  const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.rtol", rtol}});
-  return simulate(build_model(scene), scene.run);
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("behaviour/friction");
@@ -33,11 +22,11 @@ TEST_SUITE_BEGIN("behaviour/friction");
 TEST_CASE("Coulomb pad (Code_Aster SDND100): turning points every pi/100 s, then stuck") {
   // k = 1e4 N/m, m = 1 kg, N = 10 N, f = 0.1, released at 0.85 mm: -0.65, 0.45, -0.25, 0.05 mm
   const std::string text =
-      one_mass("t_end = 0.2\noutput_times = [0.0, 0.2]\ninitial = { u = [0.85e-3], v = [0.0] }",
-               "mass = [[1.0]]\nstiffness = [[1.0e4]]",
-               "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.1");
+      matrix_scene("t_end = 0.2\noutput_times = [0.0, 0.2]\ninitial = { u = [0.85e-3], v = [0.0] }",
+                   "mass = [[1.0]]\nstiffness = [[1.0e4]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.1");
   for (const std::string& engine : engines) {
-    const Result result = run(text, engine);
+    const Result result = run_text(text, engine);
     REQUIRE(result.events.size() == 4);
     for (std::size_t i = 0; i < 4; ++i)
       CHECK(std::abs(result.events[i].t - static_cast<double>(i + 1) * pi / 100.0) < 1e-10);
@@ -48,15 +37,15 @@ TEST_CASE("Coulomb pad (Code_Aster SDND100): turning points every pi/100 s, then
 }
 
 TEST_CASE("a stuck slider without stiffness drifts by exactly zero under a varying load") {
-  const std::string text =
-      one_mass("t_end = 50.0\noutput_dt = 1.0\ninitial = { u = [0.3, 0.1], v = [0.0, 0.4] }",
-               "mass = [[1.0, 0.2], [0.2, 2.0]]\ndamping = [[0.1, 0.0], [0.0, 0.1]]\nstiffness = [[3.0, "
-               "-1.0], [-1.0, 2.0]]",
-               "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9",
-               "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 4.0\nhistory = { type = \"harmonic\", omega "
-               "= 1.3 }\n");
+  const std::string text = matrix_scene(
+      "t_end = 50.0\noutput_dt = 1.0\ninitial = { u = [0.3, 0.1], v = [0.0, 0.4] }",
+      "mass = [[1.0, 0.2], [0.2, 2.0]]\ndamping = [[0.1, 0.0], [0.0, 0.1]]\nstiffness = [[3.0, "
+      "-1.0], [-1.0, 2.0]]",
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9",
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 4.0\nhistory = { type = \"harmonic\", omega "
+      "= 1.3 }\n");
   for (const std::string& engine : engines) {
-    const Result result = run(text, engine, "1e-6");
+    const Result result = run_text(text, engine, "1e-6");
     CHECK(result.events.empty());
     for (const Result::Row& row : result.rows) {
       CHECK(row.u[0] == 0.3);
@@ -83,7 +72,7 @@ TEST_CASE("stick-slip on a belt: the period of the limit cycle in closed form") 
 }
 
 TEST_CASE("vertical lift-off is one separation, although the friction limit vanishes with N") {
-  const std::string text = one_mass(
+  const std::string text = matrix_scene(
       "t_end = 3.0\noutput_times = [3.0]\ninitial = { u = [0.0, -1.0e-5], v = [0.0, 0.0] }",
       "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
       "law = \"compliant\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nnormal_stiffness = 1.0e6\n"
@@ -92,7 +81,7 @@ TEST_CASE("vertical lift-off is one separation, although the friction limit vani
       "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = 100.0\nhistory = { type = \"triangle\", end = 0.1 "
       "}\n");
   for (const std::string& engine : engines) {
-    const Result result = run(text, engine);
+    const Result result = run_text(text, engine);
     REQUIRE(result.events.size() >= 2);
     CHECK(result.events[0].from == State::stick);
     CHECK(result.events[0].to == State::open);
@@ -103,12 +92,13 @@ TEST_CASE("vertical lift-off is one separation, although the friction limit vani
 }
 
 TEST_CASE("an undamped element gives back what it takes: bouncing conserves energy") {
-  const std::string text = one_mass("t_end = 5.0\noutput_dt = 0.1\ninitial = { u = [0.5], v = [0.0] }",
-                                    "mass = [[1.0]]\nstiffness = [[0.0]]",
-                                    "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1.0e4",
-                                    "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = -9.81\n");
+  const std::string text =
+      matrix_scene("t_end = 5.0\noutput_dt = 0.1\ninitial = { u = [0.5], v = [0.0] }",
+                   "mass = [[1.0]]\nstiffness = [[0.0]]",
+                   "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1.0e4",
+                   "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = -9.81\n");
   for (const std::string& engine : engines) {
-    const Result result = run(text, engine);
+    const Result result = run_text(text, engine);
     // flight sqrt(2 h/g) down; contact half a period about the static deflection and more
     const double w = 100.0, vn = std::sqrt(2.0 * 9.81 * 0.5), us = 9.81 / 1e4;
     const double contact = (pi + 2.0 * std::atan(us * w / vn)) / w, flight = 2.0 * vn / 9.81;
@@ -124,13 +114,13 @@ TEST_CASE("an undamped element gives back what it takes: bouncing conserves ener
 }
 
 TEST_CASE("two runs give the same events to the last bit") {
-  const std::string text =
-      one_mass("t_end = 30.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
-               "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.8",
-               "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = \"harmonic\", omega "
-               "= 0.5 }\n");
+  const std::string text = matrix_scene(
+      "t_end = 30.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.8",
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = \"harmonic\", omega "
+      "= 0.5 }\n");
   for (const std::string& engine : engines) {
-    const Result a = run(text, engine), b = run(text, engine);
+    const Result a = run_text(text, engine), b = run_text(text, engine);
     REQUIRE(a.events.size() == b.events.size());
     for (std::size_t i = 0; i < a.events.size(); ++i) {
       CHECK(a.events[i].t == b.events[i].t);

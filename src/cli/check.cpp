@@ -1,0 +1,46 @@
+// signorini check SCENE: everything that `run` does except the time loop, and what it found.
+#include <memory>
+
+#include "cli/check_text.hpp"
+#include "cli/command.hpp"
+#include "cli/settings.hpp"
+#include "cli/terminal.hpp"
+#include "study/check.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+struct CheckOptions {
+  std::string scene;
+  std::vector<std::string> settings;
+  bool json = false, columns = false;
+};
+
+ExitCode check_scene(const CheckOptions& options) {
+  const Scene scene = read_scene(options.scene, overrides_of(options.settings));
+  const Model model = build_model(scene);
+  const CheckReport report = check(scene, model);
+  if (options.json) {
+    print(check_json(scene, model, report));
+    return ExitCode::done;
+  }
+  print(check_text(scene, model, report));
+  if (options.columns) print(column_text(model));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(Program& program) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = program.app.add_subcommand(
+      "check", "read a scene and start it: masses, supports, frequencies, cost; computes no motion");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  add_settings(*command, options->settings);
+  command->add_flag("--columns", options->columns, "list the columns of history.csv too");
+  command->add_flag("--json", options->json, "print JSON instead of text");
+  command->callback([&program, options] { program.action = [options] { return check_scene(*options); }; });
+}
+
+}  // namespace signorini::cli

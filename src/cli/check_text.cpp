@@ -1,0 +1,218 @@
+#include "cli/check_text.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cli/table.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+constexpr std::size_t most_rows = 24;
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
+
+/// Two digits, written out: 140000.
+std::string rough(double value) {
+  const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
+  const double rounded = std::round(value / unit) * unit;
+  return rounded < 1e9 ? fmt::format("{:.{}f}", rounded, rounded < 10.0 ? 1 : 0)
+                       : fmt::format("{:.1e}", rounded);
+}
+
+std::string count(long n, const char* one, const char* many) {
+  return n == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+// Roundoff, such as T in a vertical start, would only distract.
+std::string above(double value, double scale) { return number(std::abs(value) < 1e-9 * scale ? 0.0 : value); }
+
+std::string unit(const std::string& text) { return " [" + text + "]"; }
+
+std::string frequency_unit(const Units& units) { return units.time == "s" ? "Hz" : "1/" + units.time; }
+
+std::string more(std::size_t all) {
+  return all > most_rows ? fmt::format("  ... {} more; all are in --json\n", all - most_rows) : "";
+}
+
+std::string head(const Scene& scene, const Model& model, const CheckReport& report) {
+  const Units& u = model.units;
+  std::string text = model.title.empty() ? "" : model.title + "\n";
+  text += fmt::format("units: {}, {}, {}, {}\n\n", u.force, u.mass, u.length, u.time);
+  text +=
+      fmt::format("structure: {}, {}; {}\n", count(model.size(), "degree of freedom", "degrees of freedom"),
+                  report.massless == 0 ? "none massless" : fmt::format("{} massless", report.massless),
+                  count(static_cast<long>(model.contacts.size()), "contact", "contacts"));
+  if (!report.mass) {
+    const Vector diagonal = model.mass.diagonal();
+    double least = 0.0;
+    for (double m : diagonal)
+      if (m > 0.0 && (least == 0.0 || m < least)) least = m;
+    text += fmt::format("mass: diagonal of the matrix from {} to {}\n", number(least),
+                        number(diagonal.maxCoeff()));
+    return text;
+  }
+  const MassFacts& m = *report.mass;
+  text += fmt::format("mass: {} {}, centre at ({}, {}) {}", number(m.total), u.mass, number(m.x), number(m.y),
+                      u.length);
+  const double weight = m.total * std::hypot(scene.gravity[0], scene.gravity[1]);
+  text += weight > 0.0 ? fmt::format(", weight {} {}\n", number(weight), u.force) : ", no gravity\n";
+  text += fmt::format("      of it {} {} can move along x, {} {} along y\n", number(m.moving_x), u.mass,
+                      number(m.moving_y), u.mass);
+  return text;
+}
+
+std::string contact_rows(const Model& model, const CheckReport& report) {
+  if (report.contacts.empty()) return "";
+  const std::string force = unit(model.units.force), length = unit(model.units.length);
+  Table table(
+      {"contact", "law", "state", "gap" + length, "reaction -N" + force, "T" + force, "limit f |N|" + force},
+      {false, false, false, true, true, true, true});
+  for (std::size_t k = 0; k < report.contacts.size() && k < most_rows; ++k) {
+    const Contact& c = model.contacts[k];
+    const ContactSample& s = report.contacts[k];
+    const bool slider = c.law == Law::slider;
+    table.row({c.name, name_of(c.law), to_string(s.state), slider ? "" : number(s.gap),
+               above(-s.N, model.scales.force), above(s.T, model.scales.force),
+               c.has_friction() ? number(c.static_friction * std::abs(s.N)) : ""});
+  }
+  return fmt::format("contacts at t = 0, {}:\n",
+                     model.static_start ? "in static equilibrium" : "in the given initial state") +
+         table.str() + more(report.contacts.size()) + "\n";
+}
+
+std::string warning_lines(const CheckReport& report) {
+  std::string text;
+  for (const std::string& warning : report.warnings) text += "warning: " + warning + "\n\n";
+  return text;
+}
+
+std::string free_motion_lines(const CheckReport& report) {
+  if (report.free_motions.empty()) return "free motions on the closed contacts: none\n\n";
+  std::string text = "free motions on the closed contacts, friction apart:\n";
+  for (std::size_t i = 0; i < report.free_motions.size() && i < most_rows; ++i)
+    text += "  " + report.free_motions[i] + "\n";
+  return text + more(report.free_motions.size()) + "\n";
+}
+
+bool same(const Frequencies& a, const Frequencies& b) {
+  if (a.free_motions != b.free_motions || a.modes.size() != b.modes.size()) return false;
+  for (std::size_t i = 0; i < a.modes.size(); ++i)
+    if (std::abs(a.modes[i].omega - b.modes[i].omega) > 1e-9 * a.modes[i].omega) return false;
+  return true;
+}
+
+void add_frequencies(Table& table, std::string label, const Frequencies& f) {
+  if (f.free_motions > 0) {
+    table.row({label, count(f.free_motions, "free motion", "free motions"), "0", "0", ""});
+    label.clear();
+  }
+  for (std::size_t i = 0; i < f.modes.size(); ++i) {
+    const NaturalMode& mode = f.modes[i];
+    table.row({label, fmt::format("{}", i + 1), number(mode.omega / (2.0 * std::numbers::pi)),
+               number(mode.omega),
+               mode.damping_ratio > 0.0 ? fmt::format("{:.3g}", mode.damping_ratio) : "0"});
+    label.clear();
+  }
+  if (!label.empty()) table.row({label, "nothing can move", "", "", ""});
+}
+
+std::string frequency_rows(const Model& model, const CheckReport& report) {
+  const Units& u = model.units;
+  Table table(
+      {"contacts", "mode", "f" + unit(frequency_unit(u)), "omega" + unit("rad/" + u.time), "damping ratio"},
+      {false, true, true, true, true});
+  if (model.contacts.empty()) {
+    add_frequencies(table, "none", report.open);
+  } else {
+    const bool closing = !same(report.open, report.closed), sticking = !same(report.closed, report.stuck);
+    add_frequencies(table,
+                    closing    ? "all open"
+                    : sticking ? "all open or sliding"
+                               : "open or not",
+                    report.open);
+    if (closing) add_frequencies(table, sticking ? "all closed, sliding" : "all closed", report.closed);
+    if (sticking) add_frequencies(table, "all stuck", report.stuck);
+  }
+  std::string text = "lowest frequencies:\n" + table.str();
+  text +=
+      model.omega1 > 0.0
+          ? fmt::format("omega1 = {} rad/{}, the lowest with the contacts stuck that are closed at t = 0\n",
+                        number(model.omega1), u.time)
+          : std::string(
+                "there is no omega1: a motion is free, or nothing can move, with the contacts "
+                "stuck that are closed at t = 0\n");
+  if (model.alpha == 0.0 && model.beta == 0.0) return text + "no Rayleigh damping\n\n";
+  return text + fmt::format("damping C = alpha M + beta K, alpha = {} 1/{}, beta = {} {}\n\n",
+                            number(model.alpha), u.time, number(model.beta), u.time);
+}
+
+std::string stiffness_rows(const Model& model, const CheckReport& report) {
+  if (report.stiffness.empty()) return "";
+  const std::string stiffness = unit(model.units.force + "/" + model.units.length);
+  Table table({"contact", "direction", "its stiffness" + stiffness, "the rest's" + stiffness, "ratio"},
+              {false, false, true, true, true});
+  for (std::size_t i = 0; i < report.stiffness.size() && i < most_rows; ++i) {
+    const StiffnessRatio& s = report.stiffness[i];
+    table.row({model.contacts[static_cast<std::size_t>(s.contact)].name, s.normal ? "normal" : "tangential",
+               number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
+               s.rest > 0.0 ? fmt::format("{:.3g}", s.stiffness / s.rest) : "only this contact resists"});
+  }
+  return "stiffness of contacts against the structure and the other contacts, stuck, at that place\n"
+         "(ratio far above 1: as good as rigid; far below 1: the contact is the soft part):\n" +
+         table.str() + more(report.stiffness.size()) + "\n";
+}
+
+std::string load_rows(const Model& model, const CheckReport& report) {
+  if (report.discontinuities.empty()) return "loads: smooth, no breakpoints\n\n";
+  Table table({"t" + unit(model.units.time), "", "of"}, {true, false, false});
+  for (std::size_t i = 0; i < report.discontinuities.size() && i < most_rows; ++i) {
+    const Discontinuity& d = report.discontinuities[i];
+    table.row({number(d.t), d.jump ? "jump" : "kink", d.what});
+  }
+  return "breakpoints, where the integration stops and restarts:\n" + table.str() +
+         more(report.discontinuities.size()) + "\n";
+}
+
+std::string cost_lines(const Scene& scene, const Model& model, const CheckReport& report) {
+  const Units& u = model.units;
+  const Settings& settings = report.settings;
+  std::string text =
+      fmt::format("run: to t = {} {}, {}\n", number(scene.run.t_end), u.time,
+                  count(static_cast<long>(report.rows), "row of history.csv", "rows of history.csv"));
+  text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", settings.engine, settings.rtol,
+                      settings.max_order, settings.max_order_reason);
+  const Cost& cost = report.cost;
+  text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
+                      u.time);
+  if (!(cost.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
+  return text +
+         fmt::format("      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event\n",
+                     cost.steps_per_period, rough(cost.steps),
+                     cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s");
+}
+
+}  // namespace
+
+std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
+  return head(scene, model, report) + "\n" + contact_rows(model, report) + warning_lines(report) +
+         free_motion_lines(report) + frequency_rows(model, report) + stiffness_rows(model, report) +
+         load_rows(model, report) + cost_lines(scene, model, report);
+}
+
+std::string column_text(const Model& model) {
+  const Units& u = model.units;
+  Table table({"", ""}, {false, false});
+  table.row({"t", u.time});
+  for (const Column& column : model.columns) {
+    const Dof& dof = model.dofs[static_cast<std::size_t>(column.dof)];
+    const std::string what = dof.rotation ? "rad" : u.length;
+    table.row({column.name, column.velocity ? what + "/" + u.time : what});
+  }
+  return "\ncolumns of history.csv:" + table.str();
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,15 @@
+// check_text.hpp: what `signorini check` says, as text for a terminal.
+#pragma once
+
+#include <string>
+
+#include "study/check.hpp"
+
+namespace signorini::cli {
+
+[[nodiscard]] std::string check_text(const Scene& scene, const Model& model, const CheckReport& report);
+
+/// The columns of history.csv with their units, one a line.
+[[nodiscard]] std::string column_text(const Model& model);
+
+}  // namespace signorini::cli

@@ -1,0 +1,213 @@
+// What docs/scene.md says about each table besides its keys. Blocks that begin with `schema = 1` are whole
+// scenes, and are read by a test.
+#include "cli/key_reference.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+constexpr TableText texts[] = {
+    {"", "## Top level", ""},
+    {"units", "## `[units]`",
+     R"(One of N, kg, m, s; kN, t, m, s; N, t, mm, s; and so on: force = mass * length / time^2 is checked, because a
+scene in kN and kg is wrong by 1000.
+
+```toml
+units = { force = "kN", mass = "t", length = "m", time = "s" }
+```)"},
+    {"run", "## `[run]`",
+     R"(```toml
+[run]
+t_end = 1.2
+initial = "static"
+rtol = 1e-8
+output_dt = 1e-3
+```
+
+Events are found to full accuracy whatever `output_dt` is: it only says which rows `history.csv` has. `t_end` is
+always one of them. Of the engines only `ida` computes yet; the others are refused.)"},
+    {"run.atol", "### `run.atol`",
+     R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
+motions matter.)"},
+    {"run.initial", "### `run.initial`",
+     R"(`initial = "static"`: at rest, in frictionless equilibrium under gravity and the loads with a constant history
+and neither start nor end; which contacts are closed is part of the answer, N follows from it, and T = 0 (or `initial_shear`).
+A motion that only friction could stop is held at the first contact that can, when the static loads do no work
+on it, and `check` names it. A motion that the loads would drive is refused, and so is a support that would have
+to pull. With `[matrices]`, such a constant load must say what the weight is.
+
+Otherwise displacements and velocities are as given, and zero where they are not:
+
+```toml
+[run]
+t_end = 10.0
+initial = { A = { ux = 0.01, vy = -0.2 } }           # with [nodes]
+# initial = { u = [0.0, 0.01], v = [0.0, 0.0] }      # with [matrices]
+```)"},
+    {"run.initial.*", "### `run.initial.NODE`", ""},
+    {"damping", "## `[damping]`",
+     R"(```toml
+[damping]
+alpha_over_omega1 = 0.2
+```
+
+```toml
+[damping]
+ratios = [0.02, 0.05]
+frequencies = [2.0, 15.0]
+```
+
+`signorini check` prints the ratios that follow for the first modes. Single dampers are given with `[[springs]]`. Not with `[matrices]`, which bring their own.)"},
+    {"sections", "## `[sections]`",
+     R"(```toml
+[sections.pipe]
+EA = 9.0e6
+EI = 2.0e6
+mass_per_length = 0.4
+```)"},
+    {"sections.*", "### `[sections.NAME]`", ""},
+    {"nodes", "## `[nodes]`",
+     R"(```toml
+[nodes]
+A = [0.0, 0.0]
+B = [0.0, 6.0]
+```)"},
+    {"members[]", "## `[[members]]`",
+     R"(```toml
+[[members]]
+nodes = ["A", "B", "D"]     # two straight pieces
+section = "pipe"
+elements = [4, 12]          # of A-B and of B-D
+
+[[members]]
+nodes = ["A", "D"]
+section = "brace"
+type = "bar"                # hinged at both ends
+```)"},
+    {"masses[]", "## `[[masses]]`",
+     R"(```toml
+[[masses]]
+node = "B"
+mass = 0.5
+```)"},
+    {"supports[]", "## `[[supports]]`",
+     R"(What is held moves neither way for ever. A support that may open is a contact.
+
+```toml
+[[supports]]
+node = "A"
+fix = ["ux", "uy"]
+```)"},
+    {"springs[]", "## `[[springs]]`",
+     R"(```toml
+[[springs]]
+node = "B"
+against = "D"               # the ground without it
+direction = [1.0, 0.0]
+stiffness = 200.0
+damping = 1.5
+```)"},
+    {"matrices", "## `[matrices]`",
+     R"(Whatever another program assembled, instead of gravity, nodes, members, masses, springs, supports and damping.
+A matrix is a file in the Matrix Market format (`coordinate` or `array`, `real` or `integer`, `general` or
+`symmetric`), found beside the scene, or rows of numbers:
+
+```toml
+schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+
+[run]
+t_end = 10.0
+initial = { u = [0.0, 0.01], v = [0.0, 0.0] }
+
+[matrices]
+dofs = ["d0", "d1"]
+mass = [[1.0, 0.0], [0.0, 1.0]]             # or mass = "M.mtx"
+stiffness = [[200.0, -100.0], [-100.0, 100.0]]
+
+[[contacts]]
+name = "stop"
+law = "compliant"
+normal = { d1 = -1.0 }                      # gap = 0.02 - u1
+gap = 0.02
+normal_stiffness = 1e5
+```
+
+A degree of freedom whose row of the mass matrix is zero is massless.)"},
+    {"contacts[]", "## `[[contacts]]`",
+     R"(```toml
+[[contacts]]
+name = "first"
+node = "A"
+law = "compliant"
+normal = [0.0, 1.0]
+normal_stiffness = 1e6
+tangential_stiffness = 1e6
+friction = 0.3
+```
+
+The gap is `gap + n . u`: positive is open, and the contact pushes its node along n. For a floor n is [0, 1]. The
+tangent is t = (ny, -nx), [1, 0] for a floor; tangential motion is `t . u` less the motion of the surface.
+
+- `compliant`: N = kn g while closed, T = kt (ut - p) while it sticks, T = -f N along the slip while it slips;
+  p, the anchor, moves with slip. States: `open`, `stick`, `slip+`, `slip-`; `open` and `closed` without friction.
+- `slider`: the compression is given, `normal_force`, and there is no gap. Without `tangential_stiffness` it is
+  rigid in stick. While `normal_force` is 0 over an interval it is `open`. With `[nodes]` a normal may stand for the
+  tangent that belongs to it.
+
+A dashpot acts beside its spring: N = kn g + cn g' while closed, T = kt (ut - p) + ct ut' in stick. The contact
+opens at N = 0, so it never pulls.
+
+N <= 0 is compression. How stiff is stiff enough? `signorini check` compares each contact with the structure.)"},
+    {"contacts[].friction", "### `contacts.friction`",
+     R"(```toml
+[[contacts]]
+name = "belt"
+node = "block"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = { type = "harmonic", offset = 10.0, amplitude = 4.0, omega = 3.0 }
+friction = { static = 0.4, kinetic = 0.3 }
+surface_velocity = 0.2
+```)"},
+    {"loads[]", "## `[[loads]]`",
+     R"(A force amplitude * f(t) along a direction. Several may act on one node.
+
+```toml
+[[loads]]
+node = "B"
+direction = [0.7071067811865476, 0.7071067811865476]
+amplitude = 100.0
+history = { type = "rectangle", start = 0.0, end = 0.1 }
+```)"},
+    {"history", "## Histories",
+     R"(The course of a load, of `normal_force` or of `surface_velocity` in time.
+
+| type | f(t) | needs |
+|---|---|---|
+| `constant` | 1; without a start it has held since ever | |
+| `step` | 1 from start on | |
+| `rectangle` | 1 from start to end | end |
+| `triangle` | up from 0 to 1 in the middle, and down | end |
+| `half_sine` | sin(pi (t - start) / duration) | duration |
+| `harmonic` | sin(omega (t - start) + phase) | omega or frequency |
+| `polynomial` | c0 + c1 (t - start) + c2 (t - start)^2 + ... | coefficients |
+| `table` | through the points | times and values, or file |
+
+f is zero before start and from end on, a table outside its times. At a jump it already has its new value. Where it jumps or has a kink the
+integration stops and restarts, so that no pulse is stepped over, however short.
+
+```toml
+history = { type = "harmonic", frequency = 2.0, start = 0.5, end = 4.5 }
+```
+
+```toml
+history = { type = "table", times = [0.0, 0.1, 0.1, 0.3], values = [0.0, 1.0, 0.5, 0.0] }
+```)"},
+};
+
+}  // namespace
+
+std::span<const TableText> table_texts() { return texts; }
+
+}  // namespace signorini::cli

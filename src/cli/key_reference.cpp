@@ -1,0 +1,99 @@
+#include "cli/key_reference.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/table.hpp"
+#include "scene/keys.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+std::string path_of(const Key& key) {
+  if (key.table.empty()) return std::string(key.name);
+  return fmt::format("{}.{}", key.table, key.name);
+}
+
+std::string default_of(const Key& key) { return key.fallback.empty() ? "-" : std::string(key.fallback); }
+
+/// Tables in the order in which the key table first names them.
+std::vector<std::string_view> tables() {
+  std::vector<std::string_view> names;
+  for (const Key& key : all_keys())
+    if (std::find(names.begin(), names.end(), key.table) == names.end()) names.push_back(key.table);
+  return names;
+}
+
+/// A cell of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string result;
+  for (char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", cell(text)); }
+
+std::string default_cell(const Key& key) {
+  return key.fallback == "required" ? "required" : code(key.fallback);
+}
+
+std::string name_cell(const Key& key) { return key.name == "*" ? "any name" : code(key.name); }
+
+/// The table of the keys of one table; empty when all of them are for later.
+std::string key_table(std::string_view table) {
+  std::string rows;
+  for (const Key& key : all_keys()) {
+    if (key.table != table || key.later) continue;
+    rows += fmt::format("| {} | {} | {} | {} | {} |\n", name_cell(key), cell(describe_type(key)),
+                        cell(key.unit), default_cell(key), cell(key.meaning));
+  }
+  return rows.empty() ? "" : "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n" + rows;
+}
+
+std::string not_yet() {
+  std::string text;
+  for (const Key& key : all_keys()) {
+    if (key.later) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", path_of(key));
+    for (const std::string& word : later_choices_of(key))
+      text += fmt::format("{}`{} = \"{}\"`", text.empty() ? "" : ", ", path_of(key), word);
+  }
+  if (text.empty()) return "";
+  return "\n## Not supported yet\n\nReserved, and refused with a message that says so: " + text + ".\n";
+}
+
+}  // namespace
+
+std::string key_list() {
+  std::string text = "units in terms of force, mass, length and time; - : no default, may be left out\n";
+  for (const std::string_view table : tables()) {
+    Table rows({"", "", "", "", ""}, {false, false, false, false, false});
+    for (const Key& key : all_keys()) {
+      if (key.table != table) continue;
+      rows.row({path_of(key), describe_type(key), std::string(key.unit), default_of(key),
+                std::string(key.meaning) + (key.later ? " (not supported yet)" : "")});
+    }
+    text += rows.str();
+  }
+  return text;
+}
+
+std::string scene_reference() {
+  std::string text(reference_introduction());
+  std::vector<std::string_view> done;
+  const auto add = [&](std::string_view table, std::string_view heading, std::string_view words) {
+    done.push_back(table);
+    text += fmt::format("\n{}\n\n", heading);
+    if (!words.empty()) text += fmt::format("{}\n\n", words);
+    text += key_table(table);
+  };
+  for (const TableText& t : table_texts()) add(t.table, t.heading, t.text);
+  for (const std::string_view table : tables())
+    if (std::find(done.begin(), done.end(), table) == done.end())
+      add(table, fmt::format("## `{}`", table), "");
+  return text + not_yet();
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,151 @@
+#include "model/frequencies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "model/eigen_dense.hpp"
+#include "model/held.hpp"
+#include "model/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int dense_up_to = 200;
+
+NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
+                    const SparseMatrix& damping) {
+  const double m = x.dot(mass * x);
+  return {omega, m > 0.0 ? x.dot(damping * x) / (2.0 * omega * m) : 0.0};
+}
+
+/// The null motions of K, turned so that each has mass or has none.
+struct FreeMotions {
+  Eigen::MatrixXd heavy, massless;
+};
+
+FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
+  Eigen::MatrixXd null = null_motions(k);
+  for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
+  if (null.cols() == 0) return {null, null};
+  const Eigen::MatrixXd moved = mass * null;
+  const EigenPairs pairs = symmetric_eigen(null.transpose() * moved);
+  const double greatest = pairs.values[pairs.values.size() - 1];
+  Eigen::Index without = 0;
+  while (without < pairs.values.size() && !(pairs.values[without] > 1e-12 * greatest)) ++without;
+  return {null * pairs.vectors.rightCols(null.cols() - without), null * pairs.vectors.leftCols(without)};
+}
+
+Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k,
+                  const std::vector<Combination>& fixed, int count) {
+  const auto n = static_cast<int>(k.rows());
+  Eigen::MatrixXd q = Eigen::MatrixXd::Identity(n, n);
+  if (!fixed.empty()) q = orthogonal_complement(form_columns(fixed, n));
+  if (q.cols() == 0) return {};
+  SparseMatrix m = mass, stiff = k;
+  if (!fixed.empty()) {
+    m = (q.transpose() * (mass * q)).sparseView();
+    stiff = (q.transpose() * (k * q)).sparseView();
+  }
+  const FreeMotions free = free_motions(stiff, m);
+  Frequencies result;
+  result.free_motions = static_cast<int>(free.heavy.cols());
+  Eigen::MatrixXd across(m.rows(), free.heavy.cols() + free.massless.cols());
+  across << m * free.heavy, free.massless;
+  for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j).normalize();
+  Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(m.rows(), m.rows());
+  if (across.cols() > 0) rest = orthogonal_complement(across);
+  if (rest.cols() == 0) return result;
+  const EigenPairs pairs =
+      generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
+  for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
+    if (!(pairs.values[j] > 1e-13 * pairs.values[pairs.values.size() - 1])) break;  // massless
+    result.modes.push_back(
+        mode_of(1.0 / std::sqrt(pairs.values[j]), q * (rest * pairs.vectors.col(j)), mass, damping));
+  }
+  return result;
+}
+
+/// Holds motions that have neither mass nor stiffness; nothing else shares their degrees of freedom.
+SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
+  std::vector<Combination> forms;
+  for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+    Combination form;
+    const double size = motions.col(j).cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < motions.rows(); ++i)
+      if (std::abs(motions(i, j)) > 1e-9 * size) form.terms.emplace_back(static_cast<int>(i), motions(i, j));
+    forms.push_back(std::move(form));
+  }
+  return with_grips(k, forms);
+}
+
+int degrees_with_mass(const SparseMatrix& mass) {
+  return static_cast<int>((mass.diagonal().array() > 0.0).count());
+}
+
+Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k0,
+                   const std::vector<Combination>& fixed, int count) {
+  const auto n = static_cast<int>(k0.rows());
+  const FreeMotions free = free_motions(with_grips(k0, fixed), mass);
+  const SparseMatrix k = free.massless.cols() > 0 ? hold_undecided(k0, free.massless) : k0;
+  Frequencies result;
+  result.free_motions = static_cast<int>(free.heavy.cols());
+  const int size =
+      std::min(result.free_motions + count + 11, degrees_with_mass(mass) - static_cast<int>(fixed.size()));
+  if (size <= 0) return result;
+
+  // (K + shift M) x = (omega^2 + shift) M x: regular also with free motions.
+  double shift = 0.0;
+  if (result.free_motions > 0)
+    for (int i = 0; i < n; ++i)
+      if (mass.coeff(i, i) > 0.0) shift = std::max(shift, 1e-8 * k.coeff(i, i) / mass.coeff(i, i));
+  const HeldStructure solver(SparseMatrix(k + shift * mass), fixed);
+  std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::MatrixXd x(n, size);
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < n; ++i) x(i, j) = uniform(random);
+
+  const int wanted = std::min(size, result.free_motions + count);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(wanted);
+  EigenPairs pairs;
+  for (int round = 0; round < 200; ++round) {
+    Eigen::MatrixXd y(n, size);
+    for (int j = 0; j < size; ++j) y.col(j) = solver.solve(mass * x.col(j));
+    x = orthonormal(y);
+    const Eigen::MatrixXd kx = k * x, mx = mass * x;
+    pairs = generalized_eigen(x.transpose() * mx, x.transpose() * (kx + shift * mx));
+    if (pairs.values.size() < size) return result;
+    const Eigen::VectorXd now = pairs.values.tail(wanted);
+    const bool settled = (now - before).cwiseAbs().maxCoeff() <= 1e-12 * now.cwiseAbs().maxCoeff() &&
+                         ((now - before).cwiseAbs().array() <= 1e-9 * now.array()).all();
+    x = (x * pairs.vectors).eval();
+    if (settled) break;
+    before = now;
+  }
+  for (int j = size - 1 - result.free_motions; j >= size - wanted; --j) {
+    const Eigen::VectorXd shape = x.col(j);
+    const double omega_squared = shape.dot(k * shape) / shape.dot(mass * shape);
+    if (omega_squared > 0.0) result.modes.push_back(mode_of(std::sqrt(omega_squared), shape, mass, damping));
+  }
+  return result;
+}
+
+}  // namespace
+
+Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
+                               const SparseMatrix& stiffness, const Holding& holding, int count) {
+  if (mass.rows() == 0) return {};
+  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  return mass.rows() <= dense_up_to ? dense(mass, damping, k, holding.fixed, count)
+                                    : sparse(mass, damping, k, holding.fixed, count);
+}
+
+Holding close_contacts(const std::vector<Contact>& contacts) {
+  Holding holding;
+  for (const Contact& c : contacts)
+    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
+  return holding;
+}
+
+}  // namespace signorini

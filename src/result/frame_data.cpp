@@ -1,0 +1,150 @@
+#include "result/frame_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "result/csv_read.hpp"
+
+namespace signorini {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+FrameEnd end_of(const CsvReader& row, std::size_t first) {
+  return {row.number(first), row.number(first + 1), row.number(first + 2), row.number(first + 3),
+          row.number(first + 4)};
+}
+
+void read_shapes(const fs::path& directory, double from, double to, std::vector<Frame>& frames) {
+  CsvReader rows(directory / "frames.csv");
+  const std::size_t kind = rows.column("kind"), node = rows.column("node"), x = rows.column("x");
+  bool half = false;
+  while (rows.next()) {
+    const double t = rows.number(0);
+    if (t < from || t > to) continue;
+    if (frames.empty() || frames.back().t != t) {
+      frames.emplace_back().t = t;
+      half = false;
+    }
+    Frame& frame = frames.back();
+    const std::string& what = rows.cell(kind);
+    if (what == "node" || what == "support") {
+      frame.points.push_back({rows.cell(node), what == "support", end_of(rows, x)});
+    } else if (half) {
+      frame.elements.back().b = end_of(rows, x);
+      half = false;
+    } else {
+      frame.elements.push_back({what, end_of(rows, x), end_of(rows, x)});
+      half = true;
+    }
+  }
+}
+
+void read_forces(const fs::path& directory, std::vector<Frame>& frames) {
+  CsvReader rows(directory / "frame_contacts.csv");
+  const auto number = [&](const char* name) { return rows.number(rows.column(name)); };
+  std::size_t i = 0;
+  while (rows.next()) {
+    const double t = rows.number(0);
+    while (i < frames.size() && frames[i].t < t) ++i;
+    if (i == frames.size() || frames[i].t != t) continue;
+    Frame::Force f;
+    f.contact = rows.cell(rows.column("contact"));
+    f.state = rows.cell(rows.column("state"));
+    f.x = number("x"), f.y = number("y"), f.ux = number("ux"), f.uy = number("uy");
+    f.nx = number("nx"), f.ny = number("ny"), f.N = number("N"), f.T = number("T");
+    f.fx = -f.N * f.nx - f.T * number("tx");
+    f.fy = -f.N * f.ny - f.T * number("ty");
+    frames[i].forces.push_back(f);
+  }
+}
+
+struct Box {
+  double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
+  void add(double x, double y) {
+    x0 = std::min(x0, x), x1 = std::max(x1, x);
+    y0 = std::min(y0, y), y1 = std::max(y1, y);
+  }
+  [[nodiscard]] double size() const { return x1 >= x0 ? std::hypot(x1 - x0, y1 - y0) : 0.0; }
+};
+
+/// 1, 2 or 5 times a power of ten, at most x.
+double round_down(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  const double digit = x / power;
+  return (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0) * power;
+}
+
+}  // namespace
+
+std::vector<Frame> read_frames(const fs::path& directory, double from, double to) {
+  std::vector<Frame> frames;
+  std::error_code error;
+  if (!fs::exists(directory / "frames.csv", error)) return frames;
+  read_shapes(directory, from, to, frames);
+  read_forces(directory, frames);
+  return frames;
+}
+
+FrameEnd between(const Frame::Element& e, double s) {
+  FrameEnd p;
+  p.x = e.a.x + s * (e.b.x - e.a.x);
+  p.y = e.a.y + s * (e.b.y - e.a.y);
+  p.ux = e.a.ux + s * (e.b.ux - e.a.ux);
+  p.uy = e.a.uy + s * (e.b.uy - e.a.uy);
+  const double length = std::hypot(e.b.x - e.a.x, e.b.y - e.a.y);
+  if (e.kind != "beam" || !(length > 0.0)) return p;
+  const double c = (e.b.x - e.a.x) / length, d = (e.b.y - e.a.y) / length;
+  const double va = -d * e.a.ux + c * e.a.uy, vb = -d * e.b.ux + c * e.b.uy;
+  const double s2 = s * s, s3 = s2 * s;
+  const double v = (1.0 - 3.0 * s2 + 2.0 * s3) * va + (3.0 * s2 - 2.0 * s3) * vb +
+                   length * ((s - 2.0 * s2 + s3) * e.a.rz + (s3 - s2) * e.b.rz);
+  const double more = v - (va + s * (vb - va));  // beyond the straight line
+  p.ux += -d * more;
+  p.uy += c * more;
+  return p;
+}
+
+FrameScales scales_of(const std::vector<Frame>& frames) {
+  constexpr double largest_displacement = 0.125, arrow = 0.16;
+  FrameScales scales;
+  Box rest;
+  double greatest = 0.0;
+  for (const Frame& frame : frames) {
+    for (const auto& point : frame.points) {
+      rest.add(point.at.x, point.at.y);
+      greatest = std::max(greatest, std::hypot(point.at.ux, point.at.uy));
+    }
+    for (const auto& e : frame.elements) greatest = std::max(greatest, std::hypot(e.b.ux, e.b.uy));
+    for (const auto& f : frame.forces)
+      scales.greatest_force = std::max(scales.greatest_force, std::hypot(f.fx, f.fy));
+  }
+  double size = rest.size();
+  const double wanted = greatest > 0.0 ? largest_displacement * size / greatest : 1.0;
+  if (std::isfinite(wanted) && wanted > 1.0) scales.magnification = round_down(wanted);
+
+  Box drawn = rest;
+  const double m = scales.magnification;
+  for (const Frame& frame : frames) {
+    for (const auto& e : frame.elements)
+      for (const double s : {0.0, 0.5, 1.0}) {
+        const FrameEnd p = between(e, s);
+        drawn.add(p.x + m * p.ux, p.y + m * p.uy);
+      }
+    for (const auto& p : frame.points) drawn.add(p.at.x + m * p.at.ux, p.at.y + m * p.at.uy);
+  }
+  size = drawn.size() > 0.0 ? drawn.size() : 1.0;
+  if (scales.greatest_force > 0.0) scales.force_scale = arrow * size / scales.greatest_force;
+  const Box shapes = drawn;
+  for (const Frame& frame : frames)
+    for (const auto& f : frame.forces)
+      drawn.add(f.x + m * f.ux - scales.force_scale * f.fx, f.y + m * f.uy - scales.force_scale * f.fy);
+  if (!(shapes.size() > 0.0))
+    drawn.add(drawn.x0 - 0.5 * size, drawn.y0), drawn.add(drawn.x1 + 0.5 * size, drawn.y1);
+  scales.x0 = drawn.x0, scales.x1 = drawn.x1, scales.y0 = drawn.y0, scales.y1 = drawn.y1;
+  return scales;
+}
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+// frames.hpp: deformed shapes and contact forces at chosen times (docs/output.md).
+//
+//   frames.csv          t,kind,element,node,x,y,ux,uy,rz
+//   frame_contacts.csv  t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T
+//
+// kind: beam, bar or spring (two rows an element, one an end; "B-D.3" is an inner node), then node or
+// support (one row a named node, element empty). x, y: undeformed. The force on the body at a contact is
+// -N n - T t. Both files are made with the first frame. Errors: FileError.
+#pragma once
+
+#include <filesystem>
+
+#include "result/csv.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+class FrameWriter {
+ public:
+  FrameWriter(const std::filesystem::path& directory, const Model& model);
+  void write(const Sample& sample);
+
+ private:
+  void node_cells(const DrawnNode& node, const Vector& u);
+  void write_shape(const Sample& sample);
+  void write_contacts(const Sample& sample);
+
+  const Model& model_;
+  CsvBlock block_;
+  CsvFile shapes_, contacts_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,199 @@
+#include "result/plot_frames.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "result/frame_data.hpp"
+
+namespace signorini {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_pictures = 40;  // evenly chosen of more
+constexpr std::size_t most_labelled = 6;   // contacts with their forces in figures; more only by name
+constexpr std::size_t most_names = 30;
+
+/// A blank line ends a line; elements that continue each other are one, so that no joint shows.
+std::string shape_table(const Frame& frame, double magnification) {
+  const int steps = frame.elements.size() > 2000 ? 1 : 12;
+  std::string text = "kind,x,y,X,Y\n";
+  for (std::size_t k = 0; k < frame.elements.size(); ++k) {
+    const Frame::Element& e = frame.elements[k];
+    const int n = e.kind == "beam" ? steps : 1;
+    CsvBlock block;
+    for (int i = 0; i <= n; ++i) {
+      const FrameEnd p = between(e, static_cast<double>(i) / n);
+      block.text(e.kind).number(p.x).number(p.y);
+      block.number(p.x + magnification * p.ux).number(p.y + magnification * p.uy).end_row();
+    }
+    text += block.str();
+    const Frame::Element* next = k + 1 < frame.elements.size() ? &frame.elements[k + 1] : nullptr;
+    if (!next || next->kind != e.kind || next->a.x != e.b.x || next->a.y != e.b.y) text += "\n";
+  }
+  CsvBlock block;
+  for (const Frame::Point& p : frame.points) {
+    block.text(p.support ? "support" : "node").number(p.at.x).number(p.at.y);
+    block.number(p.at.x + magnification * p.at.ux).number(p.at.y + magnification * p.at.uy).end_row();
+  }
+  return text + block.str();
+}
+
+std::string force_table(const Frame& frame, const FrameScales& scales) {
+  CsvBlock block;
+  for (const char* name : {"contact", "state", "x", "y", "dx", "dy"}) block.text(name);
+  block.end_row();
+  for (const Frame::Force& f : frame.forces) {
+    block.text(f.contact).text(f.state);
+    block.number(f.x + scales.magnification * f.ux).number(f.y + scales.magnification * f.uy);
+    block.number(scales.force_scale * f.fx).number(scales.force_scale * f.fy).end_row();
+  }
+  return block.str();
+}
+
+struct Layout {
+  int height = 0;
+  double x0, x1, y0, y1, bottom, top;
+};
+
+/// Equal scales in both directions: the picture's height follows from the shape.
+Layout layout_of(const FrameScales& scales) {
+  constexpr double width = (panel_right - panel_left) * picture_width;
+  constexpr double air = 0.09, room_above = 66.0, room_below = 60.0;
+  const double size = std::max({scales.x1 - scales.x0, scales.y1 - scales.y0, 1e-300});
+  Layout l;
+  l.x0 = scales.x0 - air * size, l.x1 = scales.x1 + air * size;
+  l.y0 = scales.y0 - air * size, l.y1 = scales.y1 + air * size;
+  const double panel = std::clamp(width * (l.y1 - l.y0) / (l.x1 - l.x0), 220.0, 640.0);
+  const double wide = (l.y1 - l.y0) * width / panel, high = (l.x1 - l.x0) * panel / width;
+  const double dx = std::max(0.0, wide - (l.x1 - l.x0)), dy = std::max(0.0, high - (l.y1 - l.y0));
+  l.x0 -= 0.5 * dx, l.x1 += 0.5 * dx;
+  l.y0 -= 0.5 * dy, l.y1 += 0.5 * dy;
+  l.height = static_cast<int>(panel + room_above + room_below);
+  l.bottom = room_below / l.height;
+  l.top = 1.0 - room_above / l.height;
+  return l;
+}
+
+/// What is written at a contact, at the tail of its arrow.
+std::string labels(const Frame& frame, const FrameScales& scales, const Layout& l, const PlottedRun& run) {
+  std::string s;
+  const bool figures = frame.forces.size() <= most_labelled;
+  if (frame.forces.size() > most_names) return s;
+  for (const Frame::Force& f : frame.forces) {
+    const double length = std::hypot(f.fx, f.fy);
+    // Without a force the label stands where the arrow of a pressing one would.
+    const double dx = length > 0.0 ? -f.fx / length : -f.nx, dy = length > 0.0 ? -f.fy / length : -f.ny;
+    const double x = f.x + scales.magnification * f.ux - scales.force_scale * f.fx;
+    const double y = f.y + scales.magnification * f.uy - scales.force_scale * f.fy;
+    std::string text = f.contact;
+    if (figures && f.state == "open") text += ": open";
+    if (figures && f.state != "open") {
+      text += fmt::format(": N = {:.4g}", f.N);
+      if (f.T != 0.0) text += fmt::format(", T = {:.4g}", f.T);
+      text += " " + run.facts.units.force;
+    }
+    const bool sideways = std::abs(dx) > 2.0 * std::abs(dy);
+    const bool upright = !figures && !sideways;  // many names stand side by side
+    const double part = (x - l.x0) / (l.x1 - l.x0);
+    const char* side = upright       ? (dy < 0.0 ? "right rotate by 90" : "left rotate by 90")
+                       : sideways    ? (dx > 0.0 ? "left" : "right")
+                       : part > 0.75 ? "right"  // text ends inside the panel
+                       : part < 0.2  ? "left"
+                                     : "center";
+    s += fmt::format("set label {} at {},{} {} offset character {:.2f},{:.2f} front font ',{}'\n",
+                     signorini::quoted(text), shortest(x), shortest(y), side, 0.8 * dx, 0.9 * dy,
+                     figures ? 11 : 9);
+  }
+  return s;
+}
+
+std::string script_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
+                      const std::string& name) {
+  const Layout l = layout_of(scales);
+  const Units& units = run.facts.units;
+  std::string about =
+      fmt::format("Shape at t = {:.9g} {}, displacements {}", frame.t, units.time,
+                  scales.magnification == 1.0 ? std::string("in true scale")
+                                              : fmt::format("magnified {:g} times", scales.magnification));
+  if (scales.greatest_force > 0.0)
+    about += fmt::format("; longest arrow of the run: {:.4g} {}", scales.greatest_force, units.force);
+  std::string s = begin_script(run, {name, about, l.height, false});
+  s += panel(run, l.bottom, l.top, "y [" + units.length + "]", true);
+  s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
+  s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
+                   shortest(l.y1));
+  s += labels(frame, scales, l, run);
+
+  const std::string shape = quoted(name + "-shape.csv") + " skip 1 using ";
+  const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
+  const auto has = [&](const std::string& kind) {
+    return std::any_of(frame.elements.begin(), frame.elements.end(),
+                       [&](const auto& e) { return e.kind == kind; });
+  };
+  const auto only = [](const std::string& kind, const std::string& x, const std::string& y) {
+    return "(strcol(1) eq '" + kind + "' ? " + x + " : NaN):" + y;
+  };
+  std::vector<std::string> elements;
+  const auto line = [&](const char* kind, const char* look, const char* title) {
+    if (!has(kind)) return;
+    elements.push_back(shape + only(kind, "$2", "3") +
+                       " with lines linewidth 0.8 linecolor '#b0b0b0' notitle");
+    elements.push_back(shape + only(kind, "$4", "5") + " with lines " + look + " title " + quoted(title));
+  };
+  line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
+  line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
+  line("beam", "linewidth 2.2 linecolor '#1a1a1a'", "beams");
+  if (has("beam") || has("bar") || has("spring"))
+    elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title 'undeformed'");
+  elements.push_back(shape + only("node", "$2", "3") +
+                     " with points pointtype 6 pointsize 0.5 linecolor '#b0b0b0' notitle");
+  elements.push_back(shape + only("node", "$4", "5") +
+                     " with points pointtype 7 pointsize 0.6 linecolor '#1a1a1a' title 'nodes'");
+  const bool held =
+      std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; });
+  if (held)
+    elements.push_back(shape + only("support", "$4", "5") +
+                       " with points pointtype 5 pointsize 1 linecolor '#555555' title 'supports'");
+  if (!frame.forces.empty()) {
+    elements.push_back(forces +
+                       "($3-$5):($4-$6):5:6 with vectors head filled size screen 0.009,18 linewidth 1.8 "
+                       "linecolor '#c0182b' title 'contact force'");
+    for (const std::string& state : state_names()) {
+      const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
+                                      [&](const auto& f) { return f.state == state; });
+      if (!occurs) continue;
+      elements.push_back(forces + "(strcol(2) eq " + quoted(state) +
+                         " ? $3 : NaN):4 with points pointtype 7 pointsize 1.1 linecolor '" +
+                         state_colour(state) + "' title " + quoted(state));
+    }
+  }
+  return s + plot_command(elements) + "unset label\n" + end_script();
+}
+
+}  // namespace
+
+std::vector<FramePicture> frame_pictures(const fs::path& directory, const PlottedRun& run) {
+  const std::vector<Frame> frames = read_frames(directory, run.from, run.to);
+  std::vector<FramePicture> pictures;
+  if (frames.empty()) return pictures;
+  const FrameScales scales = scales_of(frames);
+  const std::size_t count = std::min(frames.size(), most_pictures);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Frame& frame = frames[count == 1 ? 0 : i * (frames.size() - 1) / (count - 1)];
+    const std::string name = fmt::format("frame-{}", i + 1);
+    const fs::path folder = directory / "plots";
+    write_file(folder / (name + "-shape.csv"), shape_table(frame, scales.magnification));
+    write_file(folder / (name + "-forces.csv"), force_table(frame, scales));
+    pictures.push_back({name, script_of(frame, scales, run, name)});
+  }
+  return pictures;
+}
+
+}  // namespace signorini

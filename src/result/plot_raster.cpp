@@ -1,0 +1,110 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "result/csv_read.hpp"
+#include "result/plot_parts.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr double most_marks = 3000;  // of one contact and type, over the picture's width
+
+/// Lanes of a row, from above.
+const std::vector<std::string>& event_names() {
+  static const std::vector<std::string> names = {"separation", "contact",  "impact",
+                                                 "slip",       "reversal", "stick"};
+  return names;
+}
+
+std::vector<std::string> lanes_of(const PlottedRun& run) {
+  std::vector<std::string> lanes;
+  for (const std::string& name : event_names()) {
+    if (std::find(run.event_types.begin(), run.event_types.end(), name) != run.event_types.end())
+      lanes.push_back(name);
+  }
+  return lanes;
+}
+
+}  // namespace
+
+std::string event_colour(const std::string& event) {
+  static const std::map<std::string, std::string> colours = {
+      {"separation", "#2166ac"}, {"contact", "#17a2a2"},  {"impact", "#c0182b"},
+      {"slip", "#e08214"},       {"reversal", "#7b3294"}, {"stick", "#2e8b3d"}};
+  const auto found = colours.find(event);
+  return found == colours.end() ? "#999999" : found->second;
+}
+
+std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run) {
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) rows[run.facts.contacts[k].name] = k;
+  CsvReader events(directory / "events.csv");
+  const std::size_t who = events.column("contact"), type = events.column("event");
+  const std::size_t n = events.column("N"), t_column = events.column("T");
+  const double least = (run.to - run.from) / most_marks;
+  std::map<std::pair<std::string, std::string>, double> last;
+  CsvBlock block;
+  for (const char* name : {"row", "t", "event", "N", "T"}) block.text(name);
+  block.end_row();
+  while (events.next()) {
+    const double t = events.number(0);
+    if (t < run.from || t > run.to) continue;
+    const auto [place, first] = last.try_emplace({events.cell(who), events.cell(type)}, t);
+    if (!first && t - place->second < least) continue;
+    place->second = t;
+    // A load's own time event belongs to no contact: row -1.
+    const bool any = events.cell(who).empty();
+    block.number(any ? -1.0 : static_cast<double>(rows.at(events.cell(who))));
+    block.number(t).text(events.cell(type));
+    block.number(any ? 0.0 : events.number(n)).number(any ? 0.0 : events.number(t_column)).end_row();
+  }
+  return block.str();
+}
+
+std::string raster_script(const PlottedRun& run) {
+  const std::vector<std::string> lanes = lanes_of(run);
+  if (lanes.empty()) return "";
+  const std::size_t count = run.facts.contacts.size();
+  const int row = count <= 2 ? 120 : count <= 6 ? 70 : count <= 40 ? 38 : 12;
+  const int height = 140 + row * static_cast<int>(count);
+  std::string s = begin_script(run, {"raster" + run.suffix, "Events of the contacts, a mark each", height});
+  const double line = 1.0 / height;
+  s += panel(run, 62.0 * line, 1.0 - 62.0 * line, "", true);
+  s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\nset ytics (", count - 1);
+  for (std::size_t k = 0; k < count; ++k) {
+    s += (k > 0 ? ", " : "") + quoted(run.facts.contacts[k].name) + fmt::format(" {}", k);
+  }
+  s += ") scale 0\n";
+  for (std::size_t k = 1; k < count; ++k) {
+    s += fmt::format(
+        "set arrow from graph 0, first {0}.5 to graph 1, first {0}.5 nohead linecolor '#bbbbbb'\n", k - 1);
+  }
+  const std::string data = "'marks" + run.suffix + ".csv' skip 1 using ";
+  std::vector<std::string> elements;
+  elements.push_back(
+      data + fmt::format("($1 < 0 ? $2 : NaN):(-0.5):(0):({}) with vectors nohead linecolor '#aaaaaa' "
+                         "dashtype 3 title 'load changes'",
+                         count));
+  if (std::find(run.event_types.begin(), run.event_types.end(), "time") == run.event_types.end())
+    elements.clear();
+  const double lane = 0.84 / static_cast<double>(lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const std::string look = fmt::format("linewidth 1.6 linecolor '{}'", event_colour(lanes[i]));
+    elements.push_back(data + "(strcol(3) eq " + quoted(lanes[i]) +
+                       fmt::format(" ? $2 : NaN):($1 + {:.4f}):(0):({:.4f}) with vectors nohead {} notitle",
+                                   -0.42 + lane * static_cast<double>(i), 0.86 * lane, look));
+  }
+  for (const std::string& name : lanes) {
+    elements.push_back(fmt::format("keyentry with lines linewidth 4 linecolor '{}' title {}",
+                                   event_colour(name), quoted(name)));
+  }
+  s += plot_command(elements) + "unset arrow\n";
+  return s + end_script();
+}
+
+}  // namespace signorini

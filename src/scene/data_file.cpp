@@ -1,0 +1,108 @@
+#include "scene/data_file.hpp"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include "base/number.hpp"
+
+namespace signorini {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_rows = 1'000'000, longest_line = 200;
+
+/// The next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
+bool read_line(std::istream& in, std::string& line) {
+  line.clear();
+  char c = 0;
+  while (in.get(c) && c != '\n') {
+    line += c;
+    if (line.size() > longest_line) return true;
+  }
+  return in || !line.empty();
+}
+
+std::vector<std::string> words_of(std::string line) {
+  for (char& c : line) {
+    if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
+  }
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+bool is_binary(const std::string& line) {
+  for (const char c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {
+  const auto refuse_file = [&](const std::string& why) {
+    const SourcePlace place = table.place(key);
+    const std::string where =
+        place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
+    throw FileError(where, fmt::format("{}: {}: {}", table.path(key), path.string(), why));
+  };
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) refuse_file("is a directory");
+  if (fs::is_character_file(status) || fs::is_block_file(status)) refuse_file("is a device");
+  errno = 0;
+  std::ifstream in(path);
+  if (!in) refuse_file(std::strerror(errno ? errno : EIO));
+  return in;
+}
+
+TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key) {
+  TimeTable table;
+  int number = 0;
+  const auto fail = [&](const std::string& message) { throw SceneError({file, number, 0}, key, message); };
+  bool heading_allowed = true;
+  for (std::string line; read_line(in, line);) {
+    ++number;
+    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // written by spreadsheets
+    if (is_binary(line)) fail("found binary data, expected lines of time and value");
+    if (line.size() > longest_line) fail("found a line of more than 200 characters");
+    const std::vector<std::string> words = words_of(line);
+    if (words.empty() || words[0][0] == '#') continue;
+    const auto t = parse_number(words[0]);
+    const auto value = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
+    const bool heading = heading_allowed && !t;
+    heading_allowed = false;
+    if (heading) continue;
+    if (!t || !value || !std::isfinite(*t) || !std::isfinite(*value)) {
+      while (!line.empty() && line.back() == '\r') line.pop_back();
+      fail(fmt::format("found \"{}\", expected two numbers, time and value", line));
+    }
+    const std::size_t n = table.times.size();
+    if (n > 0 && *t < table.times[n - 1]) {
+      fail(fmt::format("found time {} after {}, expected ascending times", shortest(*t),
+                       shortest(table.times[n - 1])));
+    }
+    if (n > 1 && *t == table.times[n - 2]) {
+      fail(fmt::format("found time {} three times, expected at most twice (a jump)", shortest(*t)));
+    }
+    if (n == most_rows) fail(fmt::format("found more than {} rows", most_rows));
+    table.times.push_back(*t);
+    table.values.push_back(*value);
+  }
+  if (number == 0) number = 1;
+  if (in.bad()) fail("cannot be read");
+  if (table.times.size() < 2) {
+    fail(fmt::format("found {}, expected two or more", count_of(table.times.size(), "row")));
+  }
+  return table;
+}
+
+}  // namespace signorini

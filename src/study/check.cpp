@@ -1,0 +1,56 @@
+#include "study/check.hpp"
+
+#include "study/check_parts.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int shown_modes = 5;
+
+/// C with the dashpots of contacts that are closed, and of those that stick.
+SparseMatrix with_dashpots(const Model& model, bool stuck) {
+  std::vector<LineSpring> dashpots;
+  for (const Contact& c : model.contacts) {
+    if (c.normal_damping > 0.0) dashpots.push_back({c.normal, c.normal_damping});
+    if (stuck && c.tangential_damping > 0.0) dashpots.push_back({c.tangent, c.tangential_damping});
+  }
+  return with_springs(model.damping, dashpots);
+}
+
+}  // namespace
+
+const char* name_of(Law law) {
+  switch (law) {
+    case Law::compliant:
+      return "compliant";
+    case Law::slider:
+      return "slider";
+  }
+  return "?";
+}
+
+CheckReport check(const Scene& scene, const Model& model) {
+  CheckReport report;
+  checks::Start start = checks::start(scene, model);
+  report.contacts = std::move(start.contacts);
+  report.settings = std::move(start.settings);
+  if (const auto found = checks::ambiguous_contacts(model))
+    report.warnings.push_back(found->reason + "; the run will stop when that happens");
+  report.rows = scene.run.grid().size();
+  for (const Dof& dof : model.dofs) report.massless += dof.massless ? 1 : 0;
+  if (!scene.matrices) report.mass = checks::mass_of(scene, model);
+  report.free_motions = checks::free_motions(scene, model, report.contacts);
+  const auto frequencies = [&](const SparseMatrix& damping, const Holding& holding) {
+    return lowest_frequencies(model.mass, damping, model.stiffness, holding, shown_modes);
+  };
+  const std::vector<bool> all(model.contacts.size(), true);
+  report.open = frequencies(model.damping, {});
+  report.closed = frequencies(with_dashpots(model, false), close_contacts(model.contacts));
+  report.stuck = frequencies(with_dashpots(model, true), hold_contacts(model.contacts, all));
+  report.stiffness = checks::stiffness_ratios(model);
+  report.discontinuities = checks::discontinuities(model, scene.run.t_end);
+  report.cost = checks::cost_of(model, report.settings, scene.run.t_end);
+  return report;
+}
+
+}  // namespace signorini

@@ -1,0 +1,100 @@
+// Contacts with dashpots and compressions that vary, against closed forms.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "behaviour/engines.hpp"
+#include "behaviour/one_mass.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+double bisect(const std::function<double(double)>& f, double lo, double hi) {
+  for (int i = 0; i < 200; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    ((f(lo) > 0.0) == (f(mid) > 0.0) ? lo : hi) = mid;
+  }
+  return lo;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/dashpot");
+
+TEST_CASE("a mass on a spring and dashpot lets go at N = 0 and never pulls") {
+  // m = 1, k = 1e4, c = 40, dropped from 0.2 m: x'' + c x' + k x = -g while in contact
+  const double k = 1e4, c = 40.0, g = 9.81, v0 = -std::sqrt(2.0 * g * 0.2), land = -v0 / g;
+  const double w = std::sqrt(k), z = c / (2.0 * w), wd = w * std::sqrt(1.0 - z * z), xs = -g / k;
+  const double A = -xs, B = (v0 + z * w * A) / wd;
+  const auto x = [&](double t) {
+    return xs + std::exp(-z * w * t) * (A * std::cos(wd * t) + B * std::sin(wd * t));
+  };
+  const auto v = [&](double t) {
+    return std::exp(-z * w * t) *
+           ((B * wd - z * w * A) * std::cos(wd * t) - (A * wd + z * w * B) * std::sin(wd * t));
+  };
+  const double open = bisect([&](double t) { return -k * x(t) - c * v(t); }, 0.01, 0.0312);
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene(
+            "t_end = 2.0\ninitial = { u = [0.2], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
+            "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1.0e4\nnormal_damping = 40.0",
+            "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = -9.81\n"),
+        engine);
+    REQUIRE(result.events.size() > 3);
+    CHECK(result.events[0].t == doctest::Approx(land).epsilon(1e-9));
+    CHECK(result.events[0].N_after == doctest::Approx(c * v0).epsilon(1e-7));
+    CHECK(result.events[1].t == doctest::Approx(land + open).epsilon(1e-8));
+    CHECK(result.events[1].type == EventType::separation);
+    CHECK(result.events[1].gap < 0.0);
+    for (const Result::Row& row : result.rows) CHECK(row.contacts[0].N <= 1e-9);
+    CHECK(result.report.audit.energy.value < 1e-7 * result.report.audit.energy_scale);
+  }
+}
+
+TEST_CASE("a compression that varies: slip begins where f N(t) falls to the load, and ends in closed form") {
+  // m = 1, P = 0.3, f = 0.5, N = 1 + 0.5 sin 3t: f N = P at sin 3t = -0.8
+  const double begin = (std::numbers::pi + std::asin(0.8)) / 3.0;
+  const auto v = [&](double t) {
+    return (0.3 - 0.5) * (t - begin) + 0.25 / 3.0 * (std::cos(3.0 * t) - std::cos(3.0 * begin));
+  };
+  const double end = bisect(v, begin + 0.3, begin + 1.2);
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene("t_end = 3.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
+                     "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.5\n"
+                     "normal_force = { type = \"harmonic\", offset = 1.0, amplitude = 0.5, omega = 3.0 }",
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.3\n"),
+        engine);
+    REQUIRE(result.events.size() == 2);
+    CHECK(result.events[0].t == doctest::Approx(begin).epsilon(1e-9));
+    CHECK(result.events[1].t == doctest::Approx(end).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("a slider is lifted while its compression is zero, and carries nothing over") {
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene(
+            "t_end = 3.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[4.0]]",
+            "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.5\ntangential_stiffness = 1.0e3\n"
+            "normal_force = { type = \"table\", times = [0.0, 1.0, 1.0, 2.0, 2.0, 4.0], values = [2.0, 2.0, "
+            "0.0, 0.0, 2.0, 2.0] }",
+            "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\n"),
+        engine);
+    std::vector<std::string> rows;
+    for (const Event& e : result.events)
+      if (e.contact == 0) rows.push_back(fmt::format("{} {} {}", e.t, to_string(e.from), to_string(e.to)));
+    REQUIRE(rows.size() >= 2);
+    CHECK(rows[0] == "1 stick open");
+    CHECK(rows[1].substr(0, 7) == "2 open ");
+    CHECK(result.report.audit.energy.value < 1e-7 * result.report.audit.energy_scale);
+  }
+}
+
+TEST_SUITE_END();

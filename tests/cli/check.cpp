@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::Shell;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> models() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(SIGNORINI_MODELS))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cli/check");
+
+TEST_CASE("cli check: every model can be run, as text and as JSON, and nothing is written") {
+  const Shell shell;
+  REQUIRE(models().size() >= 4);
+  for (const fs::path& model : models()) {
+    CAPTURE(model.string());
+    const Ending text = shell.run({"check", model.string()});
+    CHECK(text.code == 0);
+    CHECK(text.err.empty());
+    CHECK(contains(text.out, "lowest frequencies:"));
+    CHECK(contains(text.out, "cost: "));
+    for (const std::string nonsense : {"nan", "inf ", "inf\n"}) CHECK_FALSE(contains(text.out, nonsense));
+    const Ending as_json = shell.run({"check", model.string(), "--json"});
+    CHECK(as_json.code == 0);
+    const json facts = json::parse(as_json.out);
+    CHECK(facts["degrees_of_freedom"].get<int>() > 0);
+    CHECK(facts["columns"][0] == "t");
+  }
+  CHECK(shell.list().empty());
+}
+
+TEST_CASE("cli check: the pipeline in an engineer's words") {
+  const Shell shell;
+  const Ending ending = shell.run({"check", pipeline, "--columns"});
+  for (const char* words : {"51 degrees of freedom, none massless; 2 contacts",
+                            "mass: 9.6 t, centre at (6.75, 5.25) m, weight 94.176 kN", "58.86", "35.316",
+                            "horizontal motion held at contact 'first'", "3 free motions", "alpha = 17.81",
+                            "jump  load 1", "1201 rows of history.csv", "A.wz  rad/s"}) {
+    CAPTURE(words);
+    CHECK(contains(ending.out, words));
+  }
+  CHECK_FALSE(contains(shell.run({"check", pipeline}).out, "A.wz"));
+}
+
+TEST_CASE("cli check: --set counts") {
+  const Shell shell;
+  const Ending ending =
+      shell.run({"check", pipeline, "--json", "--set", "contacts.*.normal_stiffness=2e6"});
+  CHECK(ending.code == 0);
+  CHECK(json::parse(ending.out)["stiffness"][0]["contact_stiffness"] == 2e6);
+  CHECK(shell.run({"check", pipeline, "--set", "run.rtoll=1"}).code == 2);
+  CHECK(shell.run({"check", pipeline, "--set", "run.rtol"}).code == 2);
+}
+
+TEST_CASE("cli check: refusals are 3 and say what would go wrong") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  shell.write("wrong.toml", belt(10) + "frction = 0.3\n");
+  const Ending pulls = shell.run({"check", pipeline, "--set", "gravity=[0.0, 9.81]"});
+  CHECK(pulls.code == 3);
+  CHECK(contains(pulls.err, "contact 'first' would have to pull with 58.86 kN"));
+  const Ending driven = shell.run({"check", pipeline, "--set", "gravity=[1.0, -9.81]"});
+  CHECK(driven.code == 3);
+  CHECK(contains(driven.err, "drive the horizontal motion with 9.6 kN"));
+  CHECK(shell.run({"check", "wrong.toml"}).code == 3);
+
+  shell.write("two.toml", belt(10) + R"([[contacts]]
+name = "again"
+node = "block"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 1.0
+friction = 0.4
+surface_velocity = 0.2
+)");
+  const Ending twice = shell.run({"check", "two.toml", "--set", "run.initial={block={vx=0.2}}"});
+  CHECK(twice.code == 3);
+  CHECK(twice.out.empty());
+  CHECK(twice.err.rfind("error: two.toml:", 0) == 0);
+  CHECK(contains(twice.err, "'belt' and 'again' stick rigidly"));
+}
+
+TEST_CASE("cli check: command line and files") {
+  const Shell shell;
+  CHECK(shell.run({"check"}).code == 2);
+  CHECK(shell.run({"check", pipeline, "-o", "x"}).code == 2);
+  CHECK(shell.run({"check", "missing.toml"}).code == 6);
+  CHECK(shell.run({"check", "--help"}).code == 0);
+}
+
+TEST_SUITE_END();

@@ -81,7 +81,8 @@ Start start(const Scene& scene, const Model& model) {
   FirstStep recorder;
   Report report = simulate(model, run, recorder);
   if (report.outcome.kind == Outcome::Kind::stopped) {
-    const std::string reason = "the run cannot start: " + report.outcome.reason;
+    const std::string reason =
+        fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);
     if (const auto found = ambiguous_contacts(model)) {
       const ContactSpec& contact = scene.contacts[found->contact];
       throw SceneError(contact.place, "contacts." + contact.name, reason + ": " + found->reason);

@@ -66,8 +66,7 @@ TEST_CASE("cli check: the pipeline in an engineer's words") {
 
 TEST_CASE("cli check: --set counts") {
   const Shell shell;
-  const Ending ending =
-      shell.run({"check", pipeline, "--json", "--set", "contacts.*.normal_stiffness=2e6"});
+  const Ending ending = shell.run({"check", pipeline, "--json", "--set", "contacts.*.normal_stiffness=2e6"});
   CHECK(ending.code == 0);
   CHECK(json::parse(ending.out)["stiffness"][0]["contact_stiffness"] == 2e6);
   CHECK(shell.run({"check", pipeline, "--set", "run.rtoll=1"}).code == 2);

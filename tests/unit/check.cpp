@@ -135,7 +135,7 @@ TEST_SUITE("unit/check") {
                   slider("other", Direction{"", {}, {{"d1", 1.0}}, {}}, 1.0, 0.3),
                   slider("right", first, 1.0, 0.3)};
     const std::string message = why_not(s);
-    CHECK(contains(message, "contacts.right: the run cannot start: at t = 0: "));
+    CHECK(contains(message, "contacts.right: the run cannot start, t = 0: "));
     CHECK(contains(message, "'left' and 'right' stick rigidly to one and the same motion"));
     CHECK(contains(message, "tangential_stiffness"));
     Scene sliding = s;  // all well while the surface moves, not for ever

@@ -27,11 +27,14 @@ TEST_CASE("plots: scripts, and bands that are exact to the event") {
   (void)directory.finish(report());
 
   const auto scripts = write_plots(folder / "run");
-  REQUIRE(scripts.size() == 5);
+  REQUIRE(scripts.size() == 7);
   CHECK(scripts[1].filename() == "contact-foot.gp");
   CHECK(scripts[2].filename() == "contact-pad__left.gp");
   const auto plots = folder / "run" / "plots";
   CHECK(slurp(plots / "states-foot.csv") == "from,to,state\n0,0.123456789,stick\n0.123456789,1,slip-\n");
+  CHECK(scripts[4].filename() == "raster.gp");
+  CHECK(scripts[5].filename() == "cone.gp");
+  CHECK(slurp(plots / "marks.csv") == "row,t,event,N,T\n0,0.123456789,slip,-58.86,-17.658\n");
   CHECK(slurp(plots / "states-pad__left.csv") == "from,to,state\n0,1,slip-\n");
 }
 

@@ -1,5 +1,6 @@
 // Scenes that must be read, and scenes with one mistake each: a comment under the wrong line holds a part
-// of the message. For mistakes in a matrix file the comment stands in that file.
+// of the message. For mistakes in a matrix file or a table of
+// time and value the comment stands in that file.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -90,6 +91,7 @@ TEST_CASE("bad scenes are refused at the right line with the right message") {
     INFO(file.string());
     fs::path marked = file;
     if (expectation(file).line == 0) marked.replace_extension(".mtx");
+    if (!fs::exists(marked)) marked.replace_extension(".csv");
     const Expectation expected = expectation(marked);
     REQUIRE(expected.line > 0);
     std::string message = "no error";

@@ -56,7 +56,8 @@ void dump_structure(Dump& dump, const Scene& s) {
   for (const auto& x : s.sections) dump.line("section", x.name, x.EA, x.EI, x.mass_per_length);
   for (const auto& x : s.nodes) dump.line("node", x.name, x.x, x.y);
   for (const auto& x : s.members)
-    dump.line("member", x.nodes, x.section, x.elements, x.mass == MassKind::lumped);
+    dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar,
+              x.mass == MassKind::lumped);
   for (const auto& x : s.masses) dump.line("mass", x.node, x.mass, x.inertia);
   for (const auto& x : s.springs) dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping);
   for (const auto& x : s.supports) dump.line("support", x.node, x.ux, x.uy, x.rz);
@@ -73,15 +74,15 @@ std::string dump(const Scene& s) {
   Dump dump;
   dump.line("title", s.title, s.units.force, s.units.mass, s.units.length, s.units.time, s.gravity);
   dump.line("run", s.run.t_end, static_cast<int>(s.run.engine), s.run.rtol, s.run.atol.displacement,
-            s.run.atol.velocity, s.run.atol.force, s.run.output_dt, s.run.output_times, s.run.max_order,
-            s.run.max_events_at_once, s.run.dt);
+            s.run.atol.velocity, s.run.atol.force, s.run.output_dt, s.run.output_times, s.run.frames,
+            s.run.max_order, s.run.max_events_at_once, s.run.dt);
   dump.line("initial", s.initial.is_static, s.initial.u, s.initial.v, s.initial.components);
   dump.line("damping", s.damping.alpha, s.damping.beta, s.damping.alpha_over_omega1);
   dump_structure(dump, s);
   for (const auto& c : s.contacts) {
     dump.line("contact", c.name, c.law == Law::slider, c.normal, c.tangent, c.gap, c.normal_stiffness,
-              c.tangential_stiffness, c.friction.static_, c.friction.kinetic, c.normal_force,
-              c.surface_velocity, c.initial_shear);
+              c.tangential_stiffness, c.normal_damping, c.tangential_damping, c.friction.static_,
+              c.friction.kinetic, c.normal_force, c.surface_velocity, c.initial_shear);
   }
   for (const auto& l : s.loads) dump.line("load", l.direction, l.amplitude, l.history);
   return dump.text;

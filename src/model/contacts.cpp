@@ -43,9 +43,9 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end,
   if (contact.tangent.terms.empty())
     throw SceneError(spec.place, key + ".tangent", "a support fixes all motion along the tangent");
   if (const double t = negative_at(contact.normal_force, t_end); t >= 0.0)
-    throw SceneError(
-        spec.normal_force.place, key + ".normal_force",
-        fmt::format("found {} at time {}, expected a compression >= 0", contact.normal_force.value(t), t));
+    throw SceneError(spec.normal_force.place, key + ".normal_force",
+                     fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",
+                                 contact.normal_force.value(t), t));
 }
 
 }  // namespace

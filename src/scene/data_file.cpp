@@ -66,7 +66,7 @@ std::ifstream open_data_file(const Table& table, std::string_view key, const fs:
 
 TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key) {
   TimeTable table;
-  int number = 0;
+  int number = 0, last = 1;  // lines: this one, the last one that was not skipped
   const auto fail = [&](const std::string& message) { throw SceneError({file, number, 0}, key, message); };
   bool heading_allowed = true;
   for (std::string line; read_line(in, line);) {
@@ -76,6 +76,7 @@ TimeTable read_time_table(std::istream& in, const std::string& file, const std::
     if (line.size() > longest_line) fail("found a line of more than 200 characters");
     const std::vector<std::string> words = words_of(line);
     if (words.empty() || words[0][0] == '#') continue;
+    last = number;
     const auto t = parse_number(words[0]);
     const auto value = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
     const bool heading = heading_allowed && !t;
@@ -97,7 +98,7 @@ TimeTable read_time_table(std::istream& in, const std::string& file, const std::
     table.times.push_back(*t);
     table.values.push_back(*value);
   }
-  if (number == 0) number = 1;
+  number = last;
   if (in.bad()) fail("cannot be read");
   if (table.times.size() < 2) {
     fail(fmt::format("found {}, expected two or more", count_of(table.times.size(), "row")));

@@ -40,9 +40,9 @@ void check_pressing(const Table& table, const HistorySpec& spec, double t_end) {
   const History history = make_history(spec, table.path("normal_force"));
   const double t = negative_at(history, t_end);
   if (t < 0.0) return;
-  const std::string when = history.is_constant() ? "" : " at time " + shortest(t);
-  table.fail("normal_force",
-             fmt::format("found {}{}, expected a compression >= 0", shortest(history.value(t)), when));
+  const std::string found = history.is_constant() ? shortest(history.value(t))
+                                                  : fmt::format("{:.6g} at time {:.6g}", history.value(t), t);
+  table.fail("normal_force", fmt::format("found {}, expected a compression >= 0", found));
 }
 
 Direction tangent_of(const Direction& normal) {

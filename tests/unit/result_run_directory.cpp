@@ -83,7 +83,7 @@ TEST_CASE("run directory: force removes what Signorini wrote and nothing else") 
     feed(first, 0.0);
     feed(first, 1.0);
     (void)first.finish(report());
-    CHECK(write_plots(path).size() == 5);
+    CHECK(write_plots(path).size() == 6);
   }
   spill(path / "notes.txt", "mine");
   spill(path / "plots" / "mine.png", "mine");

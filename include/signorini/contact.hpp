@@ -49,7 +49,7 @@ struct Contact {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
-  double normal_damping = 0.0, tangential_damping = 0.0;  ///< dashpots beside the springs
+  double normal_damping = 0.0;  ///< dashpot beside the normal spring
   double static_friction = 0.0, kinetic_friction = 0.0;
   History normal_force;    ///< slider: compression >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0

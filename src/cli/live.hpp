@@ -24,6 +24,7 @@ class Live : public Recorder {
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override { next_.sample(sample); }
+  void frame(const Sample& sample) override { next_.frame(sample); }
   bool progress(double t) override;
 
   /// At most this many are shown in full; of more, the first and the last ones.

@@ -17,7 +17,9 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       structure_(structure),
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
-      scratch_(Vector::Zero(model.size())) {}
+      scratch_(Vector::Zero(model.size())),
+      massless_(
+          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })) {}
 
 void Auditor::powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
   scratch_.setZero();
@@ -91,33 +93,40 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
-void Auditor::instant(const Decision& decision, const Vector& u_before, const Forcing& before,
-                      const Forcing& after) {
-  // Linear parts without mass follow a jump of the load at once, at its mean.
-  const Vector du = decision.u - u_before;
-  if (du.squaredNorm() > 0.0) {
-    scratch_.setZero();
-    before.add_load(decision.jet.t, 0, scratch_.data());
-    after.add_load(decision.jet.t, 0, scratch_.data());
-    work_.loads += 0.5 * scratch_.dot(du);
-  }
+void Auditor::instant(const Decision& decision, const Point& before, bool load_jumps) {
+  const Point after{decision.u, decision.v, decision.jet.forces[0]};
+  const double released = massless_ ? stored(before).stored() - stored(after).stored() : 0.0;
+  double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
+    const ContactMotion &b = decision.before[k], &a = decision.after[k];
+    peaks_[k].N = std::max(peaks_[k].N, std::abs(b.N));
+    peaks_[k].T = std::max(peaks_[k].T, std::abs(b.T));
     const Contact& contact = model_.contacts[k];
-    const auto& kt = contact.tangential_stiffness;
     // A dashpot that lets go leaves its spring compressed; what the spring holds is lost in the dashpot.
     if (decision.mode[k].inside && decision.opened[k])
-      work_.damping += 0.5 * contact.normal_stiffness * decision.after[k].gap * decision.after[k].gap;
-    if (!kt || !decision.jumped[k]) continue;
-    const double T0 = decision.before[k].T, T1 = decision.after[k].T;
-    if (std::abs(T1) >= std::abs(T0)) continue;
-    const double loss = (T0 * T0 - T1 * T1) / (2.0 * *kt);
+      work_.damping += 0.5 * contact.normal_stiffness * a.gap * a.gap;
+    const auto& kt = contact.tangential_stiffness;
+    if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
+    double loss = 0.0;
+    if (!massless_) {
+      if (kt && std::abs(a.T) < std::abs(b.T)) loss = (b.T * b.T - a.T * a.T) / (2.0 * *kt);
+    } else if (load_jumps) {  // parts without mass move at once; what slips does so at its limit
+      loss = a.T * (a.ut - b.ut - (kt ? (a.T - b.T) / *kt : 0.0));
+    } else if (kt) {  // a force that drops where parts without mass follow: friction takes all that is
+                      // released
+      loss = released - lost;
+    }
     friction_[k] += loss;
-    work_.friction += loss;
+    lost += loss;
   }
+  // The jump of a load is the limit of a fast ramp, along which parts without mass stay in equilibrium: its
+  // work is what is stored and what is lost.
+  if (massless_ && load_jumps) work_.loads += lost - released;
+  work_.friction += lost;
 }
 
-Energy Auditor::energy(double t, const Point& point) {
-  Energy e = work_;
+Energy Auditor::stored(const Point& point) {
+  Energy e;
   scratch_.setZero();
   structure_.add_product(structure_.m, point.v.data(), scratch_.data());
   e.kinetic = 0.5 * scratch_.dot(point.v);
@@ -134,6 +143,15 @@ Energy Auditor::energy(double t, const Point& point) {
     }
     if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
   }
+  return e;
+}
+
+Energy Auditor::energy(double t, const Point& point) {
+  const Energy now = stored(point);
+  Energy e = work_;
+  e.kinetic = now.kinetic;
+  e.elastic = now.elastic;
+  e.contact = now.contact;
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
   const double exchanged =
       std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});

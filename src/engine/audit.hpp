@@ -29,7 +29,7 @@ class Auditor {
   void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
   void equilibrium(double t, double residual);
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
-  void instant(const Decision& decision, const Vector& u_before, const Forcing& before, const Forcing& after);
+  void instant(const Decision& decision, const Point& before, bool load_jumps);
   /// Energies now; also audits the balance.
   Energy energy(double t, const Point& point);
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
@@ -43,6 +43,9 @@ class Auditor {
     return motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
+  /// Kinetic, elastic and contact energy.
+  [[nodiscard]] Energy stored(const Point& point);
+
   const Model& model_;
   const Structure& structure_;
   Audit audit_;
@@ -51,6 +54,7 @@ class Auditor {
   std::vector<ContactMotion> at_start_;
   std::vector<Peak> peaks_;
   Vector scratch_;
+  bool massless_;  // there are degrees of freedom that move at once
   bool begun_ = false;
 };
 

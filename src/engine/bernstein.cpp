@@ -14,7 +14,7 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 /// Smallest x with p(x) <= 0 on [from, to], given that the caller knows nothing of p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;
-  if (p.b[0] <= 0.0) return from;
+  if (!(p.b[0] > 0.0)) return from;  // also for a NaN, which must not be halved for ever
   if (to - from <= resolution) return p.b[z(p.degree)] <= 0.0 ? std::optional(to) : std::nullopt;
   Bernstein left, right;
   p.split(0.5, left, right);

@@ -104,8 +104,15 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
   const double t = instant.t;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    if (contact.law != Law::slider) continue;
     ContactState& s = mode[c];
+    const bool massless = std::any_of(
+        contact.tangent.terms.begin(), contact.tangent.terms.end(),
+        [&](const auto& term) { return model_.dofs[static_cast<std::size_t>(term.first)].massless; });
+    // Where ut itself may jump, the slip of that instant is found as in statics: from the anchor that the
+    // motion before has left, elastic first, then slip in the direction in which the limit is exceeded.
+    if (massless && slip_sign(s.state) != 0 && contact.tangential_stiffness)
+      s = {State::stick, motion[c].ut - motion[c].T / *contact.tangential_stiffness};
+    if (contact.law != Law::slider) continue;
     const double ut = contact.tangent.dot(instant.u) - after.surface(c, t, 0);
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, t, 1);
     if (after.lifted(c)) {
@@ -252,7 +259,8 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
       decision.guards.push_back(
           {guard.kind, guard.form,
-           guard.kind != Guard::none && starts_at_zero(guard.form, jets[c], instant.resolution)});
+           guard.kind != Guard::none && starts_at_zero(guard.form, jets[c], instant.resolution),
+           guard.kind == Guard::none ? 0.0 : guard.form.magnitude(jets[c].noise[0])});
   }
   return decision;
 }

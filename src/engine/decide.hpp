@@ -35,6 +35,7 @@ struct GuardStart {
   Guard kind = Guard::none;
   Form form;
   bool at_zero = false;  ///< starts at zero and rises
+  double noise = 0.0;    ///< rounding of its value at the start
 };
 
 struct Decision {

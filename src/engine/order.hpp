@@ -7,6 +7,6 @@
 namespace signorini {
 
 /// Fills settings.max_order and settings.max_order_reason.
-void choose_order(const Model& model, const RunSpec& run, Settings& settings);
+void choose_order(const RunSpec& run, Settings& settings);
 
 }  // namespace signorini

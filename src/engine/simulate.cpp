@@ -71,7 +71,7 @@ class Run {
         breakpoints_(breakpoints(model, spec.t_end)) {
     report_.settings = settings_for(model, spec);
     report_.settings.engine = "ida";
-    choose_order(model, spec, report_.settings);
+    choose_order(spec, report_.settings);
     for (const Contact& contact : model.contacts)
       accelerations_ = accelerations_ || contact.normal_damping > 0.0;
     stepper_ = std::make_unique<IdaStepper>(model, structure_, report_.settings);
@@ -108,7 +108,7 @@ class Run {
     decision_ = decider_.decide(instant, forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
     auditor_.begin(decision_, forcing_);
-    point_ = {decision_.u, decision_.v, decision_.jet.forces[0]};
+    point_ = {decision_.u, decision_.v, decision_.jet.forces[0], decision_.jet.a()};
     last_energy_ = auditor_.energy(0.0, point_);
     auditor_.observe(forcing_, 0.0, decision_.mode, point_);
     record_at(0.0);
@@ -117,15 +117,6 @@ class Run {
 
   /// Guards and powers at the end of a step, for its polynomials.
   void fill(double t, const Point& point, double* out) {
-    if (accelerations_) {
-      Point complete = point;
-      expander_.consistent(forcing_, t, complete);
-      return fill_scalars(t, complete, out);
-    }
-    fill_scalars(t, point, out);
-  }
-
-  void fill_scalars(double t, const Point& point, double* out) {
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const ContactMotion m = motion_of(model_.contacts[k], k, forcing_, t, point);
       for (std::size_t i = 0; i < guards_per_contact; ++i)
@@ -140,7 +131,8 @@ class Run {
     const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
     std::vector<double> levels;
     for (std::size_t slot = 0; slot < decision_.guards.size(); ++slot)
-      levels.push_back(re_arm_tolerances * tolerance(decision_.guards[slot].form,
+      levels.push_back(decision_.guards[slot].noise +
+                       re_arm_tolerances * tolerance(decision_.guards[slot].form,
                                                      decision_.after[slot / guards_per_contact],
                                                      report_.settings));
     watch_.start(decision_.guards, std::move(levels));
@@ -150,7 +142,10 @@ class Run {
     for (;;) {
       Step step = stepper_->advance();
       if (step.kind == Step::Kind::failed) return stop(step.reason);
+      if (!(step.end > step.begin))
+        return stop("the step size has fallen below the resolution of time; the tolerance cannot be met");
       stepper_->evaluate(step.end, point_);
+      if (accelerations_) expander_.consistent(forcing_, step.end, point_);
       fill(step.end, point_, history_.push(step.end));
       history_.prepare(step.order);
 
@@ -221,11 +216,7 @@ class Run {
       now.t = t_ = breakpoints_[next_breakpoint_].time;
       ++next_breakpoint_;
     }
-    if (!now.jump && now.fired.empty()) {  // the end of the run
-      last_energy_ = auditor_.energy(t_, point_);
-      record_at(t_);
-      return true;
-    }
+    if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
     if (!count_instant(now)) return false;
     const Forcing before = forcing_;
     if (now.jump) forcing_ = Forcing(model_, t_, Side::after);
@@ -235,10 +226,10 @@ class Run {
       last_energy_ = auditor_.energy(t_, point_);
       return stop(next.reason);
     }
-    auditor_.instant(next, now.u, before, forcing_);
+    auditor_.instant(next, point_, jump);
     decision_ = std::move(next);
     log(old_mode, jump);
-    point_ = {decision_.u, decision_.v, decision_.jet.forces[0]};
+    point_ = {decision_.u, decision_.v, decision_.jet.forces[0], decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, point_);
     record_at(t_);

@@ -61,7 +61,6 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.normal_stiffness = spec.normal_stiffness;
     c.tangential_stiffness = spec.tangential_stiffness;
     c.normal_damping = spec.normal_damping;
-    c.tangential_damping = spec.tangential_damping;
     c.static_friction = spec.friction.static_;
     c.kinetic_friction = spec.friction.kinetic;
     c.initial_shear = spec.initial_shear;

@@ -111,7 +111,7 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "restitution", number, "", "", "", "Newton's coefficient of restitution.", true},
     {"contacts[]", "capture_velocity", number, "length/time", "", "", "Slowest rebound.", true},
     {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
-    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; it acts while the contact sticks."},
+    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs.", true},
 
     {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},

@@ -7,12 +7,11 @@ namespace {
 
 constexpr int shown_modes = 5;
 
-/// C with the dashpots of contacts that are closed, and of those that stick.
-SparseMatrix with_dashpots(const Model& model, bool stuck) {
+/// C with the dashpots of contacts.
+SparseMatrix with_dashpots(const Model& model) {
   std::vector<LineSpring> dashpots;
   for (const Contact& c : model.contacts) {
     if (c.normal_damping > 0.0) dashpots.push_back({c.normal, c.normal_damping});
-    if (stuck && c.tangential_damping > 0.0) dashpots.push_back({c.tangent, c.tangential_damping});
   }
   return with_springs(model.damping, dashpots);
 }
@@ -45,8 +44,8 @@ CheckReport check(const Scene& scene, const Model& model) {
   };
   const std::vector<bool> all(model.contacts.size(), true);
   report.open = frequencies(model.damping, {});
-  report.closed = frequencies(with_dashpots(model, false), close_contacts(model.contacts));
-  report.stuck = frequencies(with_dashpots(model, true), hold_contacts(model.contacts, all));
+  report.closed = frequencies(with_dashpots(model), close_contacts(model.contacts));
+  report.stuck = frequencies(with_dashpots(model), hold_contacts(model.contacts, all));
   report.stiffness = checks::stiffness_ratios(model);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
   report.cost = checks::cost_of(model, report.settings, scene.run.t_end);

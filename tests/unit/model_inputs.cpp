@@ -45,7 +45,6 @@ TEST_SUITE("unit/model") {
   TEST_CASE("dashpots and positions of contacts") {
     const Model model = build_model(good("rest.toml"));
     CHECK(model.contacts[0].normal_damping == 12.5);
-    CHECK(model.contacts[0].tangential_damping == 2.0);
     CHECK(model.contacts[1].normal_damping == 0.0);
     REQUIRE(model.drawn_contacts.size() == 2);
     const DrawnContact& right = model.drawn_contacts[1];

@@ -1,0 +1,108 @@
+// What happens at one instant: jumps on parts without mass, events at the end of the run, energy of drops.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "behaviour/engines.hpp"
+#include "behaviour/one_mass.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+/// A mass d0 and a massless d1 on a slider with stiffness, loaded at d1.
+std::string massless(const std::string& friction, const std::string& history) {
+  return matrix_scene(
+      "t_end = 2.0\noutput_dt = 0.1\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+      "mass = [[1.0, 0.0], [0.0, 0.0]]\nstiffness = [[10.0, -5.0], [-5.0, 10.0]]",
+      "law = \"slider\"\ntangent = { d1 = 1.0 }\nnormal_force = 1.0\ntangential_stiffness = 100.0\n"
+      "friction = " +
+          friction,
+      "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = 5.0\nhistory = " + history + "\n");
+}
+
+bool balanced(const Result& result, double tolerance) {
+  return result.report.audit.energy.value < tolerance * result.report.audit.energy_scale;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/instants");
+
+TEST_CASE("a load that jumps on a massless slider acts like the limit of a ramp") {
+  for (const std::string& engine : engines) {
+    const Result jump = run_text(massless("0.3", "{ type = \"rectangle\", start = 0.5, end = 1.5 }"), engine);
+    const Result ramp =
+        run_text(massless("0.3",
+                          "{ type = \"table\", times = [0.0, 0.5, 0.50001, 1.5, 1.50001, 3.0], "
+                          "values = [0.0, 0.0, 1.0, 1.0, 0.0, 0.0] }"),
+                 engine);
+    REQUIRE(jump.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(ramp.report.outcome.kind == Outcome::Kind::done);
+    CHECK(jump.rows[16].u[1] == doctest::Approx(ramp.rows[16].u[1]).epsilon(1e-4));  // t = 1.6
+    CHECK(jump.events.back().t == doctest::Approx(ramp.events.back().t).epsilon(1e-5));
+    CHECK(jump.report.audit.friction_work[0] ==
+          doctest::Approx(ramp.report.audit.friction_work[0]).epsilon(1e-3));
+    CHECK(balanced(jump, 1e-6));
+    CHECK(balanced(ramp, 1e-6));
+  }
+}
+
+TEST_CASE("friction that drops on a massless slider takes the energy that is released") {
+  for (const std::string& engine : engines)
+    CHECK(balanced(
+        run_text(massless("{ static = 0.4, kinetic = 0.3 }", "{ type = \"harmonic\", omega = 3.0 }"), engine),
+        1e-6));
+}
+
+TEST_CASE("a compression that ends releases the element's energy as friction") {
+  const std::string text =
+      matrix_scene("t_end = 2.0\ninitial = { u = [0.5], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\ntangential_stiffness = 10.0\nfriction = 0.3\n"
+                   "normal_force = { type = \"rectangle\", start = 0.0, end = 1.0, amplitude = 1.0 }");
+  for (const std::string& engine : engines) CHECK(balanced(run_text(text, engine), 1e-6));
+}
+
+TEST_CASE("an event exactly at t_end is logged") {
+  // pushed by 6 for 0.5 s against 3: stops after one second
+  const std::string text =
+      matrix_scene("t_end = 1.5\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.3",
+                   "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 6.0\nhistory = { type = \"rectangle\", "
+                   "start = 0.5, end = 1.0 }\n");
+  for (const std::string& engine : engines) {
+    const Result result = run_text(text, engine);
+    CHECK(result.events.back().type == EventType::stick);
+    CHECK(result.events.back().t == doctest::Approx(1.5).epsilon(1e-12));
+    CHECK(result.rows.back().t == 1.5);
+  }
+}
+
+TEST_CASE("tolerances below the rounding of contact forces do not stop a run") {
+  const std::string text = matrix_scene("t_end = 12.0\ninitial = { u = [1.03], v = [0.0] }",
+                                        "mass = [[1.0]]\ndamping = [[0.02]]\nstiffness = [[4.0]]",
+                                        "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = "
+                                        "1.0\nfriction = 0.4\ntangential_stiffness = 1.0e4");
+  for (const char* rtol : {"1e-3", "2e-4", "1e-12", "3e-13"}) {
+    CAPTURE(rtol);
+    const Result result = run_text(text, "ida", rtol);
+    CHECK(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(result.events.size() == 10);
+  }
+}
+
+TEST_CASE("contacts whose forces are not unique stop the run and are named") {
+  std::string text =
+      matrix_scene("t_end = 1.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4");
+  text +=
+      "[[contacts]]\nname = \"other\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = "
+      "1.0\nfriction = 0.4\n";
+  const Result result = run_text(text, "ida");
+  CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
+  CHECK(result.report.outcome.reason.find("linearly dependent") != std::string::npos);
+}
+
+TEST_SUITE_END();

@@ -90,8 +90,9 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     const std::string contacts = contact_table(model, report);
     if (!contacts.empty()) print(contacts + "\n");
     print(closing(model, report));
-    print("results: " + path.string() +
-          "/ (events.csv, history.csv, contacts.csv, energy.csv, summary.json, run.toml)\n");
+    const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
+    print("results: " + path.string() + "/ (events.csv, history.csv, contacts.csv, energy.csv, " + frames +
+          "summary.json, run.toml)\n");
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn = pictures ? draw_pictures(path) : "";

@@ -81,8 +81,8 @@ std::string dump(const Scene& s) {
   dump_structure(dump, s);
   for (const auto& c : s.contacts) {
     dump.line("contact", c.name, c.law == Law::slider, c.normal, c.tangent, c.gap, c.normal_stiffness,
-              c.tangential_stiffness, c.normal_damping, c.friction.static_,
-              c.friction.kinetic, c.normal_force, c.surface_velocity, c.initial_shear);
+              c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
+              c.normal_force, c.surface_velocity, c.initial_shear);
   }
   for (const auto& l : s.loads) dump.line("load", l.direction, l.amplitude, l.history);
   return dump.text;

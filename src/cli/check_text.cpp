@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cli/table.hpp"
+#include "contact/law.hpp"
 
 namespace signorini::cli {
 
@@ -75,7 +76,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
     const bool slider = c.law == Law::slider;
-    table.row({c.name, name_of(c.law), to_string(s.state), slider ? "" : number(s.gap),
+    table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
                above(-s.N, model.scales.force), above(s.T, model.scales.force),
                c.has_friction() ? number(c.static_friction * std::abs(s.N)) : ""});
   }

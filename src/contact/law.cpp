@@ -38,6 +38,16 @@ const char* to_string(Guard guard) {
   return "?";
 }
 
+const char* to_string(Law law) {
+  switch (law) {
+    case Law::compliant:
+      return "compliant";
+    case Law::slider:
+      return "slider";
+  }
+  return "?";
+}
+
 int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
 
 Form slip_rate(const Contact& contact, int s) {

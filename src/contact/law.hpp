@@ -29,6 +29,8 @@ namespace signorini {
 /// What a guard stands for.
 enum class Guard : unsigned char { none, closing, clearing, separation, slip_plus, slip_minus, sliding };
 [[nodiscard]] const char* to_string(Guard guard);
+/// "compliant", "slider": as in a scene file.
+[[nodiscard]] const char* to_string(Law law);
 
 inline constexpr int guards_per_contact = 3;
 

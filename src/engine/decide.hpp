@@ -26,8 +26,7 @@ struct Instant {
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
-  bool start = false;  ///< t = 0: states are guesses, velocities of stuck contacts are not trusted
-  bool jump = false;   ///< the forcing is not smooth here
+  bool jump = false;  ///< the forcing is not smooth here
 };
 
 /// One guard in force after the decision.

@@ -46,18 +46,10 @@ bool Klu::factor(const std::vector<double>& values) {
   if (h_->symbolic == nullptr) return false;
   klu_l_free_numeric(&h_->numeric, &h_->common);
   h_->numeric = klu_l_factor(raw(column_start_), raw(row_), raw(values), h_->symbolic, &h_->common);
-  singular_column_ = -1;
-  if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) {
-    singular_column_ = static_cast<std::int64_t>(h_->common.singular_col);
-    return false;
-  }
+  if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) return false;
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   fresh_rcond_ = h_->common.rcond;
-  if (fresh_rcond_ < std::numeric_limits<double>::epsilon()) {
-    singular_column_ = static_cast<std::int64_t>(h_->symbolic->n) - 1;
-    return false;
-  }
-  return true;
+  return fresh_rcond_ >= std::numeric_limits<double>::epsilon();
 }
 
 bool Klu::refactor(const std::vector<double>& values) {

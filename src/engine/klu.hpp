@@ -23,8 +23,6 @@ class Klu {
   bool refactor(const std::vector<double>& values);
   /// b := A^-1 b.
   void solve(double* b);
-  /// The column at which the last factorisation broke down, or -1.
-  [[nodiscard]] std::int64_t singular_column() const { return singular_column_; }
 
   long factorisations = 0, refactorisations = 0;
 
@@ -34,7 +32,6 @@ class Klu {
   const std::vector<std::int64_t>& column_start_;
   const std::vector<std::int64_t>& row_;
   double fresh_rcond_ = 0.0;
-  std::int64_t singular_column_ = -1;
 };
 
 }  // namespace signorini

@@ -104,7 +104,6 @@ class Run {
     instant.v = model_.v0;
     instant.resolution = resolution_at(0.0, 0.0);
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
-    instant.start = true;
     decision_ = decider_.decide(instant, forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
     auditor_.begin(decision_, forcing_);

@@ -29,7 +29,6 @@ class StepHistory {
   /// The polynomial of scalar i on the last step.
   [[nodiscard]] Bernstein polynomial(std::size_t i) const;
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
-  [[nodiscard]] double previous(std::size_t i) const { return value(1, i); }
   [[nodiscard]] double begin() const { return times_[1]; }
   [[nodiscard]] double end() const { return times_[0]; }
 

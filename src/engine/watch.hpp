@@ -29,7 +29,6 @@ class Watch {
   /// levels: re-arming levels, one a slot.
   void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
   [[nodiscard]] bool armed(std::size_t slot) const { return armed_[slot]; }
-  [[nodiscard]] bool idle(std::size_t slot) const { return kinds_[slot] == Guard::none; }
   /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.
   /// Guards that have risen enough are armed by it.
   [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.hpp"
+#include "contact/law.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -70,20 +71,10 @@ Json model_json(const Model& model) {
   return json;
 }
 
-const char* law_name(Law law) {
-  switch (law) {
-    case Law::compliant:
-      return "compliant";
-    case Law::slider:
-      return "slider";
-  }
-  return "?";
-}
-
 Json contact_json(const Model& model, std::size_t k, const Report* report) {
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
-               {"law", law_name(contact.law)},
+               {"law", to_string(contact.law)},
                {"static_friction", contact.static_friction},
                {"kinetic_friction", contact.kinetic_friction}};
   if (contact.law != Law::slider) {

@@ -18,16 +18,6 @@ SparseMatrix with_dashpots(const Model& model) {
 
 }  // namespace
 
-const char* name_of(Law law) {
-  switch (law) {
-    case Law::compliant:
-      return "compliant";
-    case Law::slider:
-      return "slider";
-  }
-  return "?";
-}
-
 CheckReport check(const Scene& scene, const Model& model) {
   CheckReport report;
   checks::Start start = checks::start(scene, model);

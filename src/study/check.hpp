@@ -62,9 +62,6 @@ struct CheckReport {
 /// Errors: SceneError when the run could not start, with the reason.
 [[nodiscard]] CheckReport check(const Scene& scene, const Model& model);
 
-/// "compliant", "slider".
-[[nodiscard]] const char* name_of(Law law);
-
 /// The same as JSON, numbers in the scene's units.
 [[nodiscard]] std::string check_json(const Scene& scene, const Model& model, const CheckReport& report);
 

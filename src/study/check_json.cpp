@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "contact/law.hpp"
 #include "study/check.hpp"
 
 namespace signorini {
@@ -15,7 +16,7 @@ Json frequency_json(const Frequencies& frequencies) {
 }
 
 Json contact_json(const Contact& contact, const ContactSample& sample) {
-  Json json = {{"name", contact.name}, {"law", name_of(contact.law)}, {"state", to_string(sample.state)}};
+  Json json = {{"name", contact.name}, {"law", to_string(contact.law)}, {"state", to_string(sample.state)}};
   if (contact.law != Law::slider) json["gap"] = sample.gap;
   json["N"] = sample.N;
   json["T"] = sample.T;

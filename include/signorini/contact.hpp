@@ -9,6 +9,8 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
+// With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
+// in stick.
 // A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
@@ -40,6 +42,14 @@ struct Combination {
   }
 };
 
+/// A spring and a dashpot side by side between the body and the point that slides:
+///   T = stiffness (ut - p) + damping (ut' - p').
+/// That point is a degree of freedom of its own then, without mass, and Contact::tangent is on it.
+struct ShearElement {
+  Combination body;  ///< tangential displacement of the body
+  double stiffness = 0.0, damping = 0.0;
+};
+
 /// The constants of one contact.
 struct Contact {
   std::string name;
@@ -49,12 +59,15 @@ struct Contact {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
-  double normal_damping = 0.0;  ///< dashpot beside the normal spring
+  std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
+  double normal_damping = 0.0;        ///< dashpot beside the normal spring
   double static_friction = 0.0, kinetic_friction = 0.0;
   History normal_force;    ///< slider: compression >= 0
   History surface_motion;  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
+  /// Along which the touching body moves; `tangent` unless there is a shear element.
+  [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
   [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
 };
 

@@ -125,7 +125,8 @@ struct Report {
   Audit audit;
   std::vector<Peak> peaks;  ///< one a contact
   std::map<std::string, long> events_by_type;
-  double wall_time = 0.0;  ///< s, integration without reading and assembling
+  std::vector<std::string> warnings;  ///< one sentence each
+  double wall_time = 0.0;             ///< s, integration without reading and assembling
 };
 
 /// Keeps all rows in memory.

@@ -156,7 +156,8 @@ struct ContactSpec {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
-  double normal_damping = 0.0;  ///< dashpot beside the normal spring, >= 0
+  double normal_damping = 0.0;      ///< dashpot beside the normal spring, >= 0
+  double tangential_damping = 0.0;  ///< dashpot beside the tangential spring, >= 0
   FrictionSpec friction;
   HistorySpec normal_force;      ///< slider: compression, positive
   HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity

@@ -43,6 +43,7 @@ void Live::event(const Event& event) {
 }
 
 bool Live::progress(double t) {
+  reached_ = t;
   const bool go_on = next_.progress(t) && interrupted == 0;
   const auto now = std::chrono::steady_clock::now();
   if (show_progress_ && now >= next_line_) {

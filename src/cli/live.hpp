@@ -32,6 +32,7 @@ class Live : public Recorder {
   [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
   [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
   [[nodiscard]] long event_count() const { return count_; }
+  [[nodiscard]] double reached() const { return reached_; }
 
  private:
   Recorder& next_;
@@ -42,6 +43,7 @@ class Live : public Recorder {
   std::vector<Event> first_;  // the first most_shown
   std::deque<Event> last_;    // the last shown_last
   long count_ = 0;
+  double reached_ = 0.0;
 };
 
 }  // namespace signorini::cli

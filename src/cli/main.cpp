@@ -1,9 +1,13 @@
 // main.cpp: the program `signorini`. Parses the command line and turns every ending into an exit code.
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
 
+#include "base/suggest.hpp"
 #include "base/version.hpp"
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
@@ -38,6 +42,12 @@ int main_program(int argc, char** argv) {
   add_check(program);
   add_plot(program);
   add_keys(program);
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", argv[1], suggestion(argv[1], names),
+                                 app.get_name()));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -78,10 +78,18 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   std::string events;
   {
     Live live(directory, model, scene.run.t_end, !options.quiet);
-    report = simulate(model, scene.run, live);
+    try {
+      report = simulate(model, scene.run, live);
+    } catch (const FileError& error) {
+      throw Error(error.code(),
+                  fmt::format("{}; the run stopped at t = {:.9g} {}; what was computed until then "
+                              "is kept in {}",
+                              error.what(), live.reached(), model.units.time, path.string()));
+    }
     if (tables) events = event_table(live, model);
   }
   const std::string summary = directory.finish(report);
+  for (const std::string& warning : report.warnings) print_warning(warning);
 
   if (options.json) print(summary);
   if (tables) {

@@ -34,6 +34,8 @@ void print(const std::string& text) {
 
 void print_error(const std::string& text) { message("\x1b[1;31m", "error", text); }
 
+void print_warning(const std::string& text) { message("\x1b[1;33m", "warning", text); }
+
 void print_note(const std::string& text) { message("\x1b[1m", "note", text); }
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }

@@ -10,8 +10,9 @@ namespace signorini::cli {
 /// Writes to stdout at once. Errors: FileError (a full disk behind a redirection).
 void print(const std::string& text);
 
-/// "error: ..." and "note: ..." on stderr.
+/// "error: ...", "warning: ..." and "note: ..." on stderr.
 void print_error(const std::string& message);
+void print_warning(const std::string& message);
 void print_note(const std::string& message);
 
 /// The progress line may be shown.

@@ -85,7 +85,7 @@ Rows rows(const Contact& contact, const ContactState& state) {
         result.tangent.constant = *contact.tangential_stiffness * state.anchor;
       } else {
         result.tangent.T = 0.0;
-        result.tangent.at = 1.0;
+        (contact.shear ? result.tangent.vt : result.tangent.at) = 1.0;
       }
       break;
     case State::slip_plus:

@@ -3,6 +3,7 @@
 //   law        open            closed, stick, slip: normal   stick                        slip s
 //   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
+//   with a shear element, whose sliding point has no mass:   p' = 0                       T + s fk N = 0
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
 //
@@ -13,7 +14,7 @@
 //              slip s  -N, s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
-//              p' = ut'                         slider without kt
+//              p' = ut'                         slider without kt, and the sliding point of a shear element
 //
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.

@@ -12,7 +12,8 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
   ContactState next{State::closed, jet.motion[0].ut};
   if (!contact.has_friction()) return next;
   next.state = State::stick;
-  if (contact.normal_damping > 0.0) return next;  // N jumps and T does not: the caller's guards decide
+  // N jumps and T does not, or the shear element has not yet come to rest: the caller's guards decide.
+  if (contact.normal_damping > 0.0 || contact.shear) return next;
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
     const ContactMotion& d = jet.motion[m];
     const bool normal_moves = std::abs(d.gap) > jet.noise[m].gap;

@@ -6,6 +6,13 @@
 namespace signorini {
 namespace {
 
+/// There are degrees of freedom with neither mass nor damping.
+bool moves_at_once(const Model& model) {
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless && model.damping.coeff(i, i) == 0.0) return true;
+  return false;
+}
+
 void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
@@ -18,8 +25,7 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
       scratch_(Vector::Zero(model.size())),
-      massless_(
-          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })) {}
+      massless_(moves_at_once(model)) {}
 
 void Auditor::powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
   scratch_.setZero();
@@ -57,7 +63,8 @@ void Auditor::integrate(const StepHistory& history, std::size_t offset, double f
 void Auditor::begin(const Decision& decision, const Forcing& forcing) {
   const Point point{decision.u, decision.v, decision.jet.forces[0]};
   for (std::size_t k = 0; k < peaks_.size(); ++k)
-    at_start_.push_back(motion(k, forcing, decision.jet.t, point));
+    at_start_.push_back({model_.contacts[k].normal.dot(point.u),
+                         slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
   audit_.initial = energy(decision.jet.t, point);
   begun_ = true;
 }
@@ -68,8 +75,9 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
     const ContactMotion m = motion(k, forcing, t, point);
     const int index = static_cast<int>(k);
     Peak& peak = peaks_[k];
-    peak.horizontal = std::max(peak.horizontal, std::abs(m.ut - at_start_[k].ut));
-    peak.vertical = std::max(peak.vertical, std::abs(m.gap - at_start_[k].gap));
+    const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
+    peak.horizontal = std::max(peak.horizontal, std::abs(ut - at_start_[k].ut));
+    peak.vertical = std::max(peak.vertical, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
     peak.N = std::max(peak.N, std::abs(m.N));
     peak.T = std::max(peak.T, std::abs(m.T));
 
@@ -166,8 +174,9 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   ContactSample s;
   s.state = state.state;
   s.gap = m.gap;
-  s.ut = m.ut;
-  s.vt = m.vt;
+  const BodySlide slide = slide_of(model_.contacts[k], k, forcing, t, point.u, point.v);
+  s.ut = slide.ut;
+  s.vt = slide.vt;
   s.N = m.N;
   s.T = m.T;
   const auto& kt = model_.contacts[k].tangential_stiffness;

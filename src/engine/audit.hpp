@@ -51,7 +51,10 @@ class Auditor {
   Audit audit_;
   Energy work_;  // dissipations and works so far
   std::vector<double> friction_;
-  std::vector<ContactMotion> at_start_;
+  struct Place {
+    double normal = 0.0, ut = 0.0;
+  };
+  std::vector<Place> at_start_;
   std::vector<Peak> peaks_;
   Vector scratch_;
   bool massless_;  // there are degrees of freedom that move at once

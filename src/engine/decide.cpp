@@ -56,7 +56,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
       s.state = at_rest(contact);
       if (contact.tangential_stiffness) {
         s.anchor = ut - contact.initial_shear / *contact.tangential_stiffness;
-      } else if (contact.has_friction()) {
+      } else if (contact.has_friction() && !contact.shear) {
         const double vt = contact.tangent.dot(v) - forcing.surface(c, t, 1);
         double size = std::abs(forcing.surface(c, t, 1));
         for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * v[dof]);
@@ -185,6 +185,14 @@ std::string Decider::describe(const std::vector<Failure>& failures) const {
   return text;
 }
 
+std::vector<BodySlide> Decider::slides(const Forcing& forcing, double t, const Vector& u,
+                                       const Vector& v) const {
+  std::vector<BodySlide> result;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    result.push_back(slide_of(model_.contacts[k], k, forcing, t, u, v));
+  return result;
+}
+
 Decision Decider::decide(const Instant& instant, const Forcing& before, const Forcing& after) const {
   Decision decision;
   const std::size_t count = model_.contacts.size();
@@ -203,6 +211,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     decision.before.push_back(jet.motion[0]);
     noise.push_back(jet.noise[0]);
   }
+  decision.slides_before = slides(before, instant.t, decision.u, decision.v);
 
   Mode mode = instant.mode;
   if (instant.jump) follow_forcing(instant, before, after, decision.before, mode);
@@ -250,6 +259,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
   }
 
   decision.consistent = true;
+  decision.slides_after = slides(after, instant.t, decision.u, decision.v);
   for (std::size_t c = 0; c < count; ++c) {
     const ContactMotion& after_motion = jets[c].motion[0];
     decision.after.push_back(after_motion);

@@ -44,10 +44,11 @@ struct Decision {
   Vector u, v;
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
-  std::vector<GuardStart> guards;            ///< guards_per_contact a contact
-  std::vector<bool> visited;                 ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;                  ///< contacts whose N or T jumps
-  std::vector<bool> opened;                  ///< contacts that were closed just before and are open now
+  std::vector<BodySlide> slides_before, slides_after;
+  std::vector<GuardStart> guards;  ///< guards_per_contact a contact
+  std::vector<bool> visited;       ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;        ///< contacts whose N or T jumps
+  std::vector<bool> opened;        ///< contacts that were closed just before and are open now
   int rounds = 0;
 };
 
@@ -76,6 +77,8 @@ class Decider {
                 std::vector<MotionJet>& jets) const;
   bool enumerate(const Instant& instant, const Forcing& after, Decision& decision,
                  std::vector<MotionJet>& jets) const;
+  [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, double t, const Vector& u,
+                                              const Vector& v) const;
   [[nodiscard]] std::string describe(const std::vector<Failure>& failures) const;
 
   const Model& model_;

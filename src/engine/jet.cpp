@@ -201,7 +201,7 @@ void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& 
   bool any = false;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    if (mode[c].state != State::stick || contact.tangential_stiffness) continue;
+    if (mode[c].state != State::stick || contact.tangential_stiffness || contact.shear) continue;
     const double miss = forcing.surface(c, t, 1) - contact.tangent.dot(v);
     if (miss == 0.0) continue;
     x[n + 2 * static_cast<Eigen::Index>(c) + 1] = miss;
@@ -213,7 +213,8 @@ void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& 
     if (kinds_[static_cast<std::size_t>(i)] == Kind::massive) v[i] += x[i];
   for (std::size_t c = 0; c < mode.size(); ++c) {  // one degree of freedom: exact, not to roundoff
     const Contact& contact = model_.contacts[c];
-    if (mode[c].state == State::stick && !contact.tangential_stiffness && contact.tangent.terms.size() == 1) {
+    if (mode[c].state == State::stick && !contact.tangential_stiffness && !contact.shear &&
+        contact.tangent.terms.size() == 1) {
       const auto& [dof, factor] = contact.tangent.terms[0];
       v[dof] = forcing.surface(c, t, 1) / factor;
     }

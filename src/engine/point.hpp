@@ -32,4 +32,15 @@ struct Point {
   return m;
 }
 
+/// Tangential displacement and velocity of the touching body, relative to the surface: those of the motion
+/// unless a shear element stands between.
+struct BodySlide {
+  double ut = 0.0, vt = 0.0;
+};
+[[nodiscard]] inline BodySlide slide_of(const Contact& contact, std::size_t k, const Forcing& forcing,
+                                        double t, const Vector& u, const Vector& v) {
+  return {contact.body_tangent().dot(u) - forcing.surface(k, t, 0),
+          contact.body_tangent().dot(v) - forcing.surface(k, t, 1)};
+}
+
 }  // namespace signorini

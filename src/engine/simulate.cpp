@@ -106,12 +106,24 @@ class Run {
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     decision_ = decider_.decide(instant, forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
+    warn_of_cut_shear();
     auditor_.begin(decision_, forcing_);
     point_ = {decision_.u, decision_.v, decision_.jet.forces[0], decision_.jet.a()};
     last_energy_ = auditor_.energy(0.0, point_);
     auditor_.observe(forcing_, 0.0, decision_.mode, point_);
     record_at(0.0);
     return true;
+  }
+
+  /// An initial_shear beyond the friction limit cannot stand; what is left of it is said.
+  void warn_of_cut_shear() {
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const double asked = model_.contacts[k].initial_shear, found = decision_.after[k].T;
+      if (!decision_.visited[k] || !decision_.jumped[k] || std::abs(found) >= std::abs(asked)) continue;
+      report_.warnings.push_back(fmt::format(
+          "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
+          model_.contacts[k].name, asked, found));
+    }
   }
 
   /// Guards and powers at the end of a step, for its polynomials.
@@ -279,8 +291,8 @@ class Run {
       event.T_after = after.T;
       event.vn = before.vn;
       event.vn_after = after.vn;
-      event.vt = before.vt;
-      event.vt_after = after.vt;
+      event.vt = decision_.slides_before[k].vt;
+      event.vt_after = decision_.slides_after[k].vt;
       recorder_.event(event);
     }
   }

@@ -1,6 +1,7 @@
 // build_model: the scene as matrices, in the order in which one thing needs the other:
 //
-//   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
+//   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales -> shear
+//   elements
 #include <fmt/core.h>
 
 #include "model/assembly.hpp"
@@ -11,6 +12,7 @@
 #include "model/massless.hpp"
 #include "model/modes.hpp"
 #include "model/scales.hpp"
+#include "model/shear.hpp"
 #include "model/statics.hpp"
 #include "signorini/model.hpp"
 
@@ -96,6 +98,7 @@ Model build_model(const Scene& scene) {
   set_damping(scene.damping, assembly.dampers, model);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
+  add_shear_elements(scene, model);
   return model;
 }
 

@@ -144,7 +144,7 @@ Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bo
     if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
     if (c.tangential_stiffness && !c.tangent.terms.empty())
       holding.springs.push_back({c.tangent, *c.tangential_stiffness});
-    else if (c.law == Law::slider)
+    else if (c.law == Law::slider || c.shear)
       holding.fixed.push_back(c.tangent);
   }
   return holding;

@@ -81,6 +81,10 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
     json["gap"] = contact.gap;
     json["normal_stiffness"] = contact.normal_stiffness;
   }
+  if (contact.shear) {
+    json["tangential_stiffness"] = contact.shear->stiffness;
+    json["tangential_damping"] = contact.shear->damping;
+  }
   if (contact.tangential_stiffness) json["tangential_stiffness"] = *contact.tangential_stiffness;
   if (model.static_start && k < model.statics.reactions.size()) {
     json["static_reaction"] = model.statics.reactions[k];
@@ -177,6 +181,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
                      {"exit_code", exit_code(report.outcome.kind)}};
   json.update(head_json(scene, model, command_line));
   json["engine"] = report.settings.engine;
+  json["warnings"] = report.warnings;
   json["settings"] = settings_json(scene, report.settings);
   json["wall_time"] = report.wall_time;
   long total = 0;

@@ -34,7 +34,7 @@ constexpr Key table_of_keys[] = {
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
-    {"run", "engine", choice, "", "\"ida\"", "ida newmark friction-iteration exact", "Method of time integration."},
+    {"run", "engine", choice, "", "\"ida\"", "ida exact ~newmark ~friction-iteration", "Method of time integration."},
     {"run", "rtol", fraction, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
@@ -111,7 +111,7 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "restitution", number, "", "", "", "Newton's coefficient of restitution.", true},
     {"contacts[]", "capture_velocity", number, "length/time", "", "", "Slowest rebound.", true},
     {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
-    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs.", true},
+    {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; the two stand in series with the friction."},
 
     {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},

@@ -115,9 +115,10 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
     contact.surface_velocity = read_standing_history(table, "surface_velocity", directory_of(scene));
     if (contact.tangential_stiffness) {
       contact.initial_shear = table.number("initial_shear");
+      contact.tangential_damping = table.number("tangential_damping");
     } else {
-      if (table.has("initial_shear"))
-        table.fail("initial_shear", "has no meaning without tangential_stiffness");
+      for (const char* key : {"initial_shear", "tangential_damping"})
+        if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
     }
     if (contact.normal) contact.normal->node = node;
     if (contact.tangent) contact.tangent->node = node;

@@ -100,6 +100,7 @@ std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
     const Contact& c = model.contacts[i];
     if (c.law == Law::compliant) add(i, true, c.normal, c.normal_stiffness);
     if (c.tangential_stiffness && !c.tangent.terms.empty()) add(i, false, c.tangent, *c.tangential_stiffness);
+    if (c.shear) add(i, false, c.shear->body, c.shear->stiffness);
   }
   return result;
 }

@@ -97,4 +97,61 @@ TEST_CASE("a slider is lifted while its compression is zero, and carries nothing
   }
 }
 
+TEST_CASE("spring and dashpot along a slider: sticks as a damped oscillator, slips with a lagging element") {
+  // m = 1, kt = 100, ct = 4; x(0) = 0.05, stuck: |T| stays below f N = 6
+  const double k = 100.0, c = 4.0, w = 10.0, z = c / (2.0 * w), wd = w * std::sqrt(1.0 - z * z);
+  const auto stuck = [&](double t) {
+    return 0.05 * std::exp(-z * w * t) * (std::cos(wd * t) + z * w / wd * std::sin(wd * t));
+  };
+  // v(0) = -1 while T slips at +-2: x'' = 2, e' = (-2 - k e)/c, e(0) = 0, and it sticks when x' = e'
+  const auto rate = [&](double t) { return -1.0 + 2.0 * t + 2.0 / c * std::exp(-k / c * t); };
+  const double sticks = bisect([&](double t) { return -rate(t); }, 0.1, 1.0);
+  for (const std::string& engine : engines) {
+    const auto run = [&](const char* initial, double friction) {
+      return run_text(matrix_scene(std::string("t_end = 2.0\noutput_dt = 0.125\ninitial = ") + initial,
+                                   "mass = [[1.0]]\nstiffness = [[0.0]]",
+                                   fmt::format("law = \"slider\"\ntangent = {{ d0 = 1.0 }}\nfriction = {}\n"
+                                               "normal_force = 10.0\ntangential_stiffness = 100.0\n"
+                                               "tangential_damping = 4.0\ninitial_shear = {}\n",
+                                               friction, friction > 0.5 ? 5.0 : 0.0)),
+                      engine);
+    };
+    const Result held = run("{ u = [0.05], v = [0.0] }", 0.6);
+    CHECK(held.events.empty());
+    for (const Result::Row& row : held.rows) {
+      CHECK(row.u[0] == doctest::Approx(stuck(row.t)).epsilon(1e-7));
+      CHECK(row.contacts[0].ut == row.u[0]);
+      CHECK(std::abs(row.contacts[0].slip) < 1e-12);
+    }
+    const Result slipping = run("{ u = [0.0], v = [-1.0] }", 0.2);
+    REQUIRE(!slipping.events.empty());
+    CHECK(slipping.events[0].type == EventType::stick);
+    CHECK(slipping.events[0].t == doctest::Approx(sticks).epsilon(1e-8));
+    CHECK(slipping.events[0].vt == doctest::Approx(-1.0 + 2.0 * sticks).epsilon(1e-7));
+    CHECK(slipping.events[0].T == doctest::Approx(-2.0));
+    for (const Result* r : {&held, &slipping})
+      CHECK(r->report.audit.energy.value < 1e-7 * r->report.audit.energy_scale);
+  }
+}
+
+TEST_CASE("a landing with dashpots along and across conserves energy, and friction stays in its cone") {
+  for (const std::string& engine : engines)
+    for (double ct : {0.5, 5.0, 50.0}) {
+      CAPTURE(ct);
+      const Result result = run_text(
+          matrix_scene("t_end = 2.0\ninitial = { u = [0.0, 0.1], v = [0.7, 0.0] }",
+                       "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[20.0, 0.0], [0.0, 0.0]]",
+                       fmt::format("law = \"compliant\"\nnormal = {{ d1 = 1.0 }}\ntangent = {{ d0 = 1.0 }}\n"
+                                   "normal_stiffness = 1.0e4\nnormal_damping = 20.0\nfriction = 0.4\n"
+                                   "tangential_stiffness = 5.0e3\ntangential_damping = {}",
+                                   ct),
+                       "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = -9.81\n"),
+          engine);
+      CHECK(result.report.outcome.kind == Outcome::Kind::done);
+      CHECK(result.report.events_by_type.at("contact") > 3);
+      CHECK(result.report.audit.energy.value < 1e-7 * result.report.audit.energy_scale);
+      CHECK(result.report.audit.friction.value < 1e-6 * result.report.audit.force_scale);
+    }
+}
+
 TEST_SUITE_END();

@@ -142,4 +142,24 @@ TEST_CASE("horizontal pulse on the frictionless pipeline: final drift is impulse
   CHECK(drift == doctest::Approx(impulse / (mass * model.alpha)).epsilon(1e-4));
 }
 
+TEST_CASE("an initial shear above the friction limit is cut, and the run says so") {
+  for (const std::string& engine : engines) {
+    const auto run = [&](const char* shear) {
+      return run_text(matrix_scene("t_end = 0.1\ninitial = { u = [0.0], v = [0.0] }",
+                                   "mass = [[1.0]]\nstiffness = [[0.0]]",
+                                   std::string("law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.5\n"
+                                               "normal_force = 2.0\ntangential_stiffness = 1e2\n"
+                                               "initial_shear = ") +
+                                       shear),
+                      engine);
+    };
+    CHECK(run("1.0").report.warnings.empty());
+    const Result cut = run("1.5");
+    REQUIRE(cut.report.warnings.size() == 1);
+    CHECK(cut.report.warnings[0].find("initial_shear = 1.5 is above the friction limit") !=
+          std::string::npos);
+    CHECK(cut.rows[0].contacts[0].T == doctest::Approx(1.0));
+  }
+}
+
 TEST_SUITE_END();

@@ -73,6 +73,22 @@ TEST_CASE("cli: what cannot be read or written is 6") {
   CHECK(shell.read("taken") == "a file");
 }
 
+TEST_CASE("cli: an unknown command is named, with a suggestion") {
+  const Shell shell;
+  const Ending ending = shell.run({"rum", "belt.toml"});
+  CHECK(ending.code == 2);
+  CHECK(ending.err.find("no command \"rum\"; did you mean \"run\"?") != std::string::npos);
+}
+
+TEST_CASE("cli: an engine that does not exist is a wrong command line") {
+  const Shell shell;
+  shell.write("belt.toml", belt(1));
+  const Ending ending = shell.run({"run", "belt.toml", "--engine", "idda"});
+  CHECK(ending.code == 2);
+  CHECK(ending.err.find("did you mean \"ida\"?") != std::string::npos);
+  CHECK(shell.list() == std::vector<std::string>{"belt.toml"});
+}
+
 TEST_CASE("cli: a full disk behind stdout is 6") {
   if (!std::filesystem::exists("/dev/full")) return;
   const Shell shell;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,13 +51,18 @@ class Shell {
     return names;
   }
 
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
-                            const std::string& out = ".out") const {
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments, const std::string& out = ".out",
+                            rlim_t file_size = RLIM_INFINITY) const {
     std::vector<char*> argv = {const_cast<char*>("signorini")};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
     const pid_t child = fork();
     if (child != 0) return child;
+    if (file_size != RLIM_INFINITY) {
+      std::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{file_size, file_size};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
     if (chdir(folder_.c_str()) != 0) _exit(125);
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);

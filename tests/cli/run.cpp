@@ -113,4 +113,25 @@ TEST_CASE("cli run: a killed run leaves whole rows") {
   CHECK(exists(shell, "belt-run/run.toml"));
 }
 
+TEST_CASE("cli run: a disk that fills up during a run leaves whole rows, and a message with the time") {
+  const Shell shell;
+  shell.write("belt.toml", belt(400));
+  // Past the limit a write fails as on a full disk; the limit is the child's alone.
+  const pid_t child = shell.start({"run", "belt.toml", "--no-plots"}, ".out", 40000);
+  const Ending ending = shell.wait(child);
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("cannot be written: ") != std::string::npos);
+  CHECK(ending.err.find("the run stopped at t = ") != std::string::npos);
+  CHECK(ending.err.find("is kept in belt-run") != std::string::npos);
+  CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] != "done");
+  for (const char* name : {"events.csv", "history.csv", "contacts.csv", "energy.csv"}) {
+    CAPTURE(name);
+    const std::string text = shell.read(std::string("belt-run/") + name);
+    REQUIRE(!text.empty());
+    CHECK(text.back() == '\n');
+    CHECK(text.size() <= 40000);
+  }
+  CHECK(lines(shell.read("belt-run/history.csv")) > 100);
+}
+
 TEST_SUITE_END();

@@ -82,7 +82,7 @@ std::string dump(const Scene& s) {
   for (const auto& c : s.contacts) {
     dump.line("contact", c.name, c.law == Law::slider, c.normal, c.tangent, c.gap, c.normal_stiffness,
               c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
-              c.normal_force, c.surface_velocity, c.initial_shear);
+              c.normal_force, c.surface_velocity, c.initial_shear, c.tangential_damping);
   }
   for (const auto& l : s.loads) dump.line("load", l.direction, l.amplitude, l.history);
   return dump.text;

@@ -27,36 +27,13 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       scratch_(Vector::Zero(model.size())),
       massless_(moves_at_once(model)) {}
 
-void Auditor::powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
-  scratch_.setZero();
-  forcing.add_load(t, 0, scratch_.data());
-  out[0] = scratch_.dot(point.v);
-  scratch_.setZero();
-  structure_.add_product(structure_.c, point.v.data(), scratch_.data());
-  out[1] = scratch_.dot(point.v);
-  for (std::size_t k = 0; k < mode.size(); ++k) {
-    const ContactMotion m = motion(k, forcing, t, point);
-    const int s = slip_sign(mode[k].state);
-    if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
-    out[2 + 2 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
-    out[3 + 2 * k] = -m.T * forcing.surface(k, t, 1);
-  }
-}
-
-void Auditor::integrate(const StepHistory& history, std::size_t offset, double from, double to) {
-  const double h = history.end() - history.begin();
-  const auto integral = [&](std::size_t i) {
-    if (from == 0.0 && to == 1.0) return history.integral(offset + i);
-    const Bernstein p = history.polynomial(offset + i);
-    return h * (p.integral(to) - (from > 0.0 ? p.integral(from) : 0.0));
-  };
-  work_.loads += integral(0);
-  work_.damping += integral(1);
+void Auditor::add(const Works& works) {
+  work_.loads += works.loads;
+  work_.damping += works.damping;
   for (std::size_t k = 0; k < friction_.size(); ++k) {
-    const double loss = integral(2 + 2 * k);
-    friction_[k] += loss;
-    work_.friction += loss;
-    work_.surface += integral(3 + 2 * k);
+    friction_[k] += works.friction[k];
+    work_.friction += works.friction[k];
+    work_.surface += works.surface[k];
   }
 }
 

@@ -4,11 +4,10 @@
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
 //   E_kin + E_el + E_contact + D_friction + D_damping - W_loads - W_surface = const
 //
-// Contacts are observed after every step; works and dissipations are integrals of powers with the
-// polynomials of the steps themselves (engine/step_history.hpp), so they have the order of the method.
+// Contacts are observed after every step; works and dissipations are integrals of powers
+// (engine/powers.hpp) that the engine takes with its own accuracy.
 #pragma once
 
-#include "engine/step_history.hpp"
 #include "engine/stepper.hpp"
 
 namespace signorini {
@@ -17,12 +16,8 @@ class Auditor {
  public:
   Auditor(const Model& model, const Structure& structure);
 
-  /// Numbers a step contributes besides guards: powers of loads and damping, friction and surface work
-  /// of each contact.
-  [[nodiscard]] std::size_t scalars() const { return 2 + 2 * model_.contacts.size(); }
-  void powers(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out);
-  /// Adds the part [from, to] of the last step (0 <= from <= to <= 1); powers start at scalar `offset`.
-  void integrate(const StepHistory& history, std::size_t offset, double from, double to);
+  /// Adds what a stretch of the motion has brought and lost.
+  void add(const Works& works);
 
   void begin(const Decision& decision, const Forcing& forcing);
   /// Contacts at the end of a step or after an event.

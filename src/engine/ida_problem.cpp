@@ -50,8 +50,9 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Set
     factor_.push_back(std::sqrt(static_cast<double>(size) / members[group[i]]) / local_part);
 }
 
-void IdaProblem::start(const Segment& segment) {
+void IdaProblem::start(const Segment& segment, const Watch& watch) {
   segment_ = segment;
+  watch_ = &watch;
   linear_.set_mode(segment.decision->mode);
 }
 
@@ -146,7 +147,7 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
       const std::size_t slot = guards_per_contact * k + i;
       const GuardStart& guard = segment_.decision->guards[slot];
       // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
-      if (guard.kind == Guard::none || guard.form.an != 0.0 || !segment_.watch->armed(slot)) {
+      if (guard.kind == Guard::none || guard.form.an != 0.0 || !watch_->armed(slot)) {
         g[slot] = 1.0;
         continue;
       }

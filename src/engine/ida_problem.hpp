@@ -3,6 +3,7 @@
 
 #include "engine/ida_linear_solver.hpp"
 #include "engine/stepper.hpp"
+#include "engine/watch.hpp"
 
 namespace signorini {
 
@@ -10,7 +11,7 @@ class IdaProblem {
  public:
   IdaProblem(const Model& model, const Structure& structure, const Settings& settings);
 
-  void start(const Segment& segment);
+  void start(const Segment& segment, const Watch& watch);
 
   /// r = F(t, y, y')
   void residual(double t, const double* y, const double* yp, double* r);
@@ -36,6 +37,7 @@ class IdaProblem {
   IdaLinearSolver linear_;
   const Settings settings_;
   Segment segment_;
+  const Watch* watch_ = nullptr;
   // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of its
   // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
   // structure does not dilute the few contacts.

@@ -163,16 +163,16 @@ IdaStepper::IdaStepper(const Model& model, const Structure& structure, const Set
 
 IdaStepper::~IdaStepper() = default;
 
-void IdaStepper::start(const Segment& segment) {
+void IdaStepper::start(const Segment& segment, const Watch& watch) {
   m_->segment = segment;
-  m_->problem.start(segment);
+  m_->problem.start(segment, watch);
   m_->begin(m_->first_step());
   m_->counted = Counters{};
   ++counters.restarts;
 }
 
-Step IdaStepper::advance() {
-  Step step;
+BdfStep IdaStepper::advance() {
+  BdfStep step;
   double t = 0.0;
   // A far tout: in one-step mode it only bounds IDA's own choice of a first step.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
@@ -190,7 +190,7 @@ Step IdaStepper::advance() {
   m_->add_counters(counters);
   if (flag < 0) {
     char* name = IDAGetReturnFlagName(flag);
-    step.kind = Step::Kind::failed;
+    step.kind = BdfStep::Kind::failed;
     step.begin = step.end = m_->reported_end;
     step.reason = fmt::format("IDA cannot go on: {}: {}", name, m_->message);
     std::free(name);
@@ -207,7 +207,7 @@ Step IdaStepper::advance() {
   ++counters.steps_by_order[step.order];
   m_->held_time = t;
   if (flag == IDA_ROOT_RETURN) {
-    step.kind = Step::Kind::root;
+    step.kind = BdfStep::Kind::root;
     step.root = t;
     std::vector<int>& found = m_->found;
     IDAGetRootInfo(m_->ida, found.data());

@@ -12,18 +12,34 @@
 #include <memory>
 
 #include "engine/stepper.hpp"
+#include "engine/watch.hpp"
 
 namespace signorini {
 
-class IdaStepper final : public Stepper {
+/// A step of IDA, before anybody has looked inside it.
+struct BdfStep {
+  enum class Kind { accepted, root, failed } kind = Kind::accepted;
+  double begin = 0.0, end = 0.0;  ///< of the accepted step
+  double root = 0.0;              ///< Kind::root: where a guard fell, begin < root <= end
+  std::vector<Fired> fired;       ///< Kind::root
+  int order = 1;                  ///< degree of the solution's polynomial on the step
+  std::string reason;             ///< Kind::failed
+};
+
+class IdaStepper {
  public:
   IdaStepper(const Model& model, const Structure& structure, const Settings& settings);
-  ~IdaStepper() override;
+  ~IdaStepper();
+  IdaStepper(const IdaStepper&) = delete;
+  IdaStepper& operator=(const IdaStepper&) = delete;
 
-  void start(const Segment& segment) override;
-  [[nodiscard]] Step advance() override;
-  void evaluate(double t, Point& point) override;
-  [[nodiscard]] double residual() override;
+  /// watch: which guards are armed; it must outlive the segment.
+  void start(const Segment& segment, const Watch& watch);
+  [[nodiscard]] BdfStep advance();
+  void evaluate(double t, Point& point);
+  [[nodiscard]] double residual();
+
+  Counters counters;
 
  private:
   struct Memory;

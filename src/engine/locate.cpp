@@ -28,7 +28,7 @@ double brent(const std::function<double(double)>& f, double lo, double hi, doubl
 
 }  // namespace
 
-double locate(Stepper& stepper, const Expander& expander, const Forcing& forcing, const Model& model,
+double locate(IdaStepper& stepper, const Expander& expander, const Forcing& forcing, const Model& model,
               const GuardStart& guard, std::size_t contact, double begin, double end, double time,
               double resolution) {
   Point point;

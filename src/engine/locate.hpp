@@ -7,13 +7,13 @@
 // refined with forces recomputed from the interpolated u and v.
 #pragma once
 
-#include "engine/stepper.hpp"
+#include "engine/ida_stepper.hpp"
 
 namespace signorini {
 
 /// Refines `time`, a root of guard `slot` found on [begin, end] of the last step; returns it unchanged
 /// where the recomputed guard has no fall there. Brackets by doubling, then Brent's method (GSL).
-[[nodiscard]] double locate(Stepper& stepper, const Expander& expander, const Forcing& forcing,
+[[nodiscard]] double locate(IdaStepper& stepper, const Expander& expander, const Forcing& forcing,
                             const Model& model, const GuardStart& guard, std::size_t contact, double begin,
                             double end, double time, double resolution);
 

@@ -9,18 +9,13 @@
 #include <limits>
 
 #include "engine/audit.hpp"
-#include "engine/ida_stepper.hpp"
-#include "engine/locate.hpp"
+#include "engine/clock.hpp"
+#include "engine/ida_engine.hpp"
 #include "engine/order.hpp"
 #include "engine/tolerance.hpp"
 
 namespace signorini {
 namespace {
-
-/// Times that are the same to an integrator's clock: IDA's own measure.
-double resolution_at(double t, double step) {
-  return 100.0 * std::numeric_limits<double>::epsilon() * (std::abs(t) + std::abs(step));
-}
 
 /// Breakpoints of all forcing in (0, t_end), ascending; `jump` where any value jumps.
 std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
@@ -65,16 +60,13 @@ class Run {
         expander_(model, structure_),
         decider_(model, expander_, spec.max_events_at_once),
         auditor_(model, structure_),
-        history_(guards_per_contact * model.contacts.size() + auditor_.scalars()),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
         breakpoints_(breakpoints(model, spec.t_end)) {
     report_.settings = settings_for(model, spec);
     report_.settings.engine = "ida";
     choose_order(spec, report_.settings);
-    for (const Contact& contact : model.contacts)
-      accelerations_ = accelerations_ || contact.normal_damping > 0.0;
-    stepper_ = std::make_unique<IdaStepper>(model, structure_, report_.settings);
+    stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings);
   }
 
   Report go() {
@@ -84,8 +76,8 @@ class Run {
       }
     report_.outcome.t = t_;
     report_.counters = stepper_->counters;
-    report_.counters.rolled_back = rolled_back_;
     report_.counters.time_events = time_events_;
+    report_.warnings.insert(report_.warnings.end(), stepper_->warnings.begin(), stepper_->warnings.end());
     auditor_.finish(report_, last_energy_);
     report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return report_;
@@ -126,50 +118,19 @@ class Run {
     }
   }
 
-  /// Guards and powers at the end of a step, for its polynomials.
-  void fill(double t, const Point& point, double* out) {
-    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-      const ContactMotion m = motion_of(model_.contacts[k], k, forcing_, t, point);
-      for (std::size_t i = 0; i < guards_per_contact; ++i)
-        *out++ = decision_.guards[guards_per_contact * k + i].form.value(m);
-    }
-    auditor_.powers(forcing_, t, decision_.mode, point, out);
-  }
-
   /// From a restart to the next event or discontinuity. False: the run ends.
   bool segment() {
     const bool at_breakpoint = next_breakpoint_ < breakpoints_.size();
     const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
-    std::vector<double> levels;
-    for (std::size_t slot = 0; slot < decision_.guards.size(); ++slot)
-      levels.push_back(decision_.guards[slot].noise +
-                       re_arm_tolerances * tolerance(decision_.guards[slot].form,
-                                                     decision_.after[slot / guards_per_contact],
-                                                     report_.settings));
-    watch_.start(decision_.guards, std::move(levels));
-    stepper_->start({end, &decision_, &forcing_, &watch_});
-    fill(t_, point_, history_.restart(t_));
-
+    stepper_->start({end, &decision_, &forcing_});
     for (;;) {
       Step step = stepper_->advance();
       if (step.kind == Step::Kind::failed) return stop(step.reason);
-      if (!(step.end > step.begin))
-        return stop("the step size has fallen below the resolution of time; the tolerance cannot be met");
-      stepper_->evaluate(step.end, point_);
-      if (accelerations_) expander_.consistent(forcing_, step.end, point_);
-      fill(step.end, point_, history_.push(step.end));
-      history_.prepare(step.order);
-
-      const double h = step.end - step.begin;
-      resolution_ = resolution_at(step.end, h);
-      const auto event = first_event(step);
-      const double reached = event ? event->time : step.end;
-      record_between(step.begin, h, reached);
-      t_ = reached;
-      if (event) {
-        stepper_->evaluate(reached, point_);
-        return instant({{event->slot / guards_per_contact, decision_.guards[event->slot].kind}});
-      }
+      resolution_ = step.resolution;
+      record_between(step.begin, step.end);
+      t_ = step.end;
+      stepper_->evaluate(t_, point_);
+      if (step.kind == Step::Kind::event) return instant(std::move(step.fired));
       auditor_.observe(forcing_, t_, decision_.mode, point_);
       if (audit_due_) {
         auditor_.equilibrium(t_, stepper_->residual());
@@ -178,36 +139,6 @@ class Run {
       if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
       if (step.end >= end) return instant({});
     }
-  }
-
-  struct Located {
-    std::size_t slot;
-    double time;
-  };
-
-  /// The earliest fall of a guard in the last step, refined.
-  std::optional<Located> first_event(const Step& step) {
-    const double h = step.end - step.begin;
-    std::vector<Located> candidates;
-    for (const Fall& fall : watch_.check(history_, 1.0))
-      candidates.push_back({fall.slot, step.begin + fall.x * h});
-    for (const Fired& fired : step.fired)
-      for (std::size_t i = 0; i < guards_per_contact; ++i) {
-        const std::size_t slot = guards_per_contact * fired.contact + i;
-        if (decision_.guards[slot].kind != fired.guard) continue;
-        const auto same = std::find_if(candidates.begin(), candidates.end(),
-                                       [&](const Located& c) { return c.slot == slot; });
-        if (same == candidates.end()) candidates.push_back({slot, step.root});
-      }
-    if (candidates.empty()) return std::nullopt;
-    std::optional<Located> first;
-    for (const Located& c : candidates) {
-      const double time = locate(*stepper_, expander_, forcing_, model_, decision_.guards[c.slot],
-                                 c.slot / guards_per_contact, step.begin, step.end, c.time, resolution_);
-      if (!first || time < first->time) first = Located{c.slot, time};
-    }
-    if (step.kind != Step::Kind::root) ++rolled_back_;
-    return first;
   }
 
   /// Decides the states at t_, applies and records them.
@@ -328,21 +259,22 @@ class Run {
     audit_due_ = true;
   }
 
-  /// Records before `reached`, inside the last step, and the works up to there.
-  void record_between(double begin, double h, double reached) {
-    double from = 0.0;
+  /// Records inside the last step, and the works up to its end.
+  void record_between(double begin, double end) {
+    double from = begin;
     const auto integrate_to = [&](double t) {
-      const double to = (t - begin) / h;
-      auditor_.integrate(history_, decision_.guards.size(), from, to);
-      from = to;
+      Works works(model_.contacts.size());
+      stepper_->integrate(from, t, works);
+      auditor_.add(works);
+      from = t;
     };
-    for (double t = next_record(); t < reached; t = next_record()) {
+    for (double t = next_record(); t < end; t = next_record()) {
       Point point;
       stepper_->evaluate(t, point);
       integrate_to(t);
       emit(t, point);
     }
-    integrate_to(reached);
+    integrate_to(end);
   }
 
   /// The time t itself, with the values after everything at that instant.
@@ -357,12 +289,10 @@ class Run {
   Expander expander_;
   Decider decider_;
   Auditor auditor_;
-  StepHistory history_;
   std::vector<double> grid_;
   Forcing forcing_;
   std::vector<Breakpoint> breakpoints_;
   std::unique_ptr<Stepper> stepper_;
-  Watch watch_;
   Decision decision_;
   Point point_;
   Report report_;
@@ -371,8 +301,7 @@ class Run {
   int instants_ = 0;
   std::size_t next_breakpoint_ = 0, next_output_ = 0, next_frame_ = 0;
   bool audit_due_ = false;
-  bool accelerations_ = false;  // a guard needs them
-  long rolled_back_ = 0, time_events_ = 0;
+  long time_events_ = 0;
 };
 
 }  // namespace

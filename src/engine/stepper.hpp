@@ -1,15 +1,15 @@
-// stepper.hpp: what an engine does: advance the motion in one mode, from a state to the next step's end.
-//
-// The loop (engine/loop.cpp) decides, applies and records; a stepper only advances:
+// stepper.hpp: what an engine does: advance the motion in one mode to its first event.
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
+//
+// The loop (engine/simulate.cpp) decides, applies and records; a stepper advances, finds the instant at
+// which the first guard falls, and integrates works over what it has passed.
 #pragma once
 
 #include <string>
 
 #include "engine/decide.hpp"
-#include "engine/point.hpp"
-#include "engine/watch.hpp"
+#include "engine/powers.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -19,15 +19,13 @@ struct Segment {
   double end = 0.0;
   const Decision* decision = nullptr;  ///< state, mode, jet and guards at the beginning
   const Forcing* forcing = nullptr;
-  const Watch* watch = nullptr;  ///< which guards are armed
 };
 
 struct Step {
-  enum class Kind { accepted, root, failed } kind = Kind::accepted;
-  double begin = 0.0, end = 0.0;  ///< of the accepted step
-  double root = 0.0;              ///< Kind::root: where a guard fell, begin < root <= end
-  std::vector<Fired> fired;       ///< Kind::root
-  int order = 1;                  ///< degree of the solution's polynomial on the step
+  enum class Kind { accepted, event, failed } kind = Kind::accepted;
+  double begin = 0.0, end = 0.0;  ///< end: of the accepted step, or the instant of the event
+  double resolution = 0.0;        ///< times closer than this are one instant
+  std::vector<Fired> fired;       ///< Kind::event
   std::string reason;             ///< Kind::failed
 };
 
@@ -36,12 +34,17 @@ class Stepper {
   virtual ~Stepper() = default;
   virtual void start(const Segment& segment) = 0;
   [[nodiscard]] virtual Step advance() = 0;
-  /// The solution inside the last accepted step.
+  /// The solution at begin <= t <= end of the last step.
   virtual void evaluate(double t, Point& point) = 0;
+  /// Adds the integrals of all powers over the part [from, to] of the last step.
+  virtual void integrate(double from, double to, Works& works) = 0;
   /// Greatest entry of the residual of the equation of motion at the end of the last step. Unit: force.
   [[nodiscard]] virtual double residual() = 0;
+  /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
+  [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion) const = 0;
 
   Counters counters;
+  std::vector<std::string> warnings;  ///< of the run so far
 };
 
 }  // namespace signorini

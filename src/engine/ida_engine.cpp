@@ -1,0 +1,124 @@
+#include "engine/ida_engine.hpp"
+
+#include <algorithm>
+
+#include "engine/clock.hpp"
+#include "engine/locate.hpp"
+#include "engine/tolerance.hpp"
+
+namespace signorini {
+
+IdaEngine::IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
+                     const Settings& settings)
+    : model_(model),
+      expander_(expander),
+      settings_(settings),
+      powers_(model, structure),
+      bdf_(model, structure, settings),
+      history_(guards_per_contact * model.contacts.size() + powers_.count()),
+      integrals_(powers_.count()) {
+  for (const Contact& contact : model.contacts)
+    accelerations_ = accelerations_ || contact.normal_damping > 0.0;
+}
+
+/// Guards and powers at the end of a step, for its polynomials.
+void IdaEngine::fill(double t, const Point& point, double* out) {
+  const Decision& decision = *segment_.decision;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const ContactMotion m = motion_of(model_.contacts[k], k, *segment_.forcing, t, point);
+    for (std::size_t i = 0; i < guards_per_contact; ++i)
+      *out++ = decision.guards[guards_per_contact * k + i].form.value(m);
+  }
+  powers_.at(*segment_.forcing, t, decision.mode, point, out);
+}
+
+void IdaEngine::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  std::vector<double> levels;
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot)
+    levels.push_back(decision.guards[slot].noise +
+                     re_arm_tolerances * tolerance(decision.guards[slot].form,
+                                                   decision.after[slot / guards_per_contact], settings_));
+  watch_.start(decision.guards, std::move(levels));
+  bdf_.start(segment, watch_);
+  const Point point{decision.u, decision.v, decision.jet.forces[0], decision.jet.a()};
+  fill(decision.jet.t, point, history_.restart(decision.jet.t));
+}
+
+Step IdaEngine::advance() {
+  BdfStep bdf = bdf_.advance();
+  counters = bdf_.counters;
+  Step step;
+  step.begin = bdf.begin;
+  step.end = bdf.end;
+  if (bdf.kind == BdfStep::Kind::failed) {
+    step.kind = Step::Kind::failed;
+    step.reason = std::move(bdf.reason);
+    return step;
+  }
+  if (!(bdf.end > bdf.begin)) {
+    step.kind = Step::Kind::failed;
+    step.reason = "the step size has fallen below the resolution of time; the tolerance cannot be met";
+    return step;
+  }
+  bdf_.evaluate(bdf.end, point_);
+  if (accelerations_) expander_.consistent(*segment_.forcing, bdf.end, point_);
+  fill(bdf.end, point_, history_.push(bdf.end));
+  history_.prepare(bdf.order);
+  step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
+  if (const auto event = first_event(bdf, step.resolution)) {
+    step.kind = Step::Kind::event;
+    step.end = event->time;
+    step.fired = {{event->slot / guards_per_contact, segment_.decision->guards[event->slot].kind}};
+  }
+  return step;
+}
+
+/// The earliest fall of a guard in the last step, refined.
+std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, double resolution) {
+  const double h = step.end - step.begin;
+  const std::vector<GuardStart>& guards = segment_.decision->guards;
+  std::vector<Located> candidates;
+  for (const Fall& fall : watch_.check(history_, 1.0))
+    candidates.push_back({fall.slot, step.begin + fall.x * h});
+  for (const Fired& fired : step.fired)
+    for (std::size_t i = 0; i < guards_per_contact; ++i) {
+      const std::size_t slot = guards_per_contact * fired.contact + i;
+      if (guards[slot].kind != fired.guard) continue;
+      const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                     [&](const Located& c) { return c.slot == slot; });
+      if (same == candidates.end()) candidates.push_back({slot, step.root});
+    }
+  if (candidates.empty()) return std::nullopt;
+  std::optional<Located> first;
+  for (const Located& c : candidates) {
+    const double time = locate(bdf_, expander_, *segment_.forcing, model_, guards[c.slot],
+                               c.slot / guards_per_contact, step.begin, step.end, c.time, resolution);
+    if (!first || time < first->time) first = Located{c.slot, time};
+  }
+  if (step.kind != BdfStep::Kind::root) ++bdf_.counters.rolled_back;
+  counters = bdf_.counters;
+  return first;
+}
+
+void IdaEngine::integrate(double from, double to, Works& works) {
+  const double h = history_.end() - history_.begin();
+  const double a = (from - history_.begin()) / h, b = (to - history_.begin()) / h;
+  const std::size_t offset = segment_.decision->guards.size();
+  for (std::size_t i = 0; i < integrals_.size(); ++i) {
+    if (a == 0.0 && b == 1.0) {
+      integrals_[i] = history_.integral(offset + i);
+    } else {
+      const Bernstein p = history_.polynomial(offset + i);
+      integrals_[i] = h * (p.integral(b) - (a > 0.0 ? p.integral(a) : 0.0));
+    }
+  }
+  powers_.add(integrals_.data(), 1.0, works);
+}
+
+double IdaEngine::guard_error(const Form& form, const ContactMotion& motion) const {
+  return tolerance(form, motion, settings_);
+}
+
+}  // namespace signorini

@@ -1,0 +1,35 @@
+#include "engine/powers.hpp"
+
+#include "contact/law.hpp"
+
+namespace signorini {
+
+Powers::Powers(const Model& model, const Structure& structure)
+    : model_(model), structure_(structure), scratch_(Vector::Zero(model.size())) {}
+
+void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
+  scratch_.setZero();
+  forcing.add_load(t, 0, scratch_.data());
+  out[0] = scratch_.dot(point.v);
+  scratch_.setZero();
+  structure_.add_product(structure_.c, point.v.data(), scratch_.data());
+  out[1] = scratch_.dot(point.v);
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+    const int s = slip_sign(mode[k].state);
+    if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
+    out[2 + 2 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
+    out[3 + 2 * k] = -m.T * forcing.surface(k, t, 1);
+  }
+}
+
+void Powers::add(const double* powers, double factor, Works& works) const {
+  works.loads += factor * powers[0];
+  works.damping += factor * powers[1];
+  for (std::size_t k = 0; k < works.friction.size(); ++k) {
+    works.friction[k] += factor * powers[2 + 2 * k];
+    works.surface[k] += factor * powers[3 + 2 * k];
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,39 @@
+// powers.hpp: the rates at which energy enters and leaves.
+//
+//   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
+//   friction  T p'  of each contact          surface   -T s'(t)  of each contact
+#pragma once
+
+#include <vector>
+
+#include "engine/mode.hpp"
+#include "engine/point.hpp"
+#include "engine/structure.hpp"
+
+namespace signorini {
+
+/// Integrals of the powers. friction, surface: one a contact.
+struct Works {
+  explicit Works(std::size_t contacts = 0) : friction(contacts, 0.0), surface(contacts, 0.0) {}
+  double loads = 0.0, damping = 0.0;
+  std::vector<double> friction, surface;
+};
+
+class Powers {
+ public:
+  Powers(const Model& model, const Structure& structure);
+
+  /// Numbers at one time: loads, damping, then friction and surface of each contact.
+  [[nodiscard]] std::size_t count() const { return 2 + 2 * model_.contacts.size(); }
+  /// out[0 .. count())
+  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out);
+  /// works += factor * powers
+  void add(const double* powers, double factor, Works& works) const;
+
+ private:
+  const Model& model_;
+  const Structure& structure_;
+  Vector scratch_;
+};
+
+}  // namespace signorini

@@ -23,6 +23,8 @@ struct Piece {
 
   /// The derivative of the given order at t (order 0: the value).
   [[nodiscard]] double value(double t, int order = 0) const;
+  /// out[k] = scale^k / k! times the derivative of order k at t, 0 <= k < count.
+  void taylor(double t, double scale, std::size_t count, double* out) const;
 };
 
 /// Where the smoothness ends. `jump`: the value itself changes, beyond the roundoff of evaluating it.

@@ -28,6 +28,11 @@ struct Event {
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
   std::optional<double> impulse_n, impulse_t;  ///< at hits of rigid contacts only
+  /// dg/dt of the guard that fell, just before; empty where the load's jump changed the state.
+  std::optional<double> guard_rate;
+  /// How far t may be off, from one instant's error of the guard: delta / |g'|, or what higher derivatives
+  /// give where the guard grazes. Errors carried along from earlier events are not in it.
+  std::optional<double> t_uncertainty;
 };
 
 /// One contact at an output time.

@@ -38,11 +38,11 @@ void Auditor::add(const Works& works) {
 }
 
 void Auditor::begin(const Decision& decision, const Forcing& forcing) {
-  const Point point{decision.u, decision.v, decision.jet.forces[0]};
+  const Point point{decision.u, decision.v, decision.jet.forces.col(0)};
   for (std::size_t k = 0; k < peaks_.size(); ++k)
     at_start_.push_back({model_.contacts[k].normal.dot(point.u),
                          slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
-  audit_.initial = energy(decision.jet.t, point);
+  audit_.initial = energy(decision.jet.t, decision.mode, point);
   begun_ = true;
 }
 
@@ -79,17 +79,15 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
 void Auditor::instant(const Decision& decision, const Point& before, bool load_jumps) {
-  const Point after{decision.u, decision.v, decision.jet.forces[0]};
-  const double released = massless_ ? stored(before).stored() - stored(after).stored() : 0.0;
+  const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
+  const double released =
+      massless_ ? stored(decision.mode, before).stored() - stored(decision.mode, after).stored() : 0.0;
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
     peaks_[k].N = std::max(peaks_[k].N, std::abs(b.N));
     peaks_[k].T = std::max(peaks_[k].T, std::abs(b.T));
     const Contact& contact = model_.contacts[k];
-    // A dashpot that lets go leaves its spring compressed; what the spring holds is lost in the dashpot.
-    if (decision.mode[k].inside && decision.opened[k])
-      work_.damping += 0.5 * contact.normal_stiffness * a.gap * a.gap;
     const auto& kt = contact.tangential_stiffness;
     if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
     double loss = 0.0;
@@ -110,7 +108,7 @@ void Auditor::instant(const Decision& decision, const Point& before, bool load_j
   work_.friction += lost;
 }
 
-Energy Auditor::stored(const Point& point) {
+Energy Auditor::stored(const Mode& mode, const Point& point) {
   Energy e;
   scratch_.setZero();
   structure_.add_product(structure_.m, point.v.data(), scratch_.data());
@@ -125,14 +123,18 @@ Energy Auditor::stored(const Point& point) {
     if (contact.law == Law::compliant) {
       const double spring = N - contact.normal_damping * contact.normal.dot(point.v);
       if (N != 0.0) e.contact += spring * spring / (2.0 * contact.normal_stiffness);
+      if (mode[k].inside) {  // N = 0: the spring is as long as the gap is deep
+        const double gap = contact.gap + contact.normal.dot(point.u);
+        e.contact += 0.5 * contact.normal_stiffness * gap * gap;
+      }
     }
     if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
   }
   return e;
 }
 
-Energy Auditor::energy(double t, const Point& point) {
-  const Energy now = stored(point);
+Energy Auditor::energy(double t, const Mode& mode, const Point& point) {
+  const Energy now = stored(mode, point);
   Energy e = work_;
   e.kinetic = now.kinetic;
   e.elastic = now.elastic;

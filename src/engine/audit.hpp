@@ -26,7 +26,7 @@ class Auditor {
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
   void instant(const Decision& decision, const Point& before, bool load_jumps);
   /// Energies now; also audits the balance.
-  Energy energy(double t, const Point& point);
+  Energy energy(double t, const Mode& mode, const Point& point);
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
                                      const ContactState& state, const Point& point) const;
 
@@ -39,7 +39,7 @@ class Auditor {
   }
 
   /// Kinetic, elastic and contact energy.
-  [[nodiscard]] Energy stored(const Point& point);
+  [[nodiscard]] Energy stored(const Mode& mode, const Point& point);
 
   const Model& model_;
   const Structure& structure_;

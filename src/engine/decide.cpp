@@ -13,16 +13,28 @@ namespace {
 
 constexpr std::size_t most_enumerated = 6;  // 3^6 modes of contacts without tangential stiffness
 
-/// -1, 0, +1: sign of the first derivative of the form, from `first` on, that is not zero to working
-/// precision. A derivative also counts as zero when the next one would undo it within the resolution.
-int sign_after(const Form& form, const MotionJet& jet, double resolution, std::size_t first) {
+struct Sign {
+  int sign = 0;   // -1, 0, +1
+  int order = 0;  // of the derivative that decides; past the last one when all vanish
+};
+
+/// Sign of the first derivative of the form, from `first` on, that is not zero to working precision. A
+/// derivative also counts as zero when the next one would undo it within the resolution.
+Sign sign_after(const Form& form, const MotionJet& jet, double resolution, std::size_t first) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double d = k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
     double zero = form.magnitude(jet.noise[k]);
     if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
-    if (std::abs(d) > zero) return d > 0.0 ? 1 : -1;
+    if (std::abs(d) > zero) return {d > 0.0 ? 1 : -1, static_cast<int>(k)};
   }
-  return 0;
+  return {0, static_cast<int>(jet.motion.size())};
+}
+
+/// How a guard passed through zero, from the motion in the mode that it ended.
+Crossing crossing(const Form& form, const MotionJet& jet) {
+  Crossing result{form, {}, form.magnitude(jet.noise[0])};
+  for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives.push_back(form.rate(jet.motion[k]));
+  return result;
 }
 
 bool starts_at_zero(const Form& form, const MotionJet& jet, double resolution) {
@@ -74,6 +86,7 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
   std::vector<Failure> result;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     Failure failure{c, Guard::none};
+    int order = std::numeric_limits<int>::max();
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
       if (guard.kind == Guard::none) continue;
       const bool fired =
@@ -81,9 +94,13 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
                                [&](const Fired& f) { return f.contact == c && f.guard == guard.kind; });
       // What the integrator located is zero, also where the last rounding leaves it positive.
       const bool is_zero = fired && guard.form.value(jets[c].motion[0]) > 0.0;
-      if (sign_after(guard.form, jets[c], instant.resolution, is_zero ? 1 : 0) >= 0) continue;
+      const Sign sign = sign_after(guard.form, jets[c], instant.resolution, is_zero ? 1 : 0);
+      // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
+      // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
+      if (sign.sign >= 0 || sign.order >= order) continue;
       failure.guard = guard.kind;
-      break;  // separation comes first: with N = 0 the friction limit is zero too, and that is one event
+      failure.form = guard.form;
+      order = sign.order;
     }
     if (failure.guard == Guard::none) continue;
     // Friction limit and compression vanish together in a vertical lift-off: one separation.
@@ -91,8 +108,10 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
       const GuardForm separation = guards(model_.contacts[c], mode[c])[0];
       if (separation.kind == Guard::separation &&
           starts_at_zero(separation.form, jets[c], instant.resolution) &&
-          separation.form.rate(jets[c].motion[1]) < 0.0)
+          separation.form.rate(jets[c].motion[1]) < 0.0) {
         failure.guard = Guard::separation;
+        failure.form = separation.form;
+      }
     }
     result.push_back(failure);
   }
@@ -146,8 +165,8 @@ bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode&
   decision.v = instant.v;
   expander_.hold(after, instant.t, mode, decision.v);
   decision.jet = expander_.expand(after, instant.t, decision.u, decision.v);
-  decision.u = decision.jet.u[0];
-  decision.v = decision.jet.u[1];
+  decision.u = decision.jet.u.col(0);
+  decision.v = decision.jet.u.col(1);
   decision.mode = mode;
   jets = expander_.motions(after, decision.jet);
   return true;
@@ -198,6 +217,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
   const std::size_t count = model_.contacts.size();
   decision.visited.assign(count, false);
   decision.jumped.assign(count, false);
+  decision.crossings.resize(count);
   std::vector<MotionJet> jets;
 
   // The motion just before, in the old mode under the old forcing.
@@ -233,6 +253,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
       return decision;
     }
     for (const Failure& f : failed) {
+      if (!decision.visited[f.contact]) decision.crossings[f.contact] = crossing(f.form, jets[f.contact]);
       mode[f.contact] = next_state(model_.contacts[f.contact], mode[f.contact], f.guard, jets[f.contact]);
       decision.visited[f.contact] = true;
     }
@@ -265,12 +286,16 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
     decision.after.push_back(after_motion);
     decision.jumped[c] = std::abs(after_motion.N - decision.before[c].N) > noise[c].N + jets[c].noise[0].N ||
                          std::abs(after_motion.T - decision.before[c].T) > noise[c].T + jets[c].noise[0].T;
-    decision.opened.push_back(instant.mode[c].state != State::open && mode[c].state == State::open);
-    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
-      decision.guards.push_back(
-          {guard.kind, guard.form,
-           guard.kind != Guard::none && starts_at_zero(guard.form, jets[c], instant.resolution),
-           guard.kind == Guard::none ? 0.0 : guard.form.magnitude(jets[c].noise[0])});
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
+      GuardStart start{guard.kind, guard.form};
+      if (guard.kind != Guard::none) {
+        start.at_zero = starts_at_zero(guard.form, jets[c], instant.resolution);
+        start.noise = guard.form.magnitude(jets[c].noise[0]);
+        const int order = sign_after(guard.form, jets[c], instant.resolution, 0).order;
+        start.leading = order < static_cast<int>(jets[c].motion.size()) ? order : -1;
+      }
+      decision.guards.push_back(std::move(start));
+    }
   }
   return decision;
 }

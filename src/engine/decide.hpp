@@ -35,6 +35,14 @@ struct GuardStart {
   Form form;
   bool at_zero = false;  ///< starts at zero and rises
   double noise = 0.0;    ///< rounding of its value at the start
+  int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
+};
+
+/// The guard whose failure changed a contact's state.
+struct Crossing {
+  Form form;
+  std::vector<double> derivatives;  ///< g', g'', ... just before, in the old mode; empty: no guard failed
+  double noise = 0.0;               ///< rounding of its value
 };
 
 struct Decision {
@@ -45,10 +53,10 @@ struct Decision {
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;  ///< guards_per_contact a contact
-  std::vector<bool> visited;       ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;        ///< contacts whose N or T jumps
-  std::vector<bool> opened;        ///< contacts that were closed just before and are open now
+  std::vector<GuardStart> guards;   ///< guards_per_contact a contact
+  std::vector<Crossing> crossings;  ///< of the contacts visited
+  std::vector<bool> visited;        ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;         ///< contacts whose N or T jumps
   int rounds = 0;
 };
 
@@ -68,6 +76,7 @@ class Decider {
   struct Failure {
     std::size_t contact;
     Guard guard;
+    Form form = {};
   };
   [[nodiscard]] std::vector<Failure> failures(const std::vector<MotionJet>& jets, const Mode& mode,
                                               const Instant& instant, bool first) const;

@@ -1,6 +1,7 @@
 #include "engine/forcing.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini {
 namespace {
@@ -33,6 +34,7 @@ Forcing::Forcing(const Model& model, double t, Side side)
   for (const Contact& contact : model.contacts) {
     pressing_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
+    moves_.push_back(varies(*surface_.back()));
     lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
   }
 }
@@ -41,6 +43,45 @@ void Forcing::add_load(double t, int order, double* P) const {
   if (order == 0)
     for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += constant_[i];
   for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, p->value(t, order));
+}
+
+void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
+  out.count = count;
+  out.loads.resize(varying_.size() * count);
+  out.pressing.assign(pressing_.size() * count, 0.0);
+  out.surface.assign(surface_.size() * count, 0.0);
+  for (std::size_t i = 0; i < varying_.size(); ++i)
+    varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
+  for (std::size_t k = 0; k < pressing_.size(); ++k) {
+    if (!vanishes(*pressing_[k])) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
+    if (!vanishes(*surface_[k])) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
+  }
+}
+
+void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) const {
+  if (k == 0)
+    for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += constant_[i];
+  for (std::size_t i = 0; i < varying_.size(); ++i)
+    if (const double f = series.loads[i * series.count + k]; f != 0.0)
+      model_->loads[varying_[i].first].direction.add_to(P, f);
+}
+
+double Forcing::power(double t, const double* v) const {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < constant_.size(); ++i) sum += constant_[i] * v[i];
+  for (const auto& [load, p] : varying_) sum += p->value(t) * model_->loads[load].direction.dot(v);
+  return sum;
+}
+
+double Forcing::greatest_omega() const {
+  double omega = 0.0;
+  const auto consider = [&](const Piece* p) {
+    if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
+  };
+  for (const auto& [load, p] : varying_) consider(p);
+  for (const Piece* p : pressing_) consider(p);
+  for (const Piece* p : surface_) consider(p);
+  return omega;
 }
 
 }  // namespace signorini

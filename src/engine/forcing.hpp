@@ -12,12 +12,28 @@ namespace signorini {
 
 enum class Side { before, after };
 
+/// Taylor coefficients of a Forcing: rows of `count`, one a varying load, one a contact.
+struct ForcingSeries {
+  std::size_t count = 0;
+  std::vector<double> loads, pressing, surface;
+};
+
 class Forcing {
  public:
   Forcing(const Model& model, double t, Side side);
 
   /// P += the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P) const;
+  /// Coefficients scale^k / k! f^(k)(t), 0 <= k < count, of everything.
+  void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
+  /// P += coefficient k of the load vector.
+  void add_load(const ForcingSeries& series, std::size_t k, double* P) const;
+  /// P(t) . v
+  [[nodiscard]] double power(double t, const double* v) const;
+  /// True while the surface of contact k is not at rest where it began.
+  [[nodiscard]] bool moves(std::size_t k) const { return moves_[k]; }
+  /// Greatest circular frequency in it. Unit: rad per time.
+  [[nodiscard]] double greatest_omega() const;
   /// Derivative of normal_force of contact k.
   [[nodiscard]] double pressing(std::size_t k, double t, int order) const {
     return pressing_[k]->value(t, order);
@@ -34,7 +50,7 @@ class Forcing {
   Vector constant_;                                            // the loads that do not change
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
-  std::vector<bool> lifted_;
+  std::vector<bool> lifted_, moves_;
 };
 
 }  // namespace signorini

@@ -42,7 +42,7 @@ void IdaEngine::start(const Segment& segment) {
                                                    decision.after[slot / guards_per_contact], settings_));
   watch_.start(decision.guards, std::move(levels));
   bdf_.start(segment, watch_);
-  const Point point{decision.u, decision.v, decision.jet.forces[0], decision.jet.a()};
+  const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   fill(decision.jet.t, point, history_.restart(decision.jet.t));
 }
 
@@ -115,6 +115,17 @@ void IdaEngine::integrate(double from, double to, Works& works) {
     }
   }
   powers_.add(integrals_.data(), 1.0, works);
+  const Mode& mode = segment_.decision->mode;
+  if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.inside; })) return;
+  Point first, last;
+  bdf_.evaluate(from, first);
+  bdf_.evaluate(to, last);
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    if (mode[k].inside)
+      works.damping += inside_loss(contact, contact.gap + contact.normal.dot(first.u),
+                                   contact.gap + contact.normal.dot(last.u));
+  }
 }
 
 double IdaEngine::guard_error(const Form& form, const ContactMotion& motion) const {

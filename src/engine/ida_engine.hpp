@@ -16,7 +16,8 @@ namespace signorini {
 class IdaEngine final : public Stepper {
  public:
   /// The expander stands for the mode of the segment while it runs.
-  IdaEngine(const Model& model, const Structure& structure, const Expander& expander, const Settings& settings);
+  IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
+            const Settings& settings);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;

@@ -161,14 +161,15 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
 }
 
 void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
+  const auto o = static_cast<Eigen::Index>(order);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout_.dofs); ++i) {
     const auto e = static_cast<Eigen::Index>(i);
-    y[i] = jet.u[order][e];
-    if (layout_.velocity[i] >= 0) y[layout_.velocity[i]] = jet.u[order + 1][e];
+    y[i] = jet.u(e, o);
+    if (layout_.velocity[i] >= 0) y[layout_.velocity[i]] = jet.u(e, o + 1);
   }
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     for (int side = 0; side < 2; ++side)
-      y[layout_.force(k) + side] = jet.forces[order][static_cast<Eigen::Index>(2 * k) + side];
+      y[layout_.force(k) + side] = jet.forces(static_cast<Eigen::Index>(2 * k) + side, o);
 }
 
 void IdaProblem::read(const double* y, const double* yp, Point& point) const {

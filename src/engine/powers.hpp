@@ -2,6 +2,9 @@
 //
 //   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
 //   friction  T p'  of each contact          surface   -T s'(t)  of each contact
+//
+// A contact that a dashpot has opened while g < 0 (inside) carries nothing: its dashpot takes what its
+// spring gives, kn (g_from^2 - g_to^2)/2, until the gap opens or it closes again.
 #pragma once
 
 #include <vector>
@@ -18,6 +21,11 @@ struct Works {
   double loads = 0.0, damping = 0.0;
   std::vector<double> friction, surface;
 };
+
+/// What the dashpot of a contact that is open and pressed in takes between two gaps.
+[[nodiscard]] inline double inside_loss(const Contact& contact, double gap_from, double gap_to) {
+  return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
+}
 
 class Powers {
  public:

@@ -10,6 +10,7 @@
 
 #include "engine/audit.hpp"
 #include "engine/clock.hpp"
+#include "engine/exact_engine.hpp"
 #include "engine/ida_engine.hpp"
 #include "engine/order.hpp"
 #include "engine/tolerance.hpp"
@@ -50,6 +51,8 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
   return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
 }
 
+constexpr int most_unordered = 5;  // warnings about one and the same thing
+
 class Run {
  public:
   Run(const Model& model, const RunSpec& spec, Recorder& recorder)
@@ -64,9 +67,14 @@ class Run {
         forcing_(model, 0.0, Side::after),
         breakpoints_(breakpoints(model, spec.t_end)) {
     report_.settings = settings_for(model, spec);
-    report_.settings.engine = "ida";
-    choose_order(spec, report_.settings);
-    stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings);
+    if (spec.engine == Engine::exact) {
+      report_.settings.engine = "exact";
+      stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
+    } else {
+      report_.settings.engine = "ida";
+      choose_order(spec, report_.settings);
+      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings);
+    }
   }
 
   Report go() {
@@ -77,6 +85,9 @@ class Run {
     report_.outcome.t = t_;
     report_.counters = stepper_->counters;
     report_.counters.time_events = time_events_;
+    if (unordered_ > most_unordered)
+      report_.warnings.push_back(
+          fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_unordered));
     report_.warnings.insert(report_.warnings.end(), stepper_->warnings.begin(), stepper_->warnings.end());
     auditor_.finish(report_, last_energy_);
     report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
@@ -100,8 +111,8 @@ class Run {
     if (!decision_.consistent) return stop(decision_.reason);
     warn_of_cut_shear();
     auditor_.begin(decision_, forcing_);
-    point_ = {decision_.u, decision_.v, decision_.jet.forces[0], decision_.jet.a()};
-    last_energy_ = auditor_.energy(0.0, point_);
+    point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
+    last_energy_ = auditor_.energy(0.0, decision_.mode, point_);
     auditor_.observe(forcing_, 0.0, decision_.mode, point_);
     record_at(0.0);
     return true;
@@ -128,6 +139,10 @@ class Run {
       if (step.kind == Step::Kind::failed) return stop(step.reason);
       resolution_ = step.resolution;
       record_between(step.begin, step.end);
+      for (const double t : stepper_->turning_points()) {
+        stepper_->evaluate(t, point_);
+        auditor_.observe(forcing_, t, decision_.mode, point_);
+      }
       t_ = step.end;
       stepper_->evaluate(t_, point_);
       if (step.kind == Step::Kind::event) return instant(std::move(step.fired));
@@ -165,15 +180,15 @@ class Run {
     const Mode old_mode = decision_.mode;
     Decision next = decider_.decide(now, before, forcing_);
     if (!next.consistent) {
-      last_energy_ = auditor_.energy(t_, point_);
+      last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);
     }
     auditor_.instant(next, point_, jump);
     decision_ = std::move(next);
     log(old_mode, jump);
-    point_ = {decision_.u, decision_.v, decision_.jet.forces[0], decision_.jet.a()};
+    point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
-    last_energy_ = auditor_.energy(t_, point_);
+    last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     record_at(t_);
     return true;
   }
@@ -224,8 +239,34 @@ class Run {
       event.vn_after = after.vn;
       event.vt = decision_.slides_before[k].vt;
       event.vt_after = decision_.slides_after[k].vt;
+      add_conditioning(k, event);
       recorder_.event(event);
     }
+  }
+
+  /// How sharp the time of an event is, and whether its order among the others is.
+  void add_conditioning(std::size_t k, Event& event) {
+    const Crossing& crossing = decision_.crossings[k];
+    if (crossing.derivatives.empty()) return;
+    event.guard_rate = crossing.derivatives[0];
+    const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k]));
+    double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
+    for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
+      const auto order = static_cast<double>(m + 1);
+      factorial *= order;
+      if (const double d = std::abs(crossing.derivatives[m]); d > 0.0)
+        off = std::min(off, std::pow(factorial * error / d, 1.0 / order));
+    }
+    if (!std::isfinite(off)) return;
+    event.t_uncertainty = std::max(off, resolution_);
+    if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > resolution_ &&
+        event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty && ++unordered_ <= most_unordered)
+      report_.warnings.push_back(fmt::format(
+          "the order of the events of '{}' at {:.12g} and of '{}' at {:.12g} is not determined at this "
+          "precision: their times may be off by {:.1e} and {:.1e}",
+          model_.contacts[static_cast<std::size_t>(last_.contact)].name, last_.t, model_.contacts[k].name,
+          event.t, *last_.t_uncertainty, *event.t_uncertainty));
+    last_ = event;
   }
 
   [[nodiscard]] Sample sample(double t, const Point& point) {
@@ -235,7 +276,7 @@ class Run {
     result.v = &point.v;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k)
       result.contacts.push_back(auditor_.sample(k, forcing_, t, decision_.mode[k], point));
-    result.energy = auditor_.energy(t, point);
+    result.energy = auditor_.energy(t, decision_.mode, point);
     return result;
   }
 
@@ -298,6 +339,8 @@ class Run {
   Report report_;
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
+  Event last_;  // with a contact whose guard fell
+  int unordered_ = 0;
   int instants_ = 0;
   std::size_t next_breakpoint_ = 0, next_output_ = 0, next_frame_ = 0;
   bool audit_due_ = false;
@@ -307,8 +350,6 @@ class Run {
 }  // namespace
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
-  if (settings.engine != Engine::ida)
-    throw SceneError(settings.place, "run.engine", "only engine = \"ida\" is supported yet");
   return Run(model, settings, recorder).go();
 }
 

@@ -43,6 +43,12 @@ class Stepper {
   /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion) const = 0;
 
+  /// Times inside the last step where N, T, g or ut of a contact turns beyond all its values before.
+  [[nodiscard]] virtual const std::vector<double>& turning_points() const {
+    static const std::vector<double> none;
+    return none;
+  }
+
   Counters counters;
   std::vector<std::string> warnings;  ///< of the run so far
 };

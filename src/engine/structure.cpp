@@ -37,4 +37,16 @@ void Structure::add_product(const std::vector<double>& values, const double* x, 
   }
 }
 
+double Structure::quadratic(const std::vector<double>& values, const double* x) const {
+  double total = 0.0;
+  for (int j = 0; j < size; ++j) {
+    const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j) + 1]);
+    double sum = 0.0;
+    for (std::size_t p = begin; p < end; ++p) sum += values[p] * x[row[p]];
+    total += sum * x[j];
+  }
+  return total;
+}
+
 }  // namespace signorini

@@ -22,6 +22,8 @@ struct Structure {
 
   /// r += M a + C v + K u
   void add_product(const double* a, const double* v, const double* u, double* r) const;
+  /// x^T values x
+  [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
   /// r += values x, for one of m, c, k
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
 };

@@ -44,6 +44,29 @@ Piece antiderivative(const Piece& p) {
 
 }  // namespace
 
+void Piece::taylor(double t, double scale, std::size_t count, double* out) const {
+  std::fill(out, out + count, 0.0);
+  const double s = t - origin;
+  double power = 1.0;  // scale^k
+  for (std::size_t k = 0; k < std::min(count, coefficients.size()); ++k, power *= scale) {
+    double sum = 0.0;
+    for (std::size_t j = coefficients.size(); j > k; --j) {
+      double binomial = 1.0;
+      for (std::size_t i = 1; i <= k; ++i) binomial *= static_cast<double>(j - i) / static_cast<double>(i);
+      sum = sum * s + binomial * coefficients[j - 1];
+    }
+    out[k] = sum * power;
+  }
+  if (amplitude == 0.0) return;
+  const double sine = std::sin(omega * s + phase), cosine = std::cos(omega * s + phase);
+  double factor = amplitude;  // a (w scale)^k / k!
+  for (std::size_t k = 0; k < count; ++k) {
+    const double turned = k % 4 == 0 ? sine : k % 4 == 1 ? cosine : k % 4 == 2 ? -sine : -cosine;
+    out[k] += factor * turned;
+    factor *= omega * scale / static_cast<double>(k + 1);
+  }
+}
+
 double Piece::value(double t, int order) const {
   const double s = t - origin;
   const auto k = static_cast<std::size_t>(order);

@@ -17,7 +17,7 @@ bool has_gap(const Contact& contact) { return contact.law != Law::slider; }
 
 EventWriter::EventWriter(const std::filesystem::path& path, const Model& model) : model_(model), file_(path) {
   header(block_, {"t", "contact", "event", "from", "to", "gap", "N", "T", "N_after", "T_after", "vn",
-                  "vn_after", "vt", "vt_after", "impulse_n", "impulse_t"});
+                  "vn_after", "vt", "vt_after", "impulse_n", "impulse_t", "guard_rate", "t_uncertainty"});
   file_.write(block_);
 }
 
@@ -25,7 +25,7 @@ void EventWriter::write(const Event& event) {
   block_.number(event.t);
   if (event.contact < 0) {
     block_.empty().text(to_string(event.type));
-    for (int cell = 0; cell < 13; ++cell) block_.empty();
+    for (int cell = 0; cell < 15; ++cell) block_.empty();
   } else {
     const Contact& contact = model_.contacts[static_cast<std::size_t>(event.contact)];
     block_.text(contact.name).text(to_string(event.type)).text(to_string(event.from));
@@ -38,6 +38,7 @@ void EventWriter::write(const Event& event) {
     block_.number(event.N).number(event.T).number(event.N_after).number(event.T_after);
     block_.number(event.vn).number(event.vn_after).number(event.vt).number(event.vt_after);
     block_.number(event.impulse_n).number(event.impulse_t);
+    block_.number(event.guard_rate).number(event.t_uncertainty);
   }
   block_.end_row();
   file_.write(block_);

@@ -1,6 +1,7 @@
 // writers.hpp: the tables of a run, row by row as they come (docs/output.md).
 //
-//   events.csv    t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t
+//   events.csv t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t,
+//                 guard_rate,t_uncertainty
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
 //   history.csv   t, then the model's columns
 //   energy.csv    t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance

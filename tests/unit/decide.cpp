@@ -108,11 +108,12 @@ TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its deri
   model.v0 << 0.3, 0.1;
   const Decision d = start(model);
   REQUIRE(d.consistent);
-  for (std::size_t k = 0; k < 3; ++k) {
-    Vector r = model.mass * d.jet.u[k + 2] + model.damping * d.jet.u[k + 1] + model.stiffness * d.jet.u[k];
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    Vector r = model.mass * d.jet.u.col(k + 2) + model.damping * d.jet.u.col(k + 1) +
+               model.stiffness * d.jet.u.col(k);
     for (std::size_t c = 0; c < 2; ++c)
-      model.contacts[c].tangent.add_to(r, d.jet.forces[k][static_cast<Eigen::Index>(2 * c) + 1]);
-    CHECK(r.norm() < 1e-12 * (1.0 + d.jet.forces[k].norm()));
+      model.contacts[c].tangent.add_to(r, d.jet.forces(static_cast<Eigen::Index>(2 * c) + 1, k));
+    CHECK(r.norm() < 1e-12 * (1.0 + d.jet.forces.col(k).norm()));
   }
 }
 

@@ -112,16 +112,19 @@ TEST_CASE("events.csv: header, gaps of sliders, impulses, load jumps") {
     pad.contact = 1;
     pad.gap = 7.0;
     pad.impulse_n = 2.5;
+    pad.guard_rate = -4.0;
+    pad.t_uncertainty = 1e-9;
     writer.write(pad);
     Event load;
     load.t = 0.5;
     writer.write(load);
   }
   CHECK(slurp(folder / "events.csv") ==
-        "t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t\n"
-        "0.125,foot,slip,stick,slip-,0,-58.86,-17.658,-58.86,-17.658,0,0,0,0,,\n"
-        "0.25,\"pad, left\",slip,stick,slip-,,-58.86,-17.658,-58.86,-17.658,0,0,0,0,2.5,\n"
-        "0.5,,time,,,,,,,,,,,,,\n");
+        "t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t,"
+        "guard_rate,t_uncertainty\n"
+        "0.125,foot,slip,stick,slip-,0,-58.86,-17.658,-58.86,-17.658,0,0,0,0,,,,\n"
+        "0.25,\"pad, left\",slip,stick,slip-,,-58.86,-17.658,-58.86,-17.658,0,0,0,0,2.5,,-4,1e-09\n"
+        "0.5,,time,,,,,,,,,,,,,,,\n");
 }
 
 TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {

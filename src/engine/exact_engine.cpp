@@ -1,0 +1,392 @@
+#include "engine/exact_engine.hpp"
+
+#include <fmt/core.h>
+#include <gsl/gsl_integration.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "engine/clock.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int levels = 30;
+constexpr double growth_margin = 1.25;  // on a growth that is computed from thirty powers of the flow
+constexpr int first_terms = 4;          // of a series: a motion may start from rest under a load that grows
+constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
+constexpr std::size_t nodes = 12;       // of Gauss-Legendre quadrature: exact to degree 23
+constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr std::size_t turn_samples = 8;           // a step turns by less than 4 rad of any mode that matters
+
+struct GaussRule {
+  std::array<double, nodes> x{}, w{};  // on [0, 1]
+  GaussRule() {
+    const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
+        gsl_integration_glfixed_table_alloc(nodes), gsl_integration_glfixed_table_free);
+    for (std::size_t i = 0; i < nodes; ++i)
+      gsl_integration_glfixed_point(0.0, 1.0, i, &x[i], &w[i], table.get());
+  }
+};
+
+}  // namespace
+
+ExactEngine::ExactEngine(const Model& model, const Structure& structure, const Expander& expander,
+                         double t_end)
+    : model_(model),
+      structure_(structure),
+      taylor_(expander.taylor()),
+      t_end_(t_end),
+      norm_(model),
+      // u_k of massless degrees of freedom is complete two levels later
+      degree_(static_cast<std::size_t>(taylor_.massless() ? levels - 2 : levels)),
+      contacts_(model.contacts.size()),
+      watches_(guards_per_contact * model.contacts.size()),
+      sizes_(degree_ + 3),
+      guard_(degree_ + 1),
+      ranges_(4 * model.contacts.size()) {
+  for (const Dof& dof : model.dofs)
+    weights_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
+  damped_ = std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; });
+}
+
+/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
+double ExactEngine::growth_of(const Mode& mode) {
+  std::vector<State> key;
+  for (const ContactState& s : mode) key.push_back(s.state);
+  const auto known = growth_.find(key);
+  if (known != growth_.end()) return known->second;
+  const Eigen::Index n = model_.size();
+  Vector u(n), v(n);
+  const double w = model_.omega_max > 0.0 ? model_.omega_max : 1.0 / t_end_;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    u[i] = (1.0 + 1e15 * Disturbance::sign(k)) / weights_[k];
+    v[i] = w * (1.0 + 1e15 * Disturbance::sign(k + 5)) / weights_[k];
+  }
+  Series series;
+  taylor_.expand(Forcing(model_, segment_.decision->jet.t, Side::after), 0.0, u, v, levels, 1.0 / w, series);
+  double greatest = 0.0;
+  for (Eigen::Index k = levels / 2; k + 2 <= static_cast<Eigen::Index>(degree_); ++k) {
+    const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
+    if (a > 0.0) greatest = std::max(greatest, w * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
+  }
+  return growth_[key] = growth_margin * greatest;
+}
+
+void ExactEngine::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  t_ = decision.jet.t;
+  end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(),
+                          static_cast<double>(degree_) / t_end_});
+  part_ = 1.0;
+  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    GuardWatch& watch = watches_[slot];
+    watch.leading = 0;
+    if (guard.kind == Guard::none) {
+      watch.arming = Arming::idle;
+    } else if (!guard.at_zero) {
+      watch.arming = Arming::armed;
+    } else {
+      watch.arming = guard.leading > 0 ? Arming::leaving : Arming::unknown;
+      watch.leading = std::max(guard.leading, 0);
+    }
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const ContactMotion& m = decision.after[c];
+    const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Range& range = ranges_[4 * c + i];
+      range.least = began_ ? std::min(range.least, now[i]) : now[i];
+      range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
+    }
+  }
+  began_ = true;
+  ++counters.restarts;
+}
+
+/// The greatest x <= limit at which the series still stands: the rest below rounding, no term much greater
+/// than the first ones.
+double ExactEngine::step_part(double limit) {
+  for (std::size_t k = 0; k < sizes_.size(); ++k) {
+    const double* u = series_.u.col(static_cast<Eigen::Index>(k)).data();
+    double size = 0.0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) size = std::max(size, weights_[i] * std::abs(u[i]));
+    sizes_[k] = size;
+  }
+  double x = std::min(limit, 1.25 * part_);
+  const auto stands = [&] {
+    double first = epsilon, power = 1.0;  // sizes are relative to the scene's scale
+    for (std::size_t k = 0; k < sizes_.size(); ++k, power *= x) {
+      const double term = sizes_[k] * power;
+      if (k < first_terms)
+        first = std::max(first, term);
+      else if (term > (k <= degree_ ? most_cancelled : 0.25 * epsilon) * first)
+        return false;
+    }
+    return true;
+  };
+  while (!stands()) x *= 0.9;
+  part_ = x;
+  return x;
+}
+
+/// Bound on what the polynomial of a form leaves out on [0, x]; rest: of the displacements, in norm_.
+double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double rest) const {
+  const Contact& contact = model_.contacts[c];
+  const double rate = static_cast<double>(degree_ + 3) / (series_.scale * x);
+  const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
+  const double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap;
+  double T = 0.0;
+  const State state = segment_.decision->mode[c].state;
+  if (slip_sign(state) != 0)
+    T = contact.kinetic_friction * N;
+  else if (contact.tangential_stiffness)
+    T = *contact.tangential_stiffness * ut;
+  else if (state == State::stick && norm_.tangent(c) > 0.0)
+    T = rate * rate * rest / norm_.tangent(c);
+  return std::abs(form.N) * N + std::abs(form.T) * T + std::abs(form.gap) * gap + std::abs(form.ut) * ut +
+         std::abs(form.vn) * rate * gap + std::abs(form.vt) * rate * ut +
+         std::abs(form.an) * rate * rate * gap;
+}
+
+FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
+  const GuardStart& guard = segment_.decision->guards[slot];
+  const std::size_t c = slot / guards_per_contact;
+  contacts_[c].combine(guard.form, guard_.data());
+  double power = 1.0, terms = 0.0;
+  for (std::size_t k = 0; k <= degree_; ++k, power *= x) {
+    guard_[k] *= power;
+    terms += std::abs(guard_[k]);
+  }
+  const double rounding = 4.0 * epsilon * terms;
+  const double slack = rest_of(guard.form, c, x, rest) + rounding + rounding_of_guard * guard.noise;
+  switch (watches_[slot].arming) {
+    case Arming::idle:
+      return {};
+    case Arming::armed:
+      return first_fall(guard_.data(), degree_, slack);
+    case Arming::leaving: {
+      // The decision found the lower derivatives to be zero, so they are.
+      const auto m = static_cast<std::size_t>(watches_[slot].leading);
+      return first_fall(guard_.data() + m, degree_ - m, 4.0 * epsilon * std::abs(guard_[m]));
+    }
+    case Arming::unknown:
+      guard_[0] += guard.noise + slack;
+      return first_fall(guard_.data(), degree_, 0.0);
+  }
+  return {};
+}
+
+Step ExactEngine::advance() {
+  const double remaining = segment_.end - t_;
+  const double scale = std::min(0.5 * static_cast<double>(degree_ + 1) / growth_now_, remaining);
+  if (!(scale > 0.0) || !end_.u.allFinite()) {
+    step_ = {};
+    step_.kind = Step::Kind::failed;
+    step_.begin = step_.end = t_;
+    step_.reason =
+        end_.u.allFinite() ? "the step has fallen below the resolution of time" : "the motion overflows";
+    return step_;
+  }
+  taylor_.expand(*segment_.forcing, t_, end_.u, end_.v, levels, scale, series_);
+  counters.solves += levels + 1;
+  ++counters.steps;
+  double x = step_part(1.0);
+  double end = t_ + scale * x;
+  if (end > segment_.end || segment_.end - end < 0.01 * scale * x) end = segment_.end;
+  x = (end - t_) / scale;
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    contacts_[c].fill(model_.contacts[c], c, series_, degree_);
+
+  // From |x_k| on the series is below a geometric one with ratio 1/2.
+  double rest = 0.0;
+  for (int k = 1; k <= 2; ++k) {
+    const auto order = static_cast<Eigen::Index>(degree_) + k;
+    rest = std::max(rest, 2.0 * norm_.of(series_.u.col(order)) * std::pow(x, static_cast<double>(order)));
+  }
+  step_ = {};
+  step_.begin = t_;
+  std::optional<std::size_t> first;
+  double at = 1.0;
+  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+    if (watches_[slot].arming == Arming::idle) continue;
+    const FirstFall fall = fall_of(slot, x, rest);
+    if (fall.kind == FirstFall::Kind::fall && (!first || fall.x < at)) {
+      first = slot;
+      at = fall.x;
+    } else if (fall.kind == FirstFall::Kind::touch && watches_[slot].arming == Arming::armed) {
+      warnings.push_back(
+          fmt::format("contact '{}': its {} touches zero at {:.12g}; whether it falls there is not decidable "
+                      "at this precision, and it was taken not to",
+                      model_.contacts[slot / guards_per_contact].name,
+                      to_string(segment_.decision->guards[slot].kind), t_ + fall.x * x * scale));
+    }
+  }
+  if (first) {
+    step_.kind = Step::Kind::event;
+    step_.fired = {{*first / guards_per_contact, segment_.decision->guards[*first].kind}};
+    x *= at;
+    end = t_ + scale * x;
+  } else {
+    for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+      GuardWatch& watch = watches_[slot];
+      if (watch.arming != Arming::leaving && watch.arming != Arming::unknown) continue;
+      const GuardStart& guard = segment_.decision->guards[slot];
+      contacts_[slot / guards_per_contact].combine(guard.form, guard_.data());
+      watch.arming =
+          value_at(guard_.data(), degree_, x) > 4.0 * guard.noise ? Arming::armed : Arming::unknown;
+    }
+  }
+  step_.end = end;
+  step_.resolution = resolution_at(end, end - t_);
+  find_turns(x);
+  evaluate_at(x, end_);  // sharper than at the rounded time
+  t_ = end;
+  return step_;
+}
+
+void ExactEngine::evaluate(double t, Point& point) {
+  if (t == t_ && end_.u.size() > 0) {
+    point = end_;
+    return;
+  }
+  evaluate_at((t - series_.t) / series_.scale, point);
+}
+
+void ExactEngine::evaluate_at(double x, Point& point) const {
+  const auto n = static_cast<std::size_t>(series_.u.rows());
+  point.u.setZero(series_.u.rows());
+  point.v.setZero(series_.u.rows());
+  point.a.setZero(series_.u.rows());
+  point.forces.setZero(series_.forces.rows());
+  double *u = point.u.data(), *v = point.v.data(), *a = point.a.data(), *f = point.forces.data();
+  const auto forces = static_cast<std::size_t>(series_.forces.rows());
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* c0 = series_.u.data() + k * n;
+    const double *c1 = c0 + n, *c2 = c1 + n;
+    const double first = static_cast<double>(k + 1) / series_.scale;
+    const double second = first * static_cast<double>(k + 2) / series_.scale;
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = u[i] * x + c0[i];
+      v[i] = v[i] * x + first * c1[i];
+      a[i] = a[i] * x + second * c2[i];
+    }
+    const double* g = series_.forces.data() + k * forces;
+    for (std::size_t i = 0; i < forces; ++i) f[i] = f[i] * x + g[i];
+  }
+}
+
+void ExactEngine::integrate(double from, double to, Works& works) {
+  static const GaussRule rule;
+  const double h = to - from;
+  if (!(h > 0.0)) return;
+  const auto count = static_cast<Eigen::Index>(degree_ + 1);
+  std::array<double, nodes> x{};
+  powers_of_nodes_.resize(count, nodes);
+  for (std::size_t i = 0; i < nodes; ++i) {
+    x[i] = (from + h * rule.x[i] - series_.t) / series_.scale;
+    double power = 1.0 / series_.scale;
+    for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
+      powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
+  }
+  node_velocities_.noalias() = series_.u.middleCols(1, count) * powers_of_nodes_;
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double* v = node_velocities_.col(static_cast<Eigen::Index>(i)).data();
+    const double weight = h * rule.w[i];
+    works.loads += weight * segment_.forcing->power(from + h * rule.x[i], v);
+    if (damped_) works.damping += weight * structure_.quadratic(structure_.c, v);
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactState& state = segment_.decision->mode[c];
+    if (state.inside) {
+      const auto gap = [&](double t) {
+        return contacts_[c].value(ContactSeries::gap, (t - series_.t) / series_.scale);
+      };
+      works.damping += inside_loss(contact, gap(from), gap(to));
+    }
+    if (state.state == State::open) continue;
+    const int s = slip_sign(state.state);
+    const bool moved = segment_.forcing->moves(c);
+    if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
+    if (s != 0) contacts_[c].combine(slip_rate(contact, s), guard_.data());
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const double weight = h * rule.w[i];
+      if (s != 0 || moved) {
+        const double T = contacts_[c].value(ContactSeries::T, x[i]);
+        if (s != 0) works.friction[c] += weight * T * value_at(guard_.data(), degree_, x[i]);
+        if (moved) works.surface[c] -= weight * T * segment_.forcing->surface(c, from + h * rule.x[i], 1);
+      }
+      if (contact.normal_damping == 0.0) continue;
+      const double vn = contacts_[c].value(ContactSeries::vn, x[i]);
+      works.damping += weight * contact.normal_damping * vn * vn;
+    }
+  }
+}
+
+double ExactEngine::residual() {
+  const Point& point = end_;
+  Vector r = Vector::Zero(model_.size());
+  segment_.forcing->add_load(t_, 0, r.data());
+  r = -r;
+  structure_.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    model_.contacts[k].normal.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k)]);
+    model_.contacts[k].tangent.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k) + 1]);
+  }
+  return r.cwiseAbs().maxCoeff();
+}
+
+/// Extreme values between the ends of a step, which an observer at its ends would not see.
+void ExactEngine::find_turns(double x_end) {
+  turns_.clear();
+  static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
+                                                               ContactSeries::gap, ContactSeries::slide};
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    for (std::size_t f = 0; f < watched.size(); ++f) {
+      const double* a = contacts_[c].of(watched[f]);
+      Range& range = ranges_[4 * c + f];
+      double spread = 0.0, power = 1.0;
+      for (std::size_t k = 1; k <= degree_; ++k) spread += std::abs(a[k]) * (power *= x_end);
+      if (a[0] - spread >= range.least && a[0] + spread <= range.greatest) continue;
+      const auto slope = [&](double x) {
+        double sum = 0.0;
+        for (std::size_t k = degree_; k >= 1; --k) sum = sum * x + static_cast<double>(k) * a[k];
+        return sum;
+      };
+      const auto see = [&](double x, bool turn) {
+        const double value = value_at(a, degree_, x);
+        if (value >= range.least && value <= range.greatest) return;
+        range.least = std::min(range.least, value);
+        range.greatest = std::max(range.greatest, value);
+        if (turn) turns_.push_back(series_.t + x * series_.scale);
+      };
+      double lo = 0.0, slope_lo = slope(0.0);
+      for (std::size_t i = 1; i <= turn_samples; ++i) {
+        const double hi = x_end * static_cast<double>(i) / static_cast<double>(turn_samples);
+        const double slope_hi = slope(hi);
+        if (slope_lo * slope_hi < 0.0) {
+          double left = lo, right = hi;
+          for (int halving = 0; halving < 30; ++halving) {
+            const double mid = 0.5 * (left + right);
+            (slope(mid) * slope_lo > 0.0 ? left : right) = mid;
+          }
+          see(0.5 * (left + right), true);
+        }
+        lo = hi;
+        slope_lo = slope_hi;
+      }
+      see(x_end, false);
+    }
+  std::sort(turns_.begin(), turns_.end());
+}
+
+}  // namespace signorini

@@ -1,0 +1,71 @@
+// exact_engine.hpp: engine `exact`: the flow of each mode in closed form, and no event unseen.
+//
+//   u(t + s x) = sum_k u_k x^k        engine/taylor.hpp; h = s x chosen so that the rest is below rounding
+//   guard(x)   = sum_k g_k x^k        first fall by interval bounds, engine/first_fall.hpp
+//
+// Between events the system of a mode is linear with constant coefficients, so its Taylor series has the
+// radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
+// A step is as long as the series still converges to rounding with that bound, and short enough that its
+// terms do not cancel. docs/theory.md gives the argument that no event is missed.
+#pragma once
+
+#include "engine/contact_series.hpp"
+#include "engine/first_fall.hpp"
+#include "engine/flow_norm.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class ExactEngine final : public Stepper {
+ public:
+  /// The expander stands for the mode of the segment while it runs.
+  ExactEngine(const Model& model, const Structure& structure, const Expander& expander, double t_end);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override;
+  /// The guard is exact but for rounding, which the decision knows.
+  [[nodiscard]] double guard_error(const Form&, const ContactMotion&) const override { return 0.0; }
+  [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_; }
+
+ private:
+  enum class Arming : unsigned char { idle, armed, leaving, unknown };
+  struct GuardWatch {
+    Arming arming = Arming::idle;
+    int leading = 0;  // leaving: the guard is x^leading times a polynomial that is positive at 0
+  };
+  struct Range {
+    double least = 0.0, greatest = 0.0;
+  };
+
+  [[nodiscard]] double growth_of(const Mode& mode);
+  [[nodiscard]] double step_part(double limit);
+  [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
+  void find_turns(double x);
+  void evaluate_at(double x, Point& point) const;
+
+  const Model& model_;
+  const Structure& structure_;
+  Taylor& taylor_;
+  const double t_end_;
+  FlowNorm norm_;
+  std::size_t degree_;  // of all polynomials
+  std::map<std::vector<State>, double> growth_;
+  Segment segment_;
+  Series series_;
+  std::vector<ContactSeries> contacts_;
+  std::vector<GuardWatch> watches_;
+  std::vector<double> weights_, sizes_, guard_;
+  Point end_;  // of the last step
+  double t_ = 0.0, growth_now_ = 0.0, part_ = 1.0;
+  Step step_;
+  std::vector<Range> ranges_;  // so far, of N, T, g and the body's ut of each contact
+  std::vector<double> turns_;
+  Eigen::MatrixXd powers_of_nodes_, node_velocities_;
+  bool damped_ = false, began_ = false;
+};
+
+}  // namespace signorini

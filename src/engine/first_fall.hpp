@@ -1,0 +1,31 @@
+// first_fall.hpp: the first zero of a polynomial, with proof that none was passed.
+//
+//   p(x) = sum_k a_k x^k = sum_i b_i B_i,n(x) on an interval:   min b_i <= p <= max b_i,
+//   and p has at most as many zeros there as the b_i have changes of sign (Descartes)
+//
+// An interval is passed when all b_i > slack. One change of sign from above slack to below -slack means
+// exactly one zero. Else the interval is halved (de Casteljau), which sharpens the bounds quadratically.
+// `slack` bounds what p itself may be off: the rest of the series and the rounding of its terms. So a fall
+// is found or excluded; only where |p| stays within slack can neither be shown.
+// Source: Farin, Curves and Surfaces for CAGD, chapter 6 (Bernstein form, variation diminishing).
+#pragma once
+
+#include <cstddef>
+
+namespace signorini {
+
+struct FirstFall {
+  enum class Kind {
+    none,   ///< p > 0 on [0, 1], as far as slack lets one say
+    fall,   ///< p > 0 before x, p < 0 after it
+    touch,  ///< as none, but |p| <= slack around x: whether it falls there cannot be decided
+  } kind = Kind::none;
+  double x = 0.0;
+};
+
+inline constexpr std::size_t most_fall_degree = 32;
+
+/// a: degree + 1 coefficients, degree <= most_fall_degree; p(0) is positive but for slack.
+[[nodiscard]] FirstFall first_fall(const double* a, std::size_t degree, double slack);
+
+}  // namespace signorini

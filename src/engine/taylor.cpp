@@ -1,0 +1,169 @@
+#include "engine/taylor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+constexpr int small = 24;  // unknowns up to which a dense inverse is quicker than a sparse solve
+
+}  // namespace
+
+double Disturbance::sign(std::size_t i) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return ((i * 2654435761u) >> 7) & 1u ? epsilon : -epsilon;
+}
+
+Taylor::Taylor(const Model& model, const Structure& structure)
+    : model_(model), structure_(structure), matrix_(model, structure) {
+  const auto n = static_cast<std::size_t>(structure.size);
+  std::vector<double> damping(n, 0.0);
+  for (std::size_t p = 0; p < structure.row.size(); ++p)
+    damping[static_cast<std::size_t>(structure.row[p])] += std::abs(structure.c[p]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Kind kind = !model.dofs[i].massless ? Kind::massive
+                      : damping[i] > 0.0      ? Kind::damped
+                                              : Kind::algebraic;
+    kinds_.push_back(kind);
+    massless_ = massless_ || kind != Kind::massive;
+    weights_.push_back(kind == Kind::massive  ? Weights{1.0, 0.0, 0.0}
+                       : kind == Kind::damped ? Weights{0.0, 1.0, 0.0}
+                                              : Weights{0.0, 0.0, 1.0});
+  }
+  x_.resize(static_cast<std::size_t>(matrix_.size()));
+  y_.resize(x_.size());
+  known_u_.resize(n);
+  known_v_.resize(n);
+  magnitude_.resize(n);
+}
+
+bool Taylor::set(const Mode& mode) {
+  rows_.resize(mode.size());
+  for (std::size_t k = 0; k < mode.size(); ++k) rows_[k] = signorini::rows(model_.contacts[k], mode[k]);
+  inverse_ = nullptr;
+  if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
+  key_.resize(mode.size());
+  for (std::size_t k = 0; k < mode.size(); ++k) key_[k] = mode[k].state;
+  const auto known = inverses_.find(key_);
+  if (known != inverses_.end()) {
+    inverse_ = &known->second;
+    return !inverse_->empty();
+  }
+  std::vector<double>& inverse = inverses_[key_];  // empty: singular
+  inverse_ = &inverse;
+  if (!matrix_.set(rows_, weights_, true)) return false;
+  const auto size = x_.size();
+  inverse.assign(size * size, 0.0);
+  for (std::size_t j = 0; j < size; ++j) {
+    inverse[j * size + j] = 1.0;
+    matrix_.solve(inverse.data() + j * size);
+  }
+  return true;
+}
+
+void Taylor::solve(double* x) {
+  if (inverse_ == nullptr) {
+    matrix_.solve(x);
+    return;
+  }
+  const std::size_t size = x_.size();
+  std::fill(y_.begin(), y_.end(), 0.0);
+  for (std::size_t j = 0; j < size; ++j) {
+    const double xj = x[j];
+    if (xj == 0.0) continue;
+    const double* column = inverse_->data() + j * size;
+    for (std::size_t i = 0; i < size; ++i) y_[i] += column[i] * xj;
+  }
+  std::copy(y_.begin(), y_.end(), x);
+}
+
+void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
+  const auto k = static_cast<std::size_t>(order);
+  const auto n = static_cast<std::size_t>(structure_.size);
+  const double to_velocity = (order + 1) / series.scale;
+  const double to_acceleration = to_velocity * (order + 2) / series.scale;
+  double* u_k = series.u.col(order).data();
+  double* u_k1 = series.u.col(order + 1).data();
+  double* u_k2 = series.u.col(order + 2).data();
+  for (std::size_t i = 0; i < n; ++i) {
+    known_u_[i] = kinds_[i] == Kind::algebraic ? 0.0 : u_k[i];
+    known_v_[i] = kinds_[i] == Kind::massive ? to_velocity * u_k1[i] : 0.0;
+  }
+  std::fill(x_.begin(), x_.end(), 0.0);
+  forcing.add_load(series.forcing, k, x_.data());
+  for (std::size_t i = 0; i < n; ++i) x_[i] = -x_[i];
+  for (std::size_t j = 0; j < n; ++j) {
+    const double uj = known_u_[j], vj = known_v_[j];
+    const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
+    for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
+      x_[static_cast<std::size_t>(structure_.row[p])] += structure_.c[p] * vj + structure_.k[p] * uj;
+  }
+  for (std::size_t i = 0; i < n; ++i) x_[i] = -x_[i];
+
+  if (disturbance != nullptr) {
+    std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
+    for (std::size_t j = 0; j < n; ++j)
+      for (auto p = static_cast<std::size_t>(structure_.column_start[j]);
+           p < static_cast<std::size_t>(structure_.column_start[j + 1]); ++p)
+        magnitude_[static_cast<std::size_t>(structure_.row[p])] +=
+            std::abs(structure_.c[p] * known_v_[j]) + std::abs(structure_.k[p] * known_u_[j]);
+    for (std::size_t i = 0; i < n; ++i)
+      x_[i] += Disturbance::sign(i + 31 * k) * (magnitude_[i] + std::abs(x_[i]));
+  }
+
+  const ForcingSeries& f = series.forcing;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const double* surface = f.surface.data() + c * f.count + k;
+    const double* pressing = f.pressing.data() + c * f.count + k;
+    ContactMotion m;
+    m.gap = contact.normal.dot(known_u_) + (order == 0 ? contact.gap : 0.0);
+    m.ut = contact.tangent.dot(known_u_) - surface[0];
+    m.vn = contact.normal.dot(known_v_);
+    m.vt = contact.tangent.dot(known_v_) - to_velocity * surface[1];
+    m.at = -to_acceleration * surface[2];
+    m.pressing = pressing[0];
+    m.pressing_rate = to_velocity * pressing[1];
+    const std::size_t row = n + 2 * c;
+    x_[row] = -(order == 0 ? rows_[c].normal.value(m) : rows_[c].normal.rate(m));
+    x_[row + 1] = -(order == 0 ? rows_[c].tangent.value(m) : rows_[c].tangent.rate(m));
+  }
+
+  solve(x_.data());
+  for (std::size_t i = 0; i < n; ++i) switch (kinds_[i]) {
+      case Kind::massive:
+        u_k2[i] = x_[i] / to_acceleration;
+        break;
+      case Kind::damped:
+        u_k1[i] = x_[i] / to_velocity;
+        break;
+      case Kind::algebraic:
+        u_k[i] = x_[i];
+        break;
+    }
+  double* forces = series.forces.col(order).data();
+  std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), forces);
+}
+
+void Taylor::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels,
+                    double scale, Series& out, const Disturbance* disturbance) {
+  out.t = t;
+  out.scale = scale;
+  out.levels = levels;
+  out.u.setZero(u.size(), levels + 3);
+  out.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()), levels + 1);
+  forcing.expand(t, scale, static_cast<std::size_t>(levels) + 3, out.forcing);
+  out.u.col(0) = u;
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    if (kinds_[static_cast<std::size_t>(i)] == Kind::massive) out.u(i, 1) = scale * v[i];
+  if (disturbance != nullptr)
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+      out.u(i, 0) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 7);
+      out.u(i, 1) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 13);
+    }
+  for (int k = 0; k <= levels; ++k) level(forcing, k, out, disturbance);
+}
+
+}  // namespace signorini

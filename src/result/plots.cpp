@@ -1,6 +1,9 @@
 #include "result/plots.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -133,6 +136,17 @@ bool zoom_helps(const PlottedRun& run) {
   return changes >= 4 && part > 0.0 && part < 0.6 && run.bands.size() <= most_contacts;
 }
 
+/// Before anything is removed: gnuplot draws nothing of a window without data, and fails.
+void check_window(const PlotWindow& window, const PlottedRun& run) {
+  const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
+    if (!t || (std::isfinite(*t) && shows)) return;
+    throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option, shortest(*t),
+                                 shortest(run.t_first), shortest(run.t_last)));
+  };
+  check("--from", window.from, window.from < run.t_last);
+  check("--to", window.to, window.to > run.t_first);
+}
+
 }  // namespace
 
 std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
@@ -140,6 +154,7 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   run.facts = read_run_facts(directory);
   read_times(directory, run);
   if (run.times < 2) return {};
+  check_window(window, run);
   run.slugs = make_slugs(run.facts.contacts);
   read_bands(directory, run);
   run.from = window.from.value_or(run.t_first);

@@ -41,13 +41,17 @@ std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contac
   return slugs;
 }
 
-void read_times(const fs::path& directory, PlottedRun& run) {
+/// Returns how many output times the window shows.
+std::size_t read_times(const fs::path& directory, const PlotWindow& window, PlottedRun& run) {
+  std::size_t shown = 0;
   CsvReader history(directory / "history.csv");
   run.columns = history.header();
   while (history.next()) {
     run.t_last = history.number(0);
     if (run.times++ == 0) run.t_first = run.t_last;
+    shown += run.t_last >= window.from.value_or(run.t_last) && run.t_last <= window.to.value_or(run.t_last);
   }
+  return shown;
 }
 
 // States at the first output time, then the events: the bands are exact, not sampled.
@@ -152,9 +156,13 @@ void check_window(const PlotWindow& window, const PlottedRun& run) {
 std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
   PlottedRun run;
   run.facts = read_run_facts(directory);
-  read_times(directory, run);
+  const std::size_t shown = read_times(directory, window, run);
   if (run.times < 2) return {};
   check_window(window, run);
+  if (shown == 0)
+    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
+                                 shortest(window.from.value_or(run.t_first)),
+                                 shortest(window.to.value_or(run.t_last))));
   run.slugs = make_slugs(run.facts.contacts);
   read_bands(directory, run);
   run.from = window.from.value_or(run.t_first);

@@ -69,15 +69,16 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
 std::string contact_rows(const Model& model, const CheckReport& report) {
   if (report.contacts.empty()) return "";
   const std::string force = unit(model.units.force), length = unit(model.units.length);
-  Table table(
-      {"contact", "law", "state", "gap" + length, "reaction -N" + force, "T" + force, "limit f |N|" + force},
-      {false, false, false, true, true, true, true});
+  Table table({"contact", "law", "state", "gap" + length, "ut" + length, "reaction -N" + force, "T" + force,
+               "limit f |N|" + force},
+              {false, false, false, true, true, true, true, true});
   for (std::size_t k = 0; k < report.contacts.size() && k < most_rows; ++k) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
     const bool slider = c.law == Law::slider;
     table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
-               above(-s.N, model.scales.force), above(s.T, model.scales.force),
+               above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
+               above(s.T, model.scales.force),
                c.has_friction() ? number(c.static_friction * std::abs(s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n",
@@ -100,15 +101,20 @@ std::string free_motion_lines(const CheckReport& report) {
 }
 
 bool same(const Frequencies& a, const Frequencies& b) {
-  if (a.free_motions != b.free_motions || a.modes.size() != b.modes.size()) return false;
+  if (a.free_motions != b.free_motions || a.unstable != b.unstable || a.modes.size() != b.modes.size())
+    return false;
   for (std::size_t i = 0; i < a.modes.size(); ++i)
     if (std::abs(a.modes[i].omega - b.modes[i].omega) > 1e-9 * a.modes[i].omega) return false;
   return true;
 }
 
 void add_frequencies(Table& table, std::string label, const Frequencies& f) {
-  if (f.free_motions > 0) {
-    table.row({label, count(f.free_motions, "free motion", "free motions"), "0", "0", ""});
+  if (f.unstable > 0) {
+    table.row({label, count(f.unstable, "unstable motion", "unstable motions"), "-", "-", ""});
+    label.clear();
+  }
+  if (const int free = f.free_motions - f.unstable; free > 0) {
+    table.row({label, count(free, "free motion", "free motions"), "0", "0", ""});
     label.clear();
   }
   for (std::size_t i = 0; i < f.modes.size(); ++i) {
@@ -190,10 +196,12 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
   if (!(cost.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
-  return text +
-         fmt::format("      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event\n",
-                     cost.steps_per_period, rough(cost.steps),
-                     cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s");
+  return text + fmt::format(
+                    "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
+                    "order of\n"
+                    "      magnitude, usually too high where the highest modes stay quiet\n",
+                    cost.steps_per_period, rough(cost.steps),
+                    cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s");
 }
 
 }  // namespace

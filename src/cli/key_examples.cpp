@@ -189,13 +189,14 @@ history = { type = "rectangle", start = 0.0, end = 0.1 }
 | `step` | 1 from start on | |
 | `rectangle` | 1 from start to end | end |
 | `triangle` | up from 0 to 1 in the middle, and down | end |
-| `half_sine` | sin(pi (t - start) / duration) | duration |
+| `half_sine` | sin(pi (t - start) / duration), duration = end - start | duration or end |
 | `harmonic` | sin(omega (t - start) + phase) | omega or frequency |
 | `polynomial` | c0 + c1 (t - start) + c2 (t - start)^2 + ... | coefficients |
 | `table` | through the points | times and values, or file |
 
-f is zero before start and from end on, a table outside its times. At a jump it already has its new value. Where it jumps or has a kink the
-integration stops and restarts, so that no pulse is stepped over, however short.
+f is zero before start and from end on, a table outside its times; it has neither start nor end. At a jump f
+already has its new value. Where it jumps or has a kink the integration stops and restarts, so that no pulse is
+stepped over, however short.
 
 ```toml
 history = { type = "harmonic", frequency = 2.0, start = 0.5, end = 4.5 }

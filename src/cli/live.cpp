@@ -10,6 +10,8 @@ namespace signorini::cli {
 
 namespace {
 
+constexpr int stops[] = {SIGINT, SIGTERM};
+
 volatile std::sig_atomic_t interrupted = 0;
 
 void note_interrupt(int) { interrupted = 1; }
@@ -25,13 +27,13 @@ Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress)
   struct sigaction action {};
   action.sa_handler = note_interrupt;
   action.sa_flags = SA_RESTART;
-  action.sa_flags |= static_cast<int>(SA_RESETHAND);  // the second SIGINT is not ours
-  sigaction(SIGINT, &action, nullptr);
+  action.sa_flags |= static_cast<int>(SA_RESETHAND);  // the second one is not ours
+  for (const int signal : stops) sigaction(signal, &action, nullptr);
 }
 
 Live::~Live() {
   if (line_shown_) progress_line("");
-  std::signal(SIGINT, SIG_DFL);
+  for (const int signal : stops) std::signal(signal, SIG_DFL);
 }
 
 void Live::event(const Event& event) {

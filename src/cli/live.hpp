@@ -3,8 +3,8 @@
 //   Live live(run_directory, model, t_end, show_progress);
 //   Report report = simulate(model, scene.run, live);
 //
-// Rows are passed on to another Recorder. The first SIGINT asks the run to stop and be kept; a second one
-// ends the program at once.
+// Rows are passed on to another Recorder. The first SIGINT or SIGTERM asks the run to stop and be kept; a
+// second one of its kind ends the program at once.
 #pragma once
 
 #include <chrono>

@@ -81,6 +81,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     try {
       report = simulate(model, scene.run, live);
     } catch (const FileError& error) {
+      if (!directory.started()) throw;
+      directory.abandon(live.reached(), error.what());
       throw Error(error.code(),
                   fmt::format("{}; the run stopped at t = {:.9g} {}; what was computed until then "
                               "is kept in {}",
@@ -121,7 +123,8 @@ void add_run(Program& program) {
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");
   add_settings(*command, options->settings);
-  command->add_flag("--force", options->force, "replace an earlier run in the directory");
+  command->add_flag("--force", options->force,
+                    "replace an earlier run in the directory, unless the scene lies in it");
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->add_flag("--json", options->json, "print summary.json instead of tables");
   command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "model/eigen_dense.hpp"
+#include "model/growth.hpp"
 #include "model/held.hpp"
 #include "model/null_motions.hpp"
 
@@ -22,18 +23,28 @@ NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& 
 /// The null motions of K, turned so that each has mass or has none.
 struct FreeMotions {
   Eigen::MatrixXd heavy, massless;
+  int unstable = 0;  ///< of the heavy ones
 };
+
+int count_unstable(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
+  if (motions.cols() == 0) return 0;
+  const Eigen::MatrixXd x = motions * symmetric_eigen(motions.transpose() * (k * motions)).vectors;
+  int count = 0;
+  while (count < x.cols() && has_negative_energy(k, x.col(count))) ++count;
+  return count;
+}
 
 FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = null_motions(k);
   for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
-  if (null.cols() == 0) return {null, null};
+  if (null.cols() == 0) return {null, null, 0};
   const Eigen::MatrixXd moved = mass * null;
   const EigenPairs pairs = symmetric_eigen(null.transpose() * moved);
   const double greatest = pairs.values[pairs.values.size() - 1];
   Eigen::Index without = 0;
   while (without < pairs.values.size() && !(pairs.values[without] > 1e-12 * greatest)) ++without;
-  return {null * pairs.vectors.rightCols(null.cols() - without), null * pairs.vectors.leftCols(without)};
+  const Eigen::MatrixXd heavy = null * pairs.vectors.rightCols(null.cols() - without);
+  return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
 
 Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k,
@@ -50,6 +61,14 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   const FreeMotions free = free_motions(stiff, m);
   Frequencies result;
   result.free_motions = static_cast<int>(free.heavy.cols());
+  result.unstable = free.unstable;
+  if (free.unstable > 0) {
+    // Motions of negative energy are no eigenvectors: what is M-orthogonal to them are not the other modes.
+    const EigenPairs all = generalized_eigen(stiff, m);
+    for (Eigen::Index j = result.free_motions; j < all.values.size() && count > 0; ++j, --count)
+      result.modes.push_back(mode_of(std::sqrt(all.values[j]), q * all.vectors.col(j), mass, damping));
+    return result;
+  }
   Eigen::MatrixXd across(m.rows(), free.heavy.cols() + free.massless.cols());
   across << m * free.heavy, free.massless;
   for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j).normalize();
@@ -90,6 +109,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
   const SparseMatrix k = free.massless.cols() > 0 ? hold_undecided(k0, free.massless) : k0;
   Frequencies result;
   result.free_motions = static_cast<int>(free.heavy.cols());
+  result.unstable = free.unstable;
   const int size =
       std::min(result.free_motions + count + 11, degrees_with_mass(mass) - static_cast<int>(fixed.size()));
   if (size <= 0) return result;

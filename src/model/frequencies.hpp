@@ -21,7 +21,8 @@ struct NaturalMode {
 };
 
 struct Frequencies {
-  int free_motions = 0;            ///< modes with omega = 0
+  int free_motions = 0;            ///< modes with omega = 0, and unstable ones
+  int unstable = 0;                ///< of them, those that grow: omega^2 < 0
   std::vector<NaturalMode> modes;  ///< ascending, the first ones with omega > 0
 };
 

@@ -73,7 +73,27 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, std::stri
   return true;
 }
 
+/// All nodes by the same vector, without a turn.
+bool translates(const std::vector<NodeMotion>& nodes, double size) {
+  const NodeMotion& first = nodes.front();
+  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest is none
+  for (const NodeMotion& m : nodes) {
+    if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
+    turning = std::max(turning, std::abs(m.turn));
+    extent = std::max(extent, std::hypot(m.node->x - first.node->x, m.node->y - first.node->y));
+  }
+  return turning * extent <= at_rest * size;
+}
+
 }  // namespace
+
+bool is_rigid(const Vector& motion, const DofMap& map) {
+  const double size = greatest_translation(motion, map);
+  if (map.matrices() || !(size > 0.0)) return false;
+  const auto nodes = node_motions(motion, map);
+  std::string name;
+  return translates(nodes, size) || rigid_rotation(nodes, size, name);
+}
 
 double greatest_translation(const Vector& motion, const DofMap& map) {
   double size = 0.0;
@@ -89,21 +109,10 @@ std::string describe_motion(const Vector& motion, const DofMap& map) {
   if (map.matrices()) return largest_name(motion, map, size, false);
   const auto nodes = node_motions(motion, map);
   int moving = 0;
-  bool uniform = true;
   const NodeMotion* mover = nullptr;
-  for (const NodeMotion& m : nodes) {
-    const NodeMotion& first = nodes.front();
+  for (const NodeMotion& m : nodes)
     if (std::hypot(m.x, m.y) > at_rest * size && ++moving) mover = &m;
-    if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) uniform = false;
-  }
-  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest is none
-  for (const NodeMotion& m : nodes) {
-    turning = std::max(turning, std::abs(m.turn));
-    extent =
-        std::max(extent, std::hypot(m.node->x - nodes.front().node->x, m.node->y - nodes.front().node->y));
-  }
-  const bool turns = turning * extent > at_rest * size;
-  if (uniform && !turns) {
+  if (translates(nodes, size)) {
     const std::string name = direction_name(mover->x, mover->y);
     return nodes.size() == 1 ? fmt::format("{} of node '{}'", name, mover->node->name) : name;
   }

@@ -15,6 +15,9 @@ namespace signorini {
 /// motion: n. What moves less than 1e-3 of the greatest counts as at rest.
 [[nodiscard]] std::string describe_motion(const Vector& motion, const DofMap& map);
 
+/// Whether all nodes move as one body.
+[[nodiscard]] bool is_rigid(const Vector& motion, const DofMap& map);
+
 /// How far the node goes that moves most (matrix scenes: the greatest component).
 [[nodiscard]] double greatest_translation(const Vector& motion, const DofMap& map);
 

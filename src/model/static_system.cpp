@@ -5,12 +5,33 @@
 
 #include "model/eigen_dense.hpp"
 #include "model/motion_names.hpp"
+#include "model/simple_motions.hpp"
 #include "model/springs.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
+/// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
+Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
+  std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    Eigen::Index pivot = 0;
+    while (std::abs(rows(i, pivot)) < 1e-3 * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
+    taken[static_cast<std::size_t>(pivot)] = true;
+    for (Eigen::Index k = i + 1; k < rows.rows(); ++k) {
+      rows.row(k) -= rows(k, pivot) / rows(i, pivot) * rows.row(i);
+      rows(k, pivot) = 0.0;
+    }
+  }
+  Eigen::MatrixXd others = Eigen::MatrixXd::Zero(rows.cols() - rows.rows(), rows.cols());
+  Eigen::Index row = 0;
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    if (!taken[static_cast<std::size_t>(j)]) others(row++, j) = 1.0;
+  return others;
+}
 
 }  // namespace
 
@@ -40,8 +61,8 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
 }
 
 std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
-                                     const std::vector<bool>& closed) {
-  Eigen::MatrixXd null = motions;
+                                     const std::vector<bool>& closed, bool pressed_only) {
+  Eigen::MatrixXd null = simple_motions(motions, problem.map);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
     const double size = greatest_translation(null.col(j), problem.map);
     null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
@@ -68,14 +89,11 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   };
   for (bool pressed : {true, false})
     for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-      if ((!problem.is_support(k) || closed[k]) == pressed) consider(k);
+      if ((!problem.is_support(k) || closed[k]) == pressed && (pressed || !pressed_only)) consider(k);
   std::vector<FreeMotion> result;
   if (m == 0) return result;
-  // Rows of the held motions, completed by those that nobody holds.
-  const Eigen::MatrixXd unheld =
-      holders.empty() ? Eigen::MatrixXd::Identity(m, m) : orthogonal_complement(rows.transpose());
   Eigen::MatrixXd complete(m, m);
-  complete << rows, unheld.transpose();
+  complete << rows, other_motions(rows);
   const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
   for (Eigen::Index j = 0; j < m; ++j)
     result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});

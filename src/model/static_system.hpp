@@ -37,9 +37,11 @@ struct FreeMotion {
 };
 
 /// The free motions of the null space `null` (n x m), one a holder: contacts in file order, closed ones
-/// and sliders first. Motions are scaled to t_h . motion = 1 at their own holder and 0 at the others.
+/// and sliders first, open ones last unless `pressed_only`. Motions are scaled to t_h . motion = 1 at their
+/// own holder and 0 at the others.
 [[nodiscard]] std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& null,
-                                                   const std::vector<bool>& closed);
+                                                   const std::vector<bool>& closed,
+                                                   bool pressed_only = false);
 
 /// The displacement with the free motions held.
 [[nodiscard]] Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,

@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "model/motion_names.hpp"
 #include "model/null_motions.hpp"
+#include "model/simple_motions.hpp"
 #include "model/springs.hpp"
 #include "model/static_system.hpp"
 #include "model/unilateral.hpp"
@@ -28,7 +31,12 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   Trial trial;
   trial.held = hold_motions(problem, null_motions(problem.matrix(closed)), closed);
   trial.u = solve_held(problem, closed, trial.held);
-  for (std::size_t j = 0; j < trial.held.size() && trial.driven < 0; ++j) {
+  // Those that nothing holds first: they say more than one that friction could hold.
+  std::vector<std::size_t> order(trial.held.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t j) { return trial.held[j].holder < 0; });
+  for (const std::size_t j : order) {
+    if (trial.driven >= 0) break;
     const Vector& motion = trial.held[j].motion;
     const double work = driving_work(problem, closed, motion, trial.u);
     if (work == 0.0) continue;
@@ -39,26 +47,40 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   return trial;
 }
 
+/// Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits. What seems
+/// free is then a slow bending, and its name would say nothing.
+void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place) {
+  if (problem.size() <= 10000) return;
+  bool rigid = true;
+  for (Eigen::Index j = 0; j < null.cols(); ++j) rigid = rigid && is_rigid(null.col(j), problem.map);
+  if (rigid) return;
+  throw SceneError(
+      place, key,
+      fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
+                  "ill-conditioned that roundoff hides what holds the structure; use fewer elements, "
+                  "or give the initial state (if the structure is a mechanism, fewer elements will "
+                  "show which motion nothing holds)",
+                  problem.size()));
+}
+
 /// A motion that not even contacts that pull and stick can hold.
 void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place) {
   std::vector<LineSpring> grips;
   const SparseMatrix k = problem.matrix(all);
   for (const Contact& c : problem.contacts)
     if (!c.tangent.terms.empty()) grips.push_back({c.tangent, own_stiffness(k, c.tangent)});
-  const Eigen::MatrixXd null = null_motions(with_springs(k, grips));
+  const Eigen::MatrixXd null = simple_motions(null_motions(with_springs(k, grips)), problem.map);
   if (null.cols() == 0) return;
+  refuse_roundoff(problem, null, place);
   std::string names = describe_motion(null.col(0), problem.map);
   for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
     names += ", " + describe_motion(null.col(j), problem.map);
   if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
-  // Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits.
-  const std::string fine =
-      problem.size() > 10000 ? " (or fewer elements: in so fine a mesh roundoff hides what holds it)" : "";
   throw SceneError(
       place, key,
       fmt::format("a static start is impossible, the structure is a mechanism: nothing holds its {}; "
-                  "add a support, a spring or a contact, or give the initial state{}",
-                  names, fine));
+                  "add a support, a spring or a contact, or give the initial state",
+                  names));
 }
 
 [[noreturn]] void refuse_driven(const StaticProblem& problem, const std::vector<bool>& all,

@@ -1,6 +1,9 @@
 #include "result/plots.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -38,13 +41,17 @@ std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contac
   return slugs;
 }
 
-void read_times(const fs::path& directory, PlottedRun& run) {
+/// Returns how many output times the window shows.
+std::size_t read_times(const fs::path& directory, const PlotWindow& window, PlottedRun& run) {
+  std::size_t shown = 0;
   CsvReader history(directory / "history.csv");
   run.columns = history.header();
   while (history.next()) {
     run.t_last = history.number(0);
     if (run.times++ == 0) run.t_first = run.t_last;
+    shown += run.t_last >= window.from.value_or(run.t_last) && run.t_last <= window.to.value_or(run.t_last);
   }
+  return shown;
 }
 
 // States at the first output time, then the events: the bands are exact, not sampled.
@@ -133,13 +140,29 @@ bool zoom_helps(const PlottedRun& run) {
   return changes >= 4 && part > 0.0 && part < 0.6 && run.bands.size() <= most_contacts;
 }
 
+/// Before anything is removed: gnuplot draws nothing of a window without data, and fails.
+void check_window(const PlotWindow& window, const PlottedRun& run) {
+  const auto check = [&](const char* option, const std::optional<double>& t, bool shows) {
+    if (!t || (std::isfinite(*t) && shows)) return;
+    throw UsageError(fmt::format("{} {}: nothing to draw, the run covers t = {} to {}", option, shortest(*t),
+                                 shortest(run.t_first), shortest(run.t_last)));
+  };
+  check("--from", window.from, window.from < run.t_last);
+  check("--to", window.to, window.to > run.t_first);
+}
+
 }  // namespace
 
 std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
   PlottedRun run;
   run.facts = read_run_facts(directory);
-  read_times(directory, run);
+  const std::size_t shown = read_times(directory, window, run);
   if (run.times < 2) return {};
+  check_window(window, run);
+  if (shown == 0)
+    throw UsageError(fmt::format("--from {} --to {}: nothing to draw, no output time lies between",
+                                 shortest(window.from.value_or(run.t_first)),
+                                 shortest(window.to.value_or(run.t_last))));
   run.slugs = make_slugs(run.facts.contacts);
   read_bands(directory, run);
   run.from = window.from.value_or(run.t_first);

@@ -26,7 +26,8 @@ struct PlotWindow {
 };
 
 /// Writes scripts and bands for the run in `directory`; returns the scripts, none when there are fewer
-/// than two output times to draw. Errors: FileError.
+/// than two output times to draw. Errors: FileError; UsageError when the window
+/// shows nothing of the run, before anything is removed.
 std::vector<std::filesystem::path> write_plots(const std::filesystem::path& directory,
                                                const PlotWindow& window = {});
 

@@ -31,6 +31,40 @@ void remove_old_run(const fs::path& path) {
   remove_plots(path);
 }
 
+/// Replacing the run must not take the scene that is to be computed with it.
+void check_scene_is_kept(const fs::path& path, const std::string& scene) {
+  std::error_code missing;
+  for (const std::string_view name : run_files) {
+    if (!fs::equivalent(path / name, scene, missing) || missing) continue;
+    throw FileError(path.string(), "--force would replace " + (path / name).string() +
+                                       ", the scene of this run; give another directory, or copy the scene");
+  }
+}
+
+/// Creates a directory; the outermost that had to be created.
+fs::path create_path(const fs::path& path) {
+  fs::path first;
+  std::error_code error;
+  for (fs::path p = fs::absolute(path).lexically_normal(); !fs::exists(p, error) && p != p.parent_path();
+       p = p.parent_path())
+    if (!p.filename().empty()) first = p;
+  fs::create_directories(path, error);
+  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
+  return first;
+}
+
+/// Removes the directory and those above it down from `first`, as far as they are empty.
+void remove_path(const fs::path& path, const fs::path& first) {
+  if (first.empty()) return;
+  std::error_code error;
+  fs::path p = fs::absolute(path).lexically_normal();
+  if (p.filename().empty()) p = p.parent_path();
+  for (;; p = p.parent_path()) {
+    fs::remove(p, error);
+    if (error || p == first) return;
+  }
+}
+
 }  // namespace
 
 void check_run_directory(const fs::path& path, bool force) {
@@ -47,6 +81,10 @@ void check_run_directory(const fs::path& path, bool force) {
   if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
   if (!empty && !force) {
     throw FileError(path.string(), "is there already and not empty; --force replaces the run in it");
+  }
+  if (!empty && !fs::exists(path / "summary.json", error)) {
+    throw FileError(path.string(),
+                    "is not empty and holds no run (no summary.json) that --force could replace");
   }
 }
 
@@ -67,6 +105,7 @@ struct RunDirectory::Writers {
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
     : path_(std::move(path)), scene_(scene), model_(model), options_(std::move(options)) {
   check_run_directory(path_, options_.force);
+  if (options_.force) check_scene_is_kept(path_, scene_.file);
 }
 
 RunDirectory::~RunDirectory() = default;
@@ -74,13 +113,18 @@ RunDirectory::~RunDirectory() = default;
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
   check_run_directory(path_, options_.force);  // again: it may have appeared since
-  std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) throw FileError(path_.string(), "cannot be created: " + error.message());
+  const fs::path created = create_path(path_);
   if (options_.force) remove_old_run(path_);
-  write_file(path_ / "run.toml", scene_.resolved);
-  write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
-  writers_ = std::make_unique<Writers>(path_, model_);
+  try {
+    write_file(path_ / "run.toml", scene_.resolved);
+    write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
+    writers_ = std::make_unique<Writers>(path_, model_);
+  } catch (const FileError&) {
+    std::error_code ignored;
+    for (const std::string_view name : run_files) fs::remove(path_ / name, ignored);
+    remove_path(path_, created);
+    throw;
+  }
   return *writers_;
 }
 
@@ -102,6 +146,14 @@ void RunDirectory::frame(const Sample& sample) {
 bool RunDirectory::progress(double /*t*/) {
   writers();
   return true;
+}
+
+void RunDirectory::abandon(double t, const std::string& reason) {
+  if (!started()) return;
+  try {
+    write_file(path_ / "summary.json", abandoned_json(scene_, model_, options_.command_line, t, reason));
+  } catch (const FileError&) {  // the disk may be full: it still says "running"
+  }
 }
 
 std::string RunDirectory::finish(const Report& report) {

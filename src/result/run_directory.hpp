@@ -4,8 +4,8 @@
 //   directory.finish(simulate(model, scene.run, directory));
 //
 // The constructor only looks; the directory is created by the first row, sign of progress or finish(), so a
-// run that never starts leaves nothing behind. What is there is never overwritten without `force`, and
-// `force` removes only files that Signorini writes.
+// run that never starts leaves nothing behind. What is there is never overwritten without `force`. With
+// `force` it must be a run; only files that Signorini writes are removed, and never the scene itself.
 #pragma once
 
 #include <filesystem>
@@ -37,6 +37,8 @@ class RunDirectory : public Recorder {
   bool progress(double t) override;
   /// Writes the final summary.json and returns its text.
   std::string finish(const Report& report);
+  /// After a FileError: summary.json says where and why the run stopped, if it can still be written.
+  void abandon(double t, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Whether anything has been written yet.

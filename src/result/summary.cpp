@@ -199,16 +199,37 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
   return text(json);
 }
 
-std::string running_json(const Scene& scene, const Model& model,
-                         const std::vector<std::string>& command_line) {
+namespace {
+
+/// Without what only the Report of a run knows.
+std::string brief_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line,
+                       const Json& outcome) {
   Json json;
-  json["outcome"] = {{"kind", "running"}, {"t_end", scene.run.t_end}};
+  json["outcome"] = outcome;
   json.update(head_json(scene, model, command_line));
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, nullptr));
   }
   return text(json);
+}
+
+}  // namespace
+
+std::string running_json(const Scene& scene, const Model& model,
+                         const std::vector<std::string>& command_line) {
+  return brief_json(scene, model, command_line, {{"kind", "running"}, {"t_end", scene.run.t_end}});
+}
+
+std::string abandoned_json(const Scene& scene, const Model& model,
+                           const std::vector<std::string>& command_line, double t,
+                           const std::string& reason) {
+  return brief_json(scene, model, command_line,
+                    {{"kind", to_string(Outcome::Kind::stopped)},
+                     {"t", t},
+                     {"t_end", scene.run.t_end},
+                     {"reason", reason},
+                     {"exit_code", static_cast<int>(ExitCode::file)}});
 }
 
 RunFacts read_run_facts(const std::filesystem::path& directory) {

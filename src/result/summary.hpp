@@ -22,6 +22,11 @@ namespace signorini {
 [[nodiscard]] std::string running_json(const Scene& scene, const Model& model,
                                        const std::vector<std::string>& command_line);
 
+/// The same of a run whose files could not be written: outcome.kind is "stopped", nothing counted.
+[[nodiscard]] std::string abandoned_json(const Scene& scene, const Model& model,
+                                         const std::vector<std::string>& command_line, double t,
+                                         const std::string& reason);
+
 /// What the pictures need to know about a run.
 struct RunFacts {
   struct Contact {

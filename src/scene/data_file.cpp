@@ -7,6 +7,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "base/input_file.hpp"
 #include "base/number.hpp"
 
 namespace signorini {
@@ -54,10 +55,7 @@ std::ifstream open_data_file(const Table& table, std::string_view key, const fs:
         place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
     throw FileError(where, fmt::format("{}: {}: {}", table.path(key), path.string(), why));
   };
-  std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::is_directory(status)) refuse_file("is a directory");
-  if (fs::is_character_file(status) || fs::is_block_file(status)) refuse_file("is a device");
+  if (const std::string why = why_no_input_file(path); !why.empty()) refuse_file(why + ", expected a file");
   errno = 0;
   std::ifstream in(path);
   if (!in) refuse_file(std::strerror(errno ? errno : EIO));

@@ -35,7 +35,7 @@ constexpr Key table_of_keys[] = {
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
     {"run", "engine", choice, "", "\"ida\"", "ida exact ~newmark ~friction-iteration", "Method of time integration."},
-    {"run", "rtol", fraction, "", "1e-8", "", "Relative tolerance of the integration."},
+    {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
     {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
@@ -125,9 +125,9 @@ constexpr Key table_of_keys[] = {
     {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
     {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},
     {"history", "amplitude", number, "", "1.0", "", "Factor of the shape; not in [[loads]]."},
-    {"history", "start", number, "time", "0.0", "", "Start; without it a constant has held since ever."},
-    {"history", "end", number, "time", "", "", "End; never where absent. Required for rectangle and triangle."},
-    {"history", "duration", positive, "time", "", "", "half_sine: end - start."},
+    {"history", "start", number, "time", "0.0", "", "Start; without it a constant has held since ever. Not of a table."},
+    {"history", "end", number, "time", "", "", "End; never where absent. Required for rectangle and triangle; not of a table."},
+    {"history", "duration", positive, "time", "", "", "half_sine: end - start, instead of end."},
     {"history", "omega", positive, "1/time", "", "", "harmonic, sin(omega (t - start) + phase): circular frequency in rad per time."},
     {"history", "frequency", positive, "1/time", "", "", "harmonic: cycles per time, instead of omega."},
     {"history", "phase", number, "", "0.0", "", "harmonic: phase in rad."},
@@ -182,8 +182,8 @@ std::string describe_type(const Key& key) {
       return "a number > 0";
     case non_negative:
       return "a number >= 0";
-    case fraction:
-      return "a number > 0 and < 1";
+    case relative_tolerance:
+      return "a number >= 1e-14 (roundoff) and < 1";
     case count:
       return "an integer >= 1";
     case integer:

@@ -19,7 +19,7 @@ enum class KeyType {
   number,
   positive,
   non_negative,
-  fraction,
+  relative_tolerance,
   count,
   integer,
   text,

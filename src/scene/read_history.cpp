@@ -21,18 +21,24 @@ HistoryType type_of(const std::string& name) {
   return types.at(name);
 }
 
+void read_half_sine_end(Table& table, HistorySpec& spec) {
+  if (table.has("end")) {
+    if (table.has("duration")) table.fail("end", "stands beside duration, expected one of the two");
+    return;
+  }
+  table.require("duration", " (half_sine; or end)");
+  spec.end = spec.start + table.number("duration");
+  if (!(spec.end > spec.start)) table.fail("duration", "too short to end after the start");
+}
+
 void read_span(Table& table, HistorySpec& spec) {
+  if (spec.type == HistoryType::table) return;  // its times say where it starts and ends
   // A constant without start is a load that has always been there: writing down its default would start it.
   const bool writes_start = table.has("start") || spec.type != HistoryType::constant;
   if (writes_start) spec.start = table.number("start");
   spec.start_given = writes_start;
 
-  if (spec.type == HistoryType::half_sine) {
-    table.require("duration", " (half_sine)");
-    spec.end = spec.start + table.number("duration");
-    if (!(spec.end > spec.start)) table.fail("duration", "too short to end after the start");
-    return;
-  }
+  if (spec.type == HistoryType::half_sine) read_half_sine_end(table, spec);
   if (spec.type == HistoryType::rectangle || spec.type == HistoryType::triangle) {
     table.require("end",
                   " (" + std::string(spec.type == HistoryType::triangle ? "triangle" : "rectangle") + ")");

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/input_file.hpp"
 #include "scene/overrides.hpp"
 #include "scene/readers.hpp"
 
@@ -127,9 +128,8 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw FileError(path, "is a directory, expected a scene file");
+  if (const std::string why = why_no_input_file(path); !why.empty())
+    throw FileError(path, why + ", expected a scene file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path, std::strerror(errno ? errno : EIO));

@@ -21,8 +21,8 @@ bool in_range(KeyType type, double value) {
       return value > 0.0;
     case KeyType::non_negative:
       return value >= 0.0;
-    case KeyType::fraction:
-      return value > 0.0 && value < 1.0;
+    case KeyType::relative_tolerance:
+      return value >= 1e-14 && value < 1.0;  // below, steps would be refused for their roundoff
     case KeyType::count:
       return value >= 1.0;
     default:
@@ -56,9 +56,11 @@ std::vector<double> number_array(const toml::node& node, const std::string& path
 
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path) {
   if (name.empty()) refuse(place, path, "found an empty name");
+  if (std::any_of(name.begin(), name.end(), is_control)) {
+    refuse(place, path, "found a name with a line break or another control character, expected a plain name");
+  }
   for (const char c : name) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code <= 0x20 || code == 0x7f || std::string_view(".,;*\"'=[]{}#").find(c) != std::string_view::npos) {
+    if (std::string_view(" .,;*\"'=[]{}#").find(c) != std::string_view::npos) {
       refuse(place, path,
              "found a name with blanks or one of . , ; * \" ' = [ ] { } #, expected a plain name");
     }

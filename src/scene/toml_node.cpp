@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/number.hpp"
+#include "scene/record.hpp"
 
 namespace signorini {
 
@@ -13,14 +14,18 @@ namespace {
 
 bool is_override(const SourcePlace& place) { return place.file.starts_with(override_prefix); }
 
-/// A piece of text that is safe and short enough for a message.
+/// A message stays on its line, whatever stands in the names and strings of a file.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (is_control(c)) c = '?';
+  }
+  return text;
+}
+
+/// A piece of text that is short enough for a message.
 std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 60;
-  std::string result = "\"";
-  for (const char c : text.substr(0, longest)) {
-    result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  }
-  return result + (text.size() > longest ? "...\"" : "\"");
+  return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");
 }
 
 }  // namespace
@@ -39,7 +44,7 @@ SourcePlace place_of(const toml::node& node) { return place_of(node.source()); }
 std::string describe(const toml::node& node) {
   if (const auto* value = node.as_string()) return "the string " + quoted(value->get());
   if (const auto* value = node.as_integer()) return fmt::format("the number {}", value->get());
-  if (const auto* value = node.as_floating_point()) return "the number " + shortest(value->get());
+  if (const auto* value = node.as_floating_point()) return "the number " + toml_number(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";
   if (const auto* array = node.as_array()) {
     return "an array of " + count_of(array->size(), "value");
@@ -49,8 +54,8 @@ std::string describe(const toml::node& node) {
 }
 
 void refuse(const SourcePlace& place, const std::string& key, const std::string& message) {
-  if (is_override(place)) throw UsageError(place.file + ": " + key + ": " + message);
-  throw SceneError(place, key, message);
+  if (is_override(place)) throw UsageError(on_one_line(place.file + ": " + key + ": " + message));
+  throw SceneError(place, on_one_line(key), on_one_line(message));
 }
 
 std::vector<Entry> entries_of(const toml::table& table) {

@@ -19,7 +19,10 @@ inline constexpr std::string_view override_prefix = "--set ";
 [[nodiscard]] SourcePlace place_of(const toml::source_region& region);
 [[nodiscard]] SourcePlace place_of(const toml::node& node);
 
-/// "the number -0.3", "the string \"abc\"", "an array of 3 values".
+/// The control characters of ASCII.
+[[nodiscard]] inline bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+/// "the number -0.3", "the number 4.0" of a float, "the string \"abc\"", "an array of 3 values".
 [[nodiscard]] std::string describe(const toml::node& node);
 
 /// A SceneError, or a UsageError where the place is a `--set`.

@@ -23,8 +23,12 @@ CheckReport check(const Scene& scene, const Model& model) {
   checks::Start start = checks::start(scene, model);
   report.contacts = std::move(start.contacts);
   report.settings = std::move(start.settings);
+  report.warnings = std::move(start.warnings);
   if (const auto found = checks::ambiguous_contacts(model))
     report.warnings.push_back(found->reason + "; the run will stop when that happens");
+  if (std::string found = checks::unstable_motion(scene, model, report.contacts); !found.empty())
+    report.warnings.push_back(std::move(found));
+  for (std::string& loose : checks::loose_parts(scene)) report.warnings.push_back(std::move(loose));
   report.rows = scene.run.grid().size();
   for (const Dof& dof : model.dofs) report.massless += dof.massless ? 1 : 0;
   if (!scene.matrices) report.mass = checks::mass_of(scene, model);

@@ -37,7 +37,7 @@ struct Discontinuity {
   std::string what;   ///< "load 1", "normal_force of contact 'pad'"
 };
 
-/// Of the time loop with IDA at order 5, roughly. Zero steps: nobody knows beforehand.
+/// Of the time loop with IDA at order 5, by order of magnitude. Zero steps: nobody knows beforehand.
 struct Cost {
   long unknowns = 0;
   double omega_max = 0.0;         ///< of the structure with its contacts stuck, and of harmonic loads
@@ -49,7 +49,7 @@ struct CheckReport {
   std::optional<MassFacts> mass;
   long massless = 0;
   std::vector<ContactSample> contacts;    ///< right after t = 0
-  std::vector<std::string> warnings;      ///< what starts well and may stop the run later
+  std::vector<std::string> warnings;      ///< of the run, and what may be a mistake
   std::vector<std::string> free_motions;  ///< of the structure on its closed contacts, and what holds them
   Frequencies open, closed, stuck;        ///< all contacts alike
   std::vector<StiffnessRatio> stiffness;

@@ -12,12 +12,15 @@ Json frequency_json(const Frequencies& frequencies) {
   Json modes = Json::array();
   for (const NaturalMode& mode : frequencies.modes)
     modes.push_back({{"omega", mode.omega}, {"damping_ratio", mode.damping_ratio}});
-  return {{"free_motions", frequencies.free_motions}, {"modes", std::move(modes)}};
+  return {{"free_motions", frequencies.free_motions},
+          {"unstable_motions", frequencies.unstable},
+          {"modes", std::move(modes)}};
 }
 
 Json contact_json(const Contact& contact, const ContactSample& sample) {
   Json json = {{"name", contact.name}, {"law", to_string(contact.law)}, {"state", to_string(sample.state)}};
   if (contact.law != Law::slider) json["gap"] = sample.gap;
+  json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
   json["limit"] = -contact.static_friction * sample.N;

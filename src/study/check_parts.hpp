@@ -9,6 +9,7 @@ namespace signorini::checks {
 struct Start {
   std::vector<ContactSample> contacts;
   Settings settings;
+  std::vector<std::string> warnings;  ///< of the run itself
 };
 /// Errors: SceneError with the reason why the run cannot start.
 [[nodiscard]] Start start(const Scene& scene, const Model& model);
@@ -20,6 +21,11 @@ struct Ambiguity {
 };
 [[nodiscard]] std::optional<Ambiguity> ambiguous_contacts(const Model& model);
 
+/// Nodes that nothing is attached to, and sections that no member has; one sentence each.
+[[nodiscard]] std::vector<std::string> loose_parts(const Scene& scene);
+/// A motion that grows by itself, with the contacts as they are at t = 0; empty when there is none.
+[[nodiscard]] std::string unstable_motion(const Scene& scene, const Model& model,
+                                          const std::vector<ContactSample>& contacts);
 [[nodiscard]] MassFacts mass_of(const Scene& scene, const Model& model);
 [[nodiscard]] std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                                     const std::vector<ContactSample>& contacts);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "model/contacts.hpp"
 #include "model/dofs.hpp"
+#include "model/growth.hpp"
 #include "model/held.hpp"
 #include "model/motion_names.hpp"
 #include "model/null_motions.hpp"
@@ -35,7 +37,67 @@ double moving_mass(const Model& model, std::string_view component) {
   return r.dot(model.mass * r);
 }
 
+/// How many there are, and the first few of them: "3 nodes are ...: 'A', 'B', 'C'".
+std::string few(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < most; ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
+}
+
+DofMap map_of(const Scene& scene) {
+  return scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+}
+
+std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSample>& contacts) {
+  std::vector<bool> closed;
+  for (const ContactSample& c : contacts) closed.push_back(c.state != State::open);
+  closed.resize(model.contacts.size(), false);
+  return closed;
+}
+
 }  // namespace
+
+std::vector<std::string> loose_parts(const Scene& scene) {
+  std::set<std::string> nodes, sections;
+  for (const Member& m : scene.members) {
+    nodes.insert(m.nodes.begin(), m.nodes.end());
+    sections.insert(m.section);
+  }
+  for (const PointMass& m : scene.masses) nodes.insert(m.node);
+  for (const Spring& s : scene.springs) nodes.insert({s.node, s.against});
+  for (const ContactSpec& c : scene.contacts)
+    for (const auto& direction : {c.normal, c.tangent})
+      if (direction) nodes.insert(direction->node);
+  std::vector<std::string> loose, unused, result;
+  for (const Node& node : scene.nodes)
+    if (!nodes.contains(node.name)) loose.push_back(node.name);
+  for (const Section& section : scene.sections)
+    if (!sections.contains(section.name)) unused.push_back(section.name);
+  if (!loose.empty())
+    result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
+                                 loose.size() > 1 ? "s" : "", few(loose)));
+  if (!unused.empty())
+    result.push_back(
+        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", few(unused)));
+  return result;
+}
+
+std::string unstable_motion(const Scene& scene, const Model& model,
+                            const std::vector<ContactSample>& contacts) {
+  const Vector load = static_load(model.loads, model.size());
+  const DofMap map = map_of(scene);
+  const StaticProblem problem{model.stiffness, load, model.contacts, map};
+  const auto growth = fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
+  if (!growth) return "";
+  const std::string pace =
+      std::isfinite(growth->rate)
+          ? fmt::format("grows like exp({:.4g} t) where friction does not hold it", growth->rate)
+          : std::string("has no mass that could slow it down");
+  return fmt::format("the structure is unstable, its stiffness matrix has a negative eigenvalue: the {} {}",
+                     describe_motion(growth->motion, map), pace);
+}
 
 MassFacts mass_of(const Scene& scene, const Model& model) {
   MassFacts facts;
@@ -64,21 +126,21 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
 std::vector<std::string> free_motions(const Scene& scene, const Model& model,
                                       const std::vector<ContactSample>& contacts) {
   if (model.static_start) return model.statics.free_motions;
-  const DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+  const DofMap map = map_of(scene);
   const Vector load = static_load(model.loads, model.size());
   const StaticProblem problem{model.stiffness, load, model.contacts, map};
-  std::vector<bool> closed;
-  for (const ContactSample& c : contacts) closed.push_back(c.state != State::open);
-  closed.resize(model.contacts.size(), false);
+  const std::vector<bool> closed = closed_ones(model, contacts);
+  const SparseMatrix k = problem.matrix(closed);
   std::vector<std::string> names;
-  for (const FreeMotion& f : hold_motions(problem, null_motions(problem.matrix(closed)), closed)) {
+  for (const FreeMotion& f : hold_motions(problem, null_motions(k), closed, true)) {
     // Without friction or a spring a contact follows the motion and does not hold it.
     const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
     const bool holds =
         holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
     names.push_back(describe_motion(f.motion, map) +
                     (holds ? fmt::format(", only held by friction at contact '{}'", holder->name)
-                           : std::string(", held by nothing")));
+                     : has_negative_energy(k, f.motion) ? std::string(", unstable")
+                                                        : std::string(", held by nothing")));
   }
   return names;
 }

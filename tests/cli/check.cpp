@@ -80,6 +80,7 @@ TEST_CASE("cli check: refusals are 3 and say what would go wrong") {
   const Ending pulls = shell.run({"check", pipeline, "--set", "gravity=[0.0, 9.81]"});
   CHECK(pulls.code == 3);
   CHECK(contains(pulls.err, "contact 'first' would have to pull with 58.86 kN"));
+  CHECK(contains(pulls.err, "drive the vertical motion"));
   const Ending driven = shell.run({"check", pipeline, "--set", "gravity=[1.0, -9.81]"});
   CHECK(driven.code == 3);
   CHECK(contains(driven.err, "drive the horizontal motion with 9.6 kN"));
@@ -99,6 +100,25 @@ surface_velocity = 0.2
   CHECK(twice.out.empty());
   CHECK(twice.err.rfind("error: two.toml:", 0) == 0);
   CHECK(contains(twice.err, "'belt' and 'again' stick rigidly"));
+}
+
+TEST_CASE("cli check: warnings of the run's start, and where the static start puts the contacts") {
+  const Shell shell;
+  const std::vector<std::string> shear = {pipeline, "--set", "contacts.second.initial_shear=100.0"};
+  const std::string words = "contact 'second': initial_shear = 100 is above the friction limit at t = 0";
+  const Ending checked = shell.run({"check", shear[0], shear[1], shear[2]});
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.out, "warning: " + words));
+  const Ending ran =
+      shell.run({"run", shear[0], shear[1], shear[2], "--set", "run.t_end=1e-3", "--no-plots", "-o", "out"});
+  CHECK(contains(ran.err, "warning: " + words));
+  const Ending plain = shell.run({"check", pipeline});
+  CHECK_FALSE(contains(plain.out, "warning"));
+  CHECK(contains(plain.out, "ut [m]"));
+  CHECK(contains(plain.out, "0.00284228"));
+  const json facts = json::parse(shell.run({"check", pipeline, "--json"}).out);
+  CHECK(facts["contacts"][0]["ut"].get<double>() == doctest::Approx(0.0).epsilon(1e-12));
+  CHECK(facts["contacts"][1]["ut"].get<double>() == doctest::Approx(0.00284228).epsilon(1e-5));
 }
 
 TEST_CASE("cli check: command line and files") {

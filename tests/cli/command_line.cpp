@@ -73,6 +73,34 @@ TEST_CASE("cli: what cannot be read or written is 6") {
   CHECK(shell.read("taken") == "a file");
 }
 
+TEST_CASE("cli: a pipe is no scene, no matrix and no table, and nobody waits for it") {
+  const Shell shell;
+  REQUIRE(mkfifo((shell / "pipe").c_str(), 0600) == 0);
+  const Ending scene = shell.run({"check", "pipe"});
+  CHECK(scene.code == 6);
+  CHECK(scene.err.find("pipe: is a pipe, expected a scene file") != std::string::npos);
+  shell.write("table.toml", belt(1) + R"([[loads]]
+node = "block"
+direction = [1.0, 0.0]
+amplitude = 1.0
+history = { type = "table", file = "pipe" }
+)");
+  shell.write("matrix.toml", R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 1.0
+[matrices]
+mass = [[1.0]]
+stiffness = "pipe"
+)");
+  for (const std::string name : {"table", "matrix"}) {
+    const Ending ending = shell.run({"check", name + ".toml"});
+    CHECK(ending.code == 6);
+    CHECK(ending.err.rfind("error: " + name + ".toml:", 0) == 0);
+    CHECK(ending.err.find("pipe: is a pipe, expected a file") != std::string::npos);
+  }
+}
+
 TEST_CASE("cli: an unknown command is named, with a suggestion") {
   const Shell shell;
   const Ending ending = shell.run({"rum", "belt.toml"});

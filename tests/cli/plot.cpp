@@ -28,6 +28,28 @@ TEST_CASE("cli plot: draws again what was removed") {
   }
 }
 
+TEST_CASE("cli plot: a window beside the run is refused, and the pictures stay") {
+  const Shell shell;
+  shell.write("belt.toml", belt(2));
+  REQUIRE(shell.run({"run", "belt.toml"}).code == 0);
+  const std::string before = shell.read("belt-run/plots/displacement.gp");
+  const std::vector<std::vector<std::string>> windows = {
+      {"--from", "5", "--to", "6"}, {"--from", "2"}, {"--to", "0"}, {"--from", "nan"}, {"--to", "inf"}};
+  for (const auto& window : windows) {
+    std::vector<std::string> line = {"plot", "belt-run"};
+    line.insert(line.end(), window.begin(), window.end());
+    const Ending ending = shell.run(line);
+    CHECK(ending.code == 2);
+    CHECK(ending.err ==
+          "error: " + window[0] + " " + window[1] + ": nothing to draw, the run covers t = 0 to 2\n");
+    CHECK(shell.read("belt-run/plots/displacement.gp") == before);
+  }
+  const Ending between = shell.run({"plot", "belt-run", "--from", "1.01", "--to", "1.02"});
+  CHECK(between.code == 2);
+  CHECK(between.err == "error: --from 1.01 --to 1.02: nothing to draw, no output time lies between\n");
+  CHECK(shell.read("belt-run/plots/displacement.gp") == before);
+}
+
 TEST_CASE("cli plot: a folder that holds no run is refused") {
   const Shell shell;
   std::filesystem::create_directory(shell / "empty");

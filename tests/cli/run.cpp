@@ -78,14 +78,50 @@ TEST_CASE("cli run: an earlier run is kept unless forced") {
   CHECK(lines(shell.read("belt-run/history.csv")) == 22);
 }
 
+TEST_CASE("cli run: --force replaces runs, and neither the scene nor a folder of other files") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  const std::string scene = shell.read("belt-run/run.toml"), history = shell.read("belt-run/history.csv");
+  const Ending own = shell.run({"run", "belt-run/run.toml", "-o", "belt-run", "--force", "--no-plots"});
+  CHECK(own.code == 6);
+  CHECK(own.err.find("--force would replace belt-run/run.toml, the scene of this run") != std::string::npos);
+  CHECK(shell.read("belt-run/run.toml") == scene);
+  CHECK(shell.read("belt-run/history.csv") == history);
+
+  std::filesystem::create_directory(shell / "mine");
+  shell.write("mine/history.csv", "my own\n");
+  const Ending mine = shell.run({"run", "belt.toml", "-o", "mine", "--force"});
+  CHECK(mine.code == 6);
+  CHECK(mine.err.find("holds no run (no summary.json)") != std::string::npos);
+  CHECK(shell.read("mine/history.csv") == "my own\n");
+}
+
+TEST_CASE("cli run: a start that fails claims nothing and leaves nothing") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  // No file can have even one byte: the directory can be made, and nothing written in it.
+  const Ending ending =
+      shell.wait(shell.start({"run", "belt.toml", "-o", "a/b", "--no-plots", "--quiet"}, ".out", 1));
+  CHECK(ending.code == 6);
+  CHECK(shell.list() == std::vector<std::string>{"belt.toml"});
+  const Ending nowhere = shell.run({"run", "belt.toml", "-o", "/proc/x"});
+  CHECK(nowhere.code == 6);
+  CHECK(nowhere.err.rfind("error: /proc/x: ", 0) == 0);
+  CHECK(nowhere.err.find("kept") == std::string::npos);
+}
+
 TEST_CASE("cli run: an interrupt keeps what was computed, says so, and ends with 130") {
+  int signal = 0;
+  SUBCASE("SIGINT") { signal = SIGINT; }
+  SUBCASE("SIGTERM") { signal = SIGTERM; }
   const Shell shell;
   shell.write("belt.toml", belt(5e6));
   const pid_t child = shell.start({"run", "belt.toml"});
   for (int i = 0; i < 1000 && lines(shell.read("belt-run/events.csv")) < 5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  kill(child, SIGINT);
+  kill(child, signal);
   const Ending ending = shell.wait(child);
   CHECK(ending.code == 130);
   CHECK(ending.err.rfind("error: interrupted at t = ", 0) == 0);
@@ -123,7 +159,11 @@ TEST_CASE("cli run: a disk that fills up during a run leaves whole rows, and a m
   CHECK(ending.err.find("cannot be written: ") != std::string::npos);
   CHECK(ending.err.find("the run stopped at t = ") != std::string::npos);
   CHECK(ending.err.find("is kept in belt-run") != std::string::npos);
-  CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] != "done");
+  const json outcome = json::parse(shell.read("belt-run/summary.json"))["outcome"];
+  CHECK(outcome["kind"] == "stopped");
+  CHECK(outcome["exit_code"] == 6);
+  CHECK(outcome["t"].get<double>() > 0.0);
+  CHECK(outcome["reason"].get<std::string>().find("cannot be written: ") != std::string::npos);
   for (const char* name : {"events.csv", "history.csv", "contacts.csv", "energy.csv"}) {
     CAPTURE(name);
     const std::string text = shell.read(std::string("belt-run/") + name);

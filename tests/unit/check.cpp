@@ -101,6 +101,14 @@ TEST_SUITE("unit/check") {
     s.contacts[0].friction = {0.0, 0.0};
     CHECK(checked(s).free_motions ==
           std::vector<std::string>{"horizontal motion of node 'a', held by nothing"});
+
+    s = pipeline();
+    s.initial.is_static = false;
+    s.damping = {};
+    s.initial.components = {{"D", "uy", -1e-4, {}}, {"A", "uy", 1e-3, {}}};
+    CHECK(checked(s).free_motions ==
+          std::vector<std::string>{"horizontal motion, only held by friction at contact 'second'",
+                                   "rotation about (18, 6), held by nothing"});
   }
 
   TEST_CASE("breakpoints: jumps and kinks of loads, compressions and surfaces, within the run") {
@@ -148,6 +156,45 @@ TEST_SUITE("unit/check") {
     Scene light = matrices({{1, 0}, {0, 0}}, {{0, 0}, {0, 0}}, {{4, -1}, {-1, 4}});
     light.contacts = {slider("pad", Direction{"", {}, {{"d1", 1.0}}, {}}, 1.0, 0.3)};
     CHECK(contains(why_not(light), "'pad' sticks rigidly to a point without mass"));
+  }
+
+  TEST_CASE("nodes without anything and sections without members are pointed out") {
+    Scene s = pipeline();
+    CHECK(checked(s).warnings.empty());
+    s.nodes.push_back({"E", 1.0, 1.0, {}});
+    s.sections.push_back({"old", 1.0, 1.0, 1.0});
+    s.sections.push_back({"new", 1.0, 1.0, 1.0});
+    CHECK(checked(s).warnings ==
+          std::vector<std::string>{"no member, mass, spring or contact is attached to node 'E'",
+                                   "no member has the sections 'old', 'new'"});
+  }
+
+  TEST_CASE("negative stiffness is called unstable, with the rate of the fastest motion") {
+    const auto warning = [](const Scene& s) { return checked(s).warnings.at(0); };
+    Scene s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{-200, 0}, {0, 100}});
+    CheckReport r = checked(s);
+    CHECK(contains(warning(s), "the motion of d0.u grows like exp(14.14 t)"));
+    CHECK(r.free_motions == std::vector<std::string>{"motion of d0.u, unstable"});
+    CHECK(r.open.unstable == 1);
+    REQUIRE(r.open.modes.size() == 1);
+    CHECK(r.open.modes[0].omega == doctest::Approx(10.0));
+
+    // omega^2 of [[200, -300], [-300, 100]]: 150 -+ sqrt(50^2 + 300^2)
+    s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{200, -300}, {-300, 100}});
+    r = checked(s);
+    CHECK(contains(warning(s), "grows like exp(12.42 t)"));
+    CHECK(r.open.modes.at(0).omega == doctest::Approx(std::sqrt(150.0 + std::sqrt(92500.0))));
+
+    // A free motion beside it stays one.
+    s = matrices({{2, 0, 0}, {0, 1, 0}, {0, 0, 4}}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+                 {{0, 0, 0}, {0, -9, 0}, {0, 0, -1}});
+    r = checked(s);
+    CHECK(contains(warning(s), "the motion of d1.u grows like exp(3 t)"));
+    CHECK(r.open.free_motions == 3);
+    CHECK(r.open.unstable == 2);
+
+    s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{1, -1}, {-1, 1}});
+    CHECK(checked(s).warnings.empty());
   }
 
   TEST_CASE("what run refuses, check refuses") {

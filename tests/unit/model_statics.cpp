@@ -127,6 +127,26 @@ TEST_SUITE("unit/model") {
     CHECK(contains(message, "rotation about"));
   }
 
+  TEST_CASE("what flies up moves vertically, whatever else is free with it") {
+    Scene s = pipeline();
+    s.gravity = {0.0, 9.81};
+    CHECK(contains(refusal(s), "without it the static loads drive the vertical motion"));
+    s.gravity = {0.0, 0.0};
+    s.contacts.clear();
+    CHECK(contains(refusal(s),
+                   "nothing holds its horizontal motion, vertical motion, rotation about (6.882, 5.118)"));
+  }
+
+  TEST_CASE("a mesh whose own roundoff hides its supports is refused with that as the cause") {
+    Scene s = beam(8.0, 12000, 9e6, 2e6, 0.4);
+    s.initial.is_static = true;
+    s.supports = {support("L", true, true, true)};
+    const std::string message = refusal(s);
+    CHECK(
+        contains(message, "with 36000 degrees of freedom the stiffness is so ill-conditioned that roundoff"));
+    CHECK(contains(message, "use fewer elements"));
+  }
+
   TEST_CASE("a free motion that the loads drive is refused with its force") {
     Scene s = two_supports(8);
     s.gravity = {0.1, -9.81};

@@ -97,7 +97,8 @@ TEST_CASE("a constant without start holds since ever") {
   CHECK(scene.loads[1].history.start_given);
   CHECK(scene.loads[2].history.start_given);
   CHECK(scene.loads[4].history.end == 0.2);
-  CHECK(scene.loads[5].history.omega == 2.0 * M_PI * 3.3);
+  CHECK(scene.loads[5].history.end == 0.3);
+  CHECK(scene.loads[6].history.omega == 2.0 * M_PI * 3.3);
 }
 
 TEST_CASE("matrices from files") {

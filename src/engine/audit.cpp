@@ -122,7 +122,7 @@ Energy Auditor::stored(const Mode& mode, const Point& point) {
     const double T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
     if (contact.law == Law::compliant) {
       const double spring = N - contact.normal_damping * contact.normal.dot(point.v);
-      if (N != 0.0) e.contact += spring * spring / (2.0 * contact.normal_stiffness);
+      if (mode[k].state != State::open) e.contact += spring * spring / (2.0 * contact.normal_stiffness);
       if (mode[k].inside) {  // N = 0: the spring is as long as the gap is deep
         const double gap = contact.gap + contact.normal.dot(point.u);
         e.contact += 0.5 * contact.normal_stiffness * gap * gap;

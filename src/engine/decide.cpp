@@ -104,7 +104,7 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
     }
     if (failure.guard == Guard::none) continue;
     // Friction limit and compression vanish together in a vertical lift-off: one separation.
-    if (failure.guard == Guard::slip_plus || failure.guard == Guard::slip_minus) {
+    if (order > 0 && (failure.guard == Guard::slip_plus || failure.guard == Guard::slip_minus)) {
       const GuardForm separation = guards(model_.contacts[c], mode[c])[0];
       if (separation.kind == Guard::separation &&
           starts_at_zero(separation.form, jets[c], instant.resolution) &&

@@ -1,7 +1,13 @@
 #include "model/shear.hpp"
 
+#include <fmt/core.h>
+
+#include <numbers>
+
 namespace signorini {
 namespace {
+
+constexpr double fastest = 1e-6;  // time constant of a dashpot times the highest frequency
 
 /// Adds value * form form^T.
 void add_square(const Combination& form, double value, std::vector<Eigen::Triplet<double>>& entries) {
@@ -31,6 +37,13 @@ void add_shear_elements(const Scene& scene, Model& model) {
     const double ct = scene.contacts[k].tangential_damping;
     if (ct == 0.0 || !contact.has_friction()) continue;
     const double kt = *contact.tangential_stiffness;
+    // Below this the element would follow at once, within the rounding of everything else.
+    if (ct / kt * model.omega_max < fastest)
+      throw SceneError(
+          scene.contacts[k].place, "contacts." + contact.name + ".tangential_damping",
+          fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
+                      "below the shortest period of the structure, {:.3g}; give 0.0 or more",
+                      ct / kt, 2.0 * std::numbers::pi / model.omega_max));
     const int p = model.size();
     model.dofs.push_back({contact.name + ".slip", contact.name + ".slip_rate", false, true});
     u.push_back(contact.tangent.dot(model.u0) - contact.initial_shear / kt);

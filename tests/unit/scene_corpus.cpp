@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "signorini/scene.hpp"
+#include "signorini/model.hpp"
 #include "unit/scene_equal.hpp"
 
 using namespace signorini;
@@ -96,7 +96,7 @@ TEST_CASE("bad scenes are refused at the right line with the right message") {
     REQUIRE(expected.line > 0);
     std::string message = "no error";
     try {
-      (void)read_scene(file.string());
+      (void)build_model(read_scene(file.string()));
     } catch (const SceneError& error) {
       message = error.what();
     }

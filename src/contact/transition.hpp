@@ -14,7 +14,7 @@
 // Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "contact/law.hpp"
 
@@ -23,7 +23,8 @@ namespace signorini {
 /// The motion of one contact to the right of an instant: element k is the k-th time derivative.
 /// `noise` has the same shape: what one rounding of the data makes of each entry.
 struct MotionJet {
-  std::vector<ContactMotion> motion, noise;
+  static constexpr std::size_t orders = 5;  ///< the motion and four derivatives: enough to decide states
+  std::array<ContactMotion, orders> motion, noise;
 };
 
 /// The next state of one contact; `failed` is a guard of `now`, `jet` holds in state `now`.

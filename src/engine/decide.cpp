@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <tuple>
 
 namespace signorini {
@@ -32,8 +31,8 @@ Sign sign_after(const Form& form, const MotionJet& jet, double resolution, std::
 
 /// How a guard passed through zero, from the motion in the mode that it ended.
 Crossing crossing(const Form& form, const MotionJet& jet) {
-  Crossing result{form, {}, form.magnitude(jet.noise[0])};
-  for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives.push_back(form.rate(jet.motion[k]));
+  Crossing result{form, true, {}, form.magnitude(jet.noise[0])};
+  for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives[k - 1] = form.rate(jet.motion[k]);
   return result;
 }
 
@@ -235,7 +234,7 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
 
   Mode mode = instant.mode;
   if (instant.jump) follow_forcing(instant, before, after, decision.before, mode);
-  std::set<std::vector<Memory>> seen{states(mode)};
+  std::vector<std::vector<Memory>> seen{states(mode)};
   bool first = true;
   if (instant.jump && !evaluate(instant, after, mode, decision, jets)) {
     decision.reason =
@@ -257,7 +256,9 @@ Decision Decider::decide(const Instant& instant, const Forcing& before, const Fo
       mode[f.contact] = next_state(model_.contacts[f.contact], mode[f.contact], f.guard, jets[f.contact]);
       decision.visited[f.contact] = true;
     }
-    const bool repeated = !seen.insert(states(mode)).second;
+    std::vector<Memory> now = states(mode);
+    const bool repeated = std::find(seen.begin(), seen.end(), now) != seen.end();
+    seen.push_back(std::move(now));
     bool solved = true;
     if (repeated) {
       decision.mode = mode;

@@ -41,8 +41,9 @@ struct GuardStart {
 /// The guard whose failure changed a contact's state.
 struct Crossing {
   Form form;
-  std::vector<double> derivatives;  ///< g', g'', ... just before, in the old mode; empty: no guard failed
-  double noise = 0.0;               ///< rounding of its value
+  bool failed = false;
+  std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old mode
+  double noise = 0.0;                                       ///< rounding of its value
 };
 
 struct Decision {

@@ -15,7 +15,7 @@ namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int levels = 30;
+constexpr int fewest_levels = 12, more_levels = 6, most_levels = 30;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from thirty powers of the flow
 constexpr int first_terms = 4;          // of a series: a motion may start from rest under a load that grows
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
@@ -42,12 +42,10 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
       taylor_(expander.taylor()),
       t_end_(t_end),
       norm_(model),
-      // u_k of massless degrees of freedom is complete two levels later
-      degree_(static_cast<std::size_t>(taylor_.massless() ? levels - 2 : levels)),
       contacts_(model.contacts.size()),
       watches_(guards_per_contact * model.contacts.size()),
-      sizes_(degree_ + 3),
-      guard_(degree_ + 1),
+      sizes_(most_levels + 3),
+      guard_(most_levels + 1),
       ranges_(4 * model.contacts.size()) {
   for (const Dof& dof : model.dofs)
     weights_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
@@ -69,9 +67,10 @@ double ExactEngine::growth_of(const Mode& mode) {
     v[i] = w * (1.0 + 1e15 * Disturbance::sign(k + 5)) / weights_[k];
   }
   Series series;
-  taylor_.expand(Forcing(model_, segment_.decision->jet.t, Side::after), 0.0, u, v, levels, 1.0 / w, series);
+  taylor_.expand(Forcing(model_, segment_.decision->jet.t, Side::after), 0.0, u, v, most_levels, 1.0 / w,
+                 series);
   double greatest = 0.0;
-  for (Eigen::Index k = levels / 2; k + 2 <= static_cast<Eigen::Index>(degree_); ++k) {
+  for (Eigen::Index k = most_levels / 2; k + 2 <= most_levels - 2; ++k) {
     const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
     if (a > 0.0) greatest = std::max(greatest, w * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
@@ -83,9 +82,8 @@ void ExactEngine::start(const Segment& segment) {
   const Decision& decision = *segment.decision;
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
-  growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(),
-                          static_cast<double>(degree_) / t_end_});
-  part_ = 1.0;
+  growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
+  last_ = 0.0;
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     GuardWatch& watch = watches_[slot];
@@ -112,29 +110,48 @@ void ExactEngine::start(const Segment& segment) {
   ++counters.restarts;
 }
 
-/// The greatest x <= limit at which the series still stands: the rest below rounding, no term much greater
-/// than the first ones.
-double ExactEngine::step_part(double limit) {
-  for (std::size_t k = 0; k < sizes_.size(); ++k) {
-    const double* u = series_.u.col(static_cast<Eigen::Index>(k)).data();
+/// Sizes of the coefficients first .. last, relative to the scene's scale.
+void ExactEngine::measure(std::size_t first, std::size_t last) {
+  for (std::size_t k = first; k <= last; ++k) {
+    const double* u = series_.u.data() + k * weights_.size();
     double size = 0.0;
     for (std::size_t i = 0; i < weights_.size(); ++i) size = std::max(size, weights_[i] * std::abs(u[i]));
     sizes_[k] = size;
   }
-  double x = std::min(limit, 1.25 * part_);
-  const auto stands = [&] {
-    double first = epsilon, power = 1.0;  // sizes are relative to the scene's scale
-    for (std::size_t k = 0; k < sizes_.size(); ++k, power *= x) {
-      const double term = sizes_[k] * power;
-      if (k < first_terms)
-        first = std::max(first, term);
-      else if (term > (k <= degree_ ? most_cancelled : 0.25 * epsilon) * first)
-        return false;
-    }
-    return true;
-  };
-  while (!stands()) x *= 0.9;
-  part_ = x;
+}
+
+/// Does the series stand up to x: the two terms past `degree_` below rounding, no term much greater than
+/// the first ones?
+bool ExactEngine::stands(double x) const {
+  double first = epsilon, power = 1.0;
+  for (std::size_t k = 0; k <= degree_ + 2; ++k, power *= x) {
+    const double term = sizes_[k] * power;
+    if (k < first_terms)
+      first = std::max(first, term);
+    else if (term > (k <= degree_ ? most_cancelled : 0.25 * epsilon) * first)
+      return false;
+  }
+  return true;
+}
+
+/// Expands to as many levels as a step of the given scale needs, all at most; returns the part of it that
+/// the series then reaches.
+double ExactEngine::expand(double scale) {
+  const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
+  taylor_.begin(*segment_.forcing, t_, end_.u, end_.v, most_levels, scale, series_);
+  std::size_t measured = 0;
+  for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
+    taylor_.extend(*segment_.forcing, level, series_);
+    degree_ = static_cast<std::size_t>(level - late);
+    measure(measured, degree_ + 2);
+    measured = static_cast<std::size_t>(std::max(0, level - late - 2));
+    // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
+    if (growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) && stands(1.0)) break;
+    if (level == most_levels) break;
+  }
+  counters.solves += series_.levels + 1;
+  double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
+  while (!stands(x)) x *= 0.9;
   return x;
 }
 
@@ -187,7 +204,8 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
 
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
-  const double scale = std::min(0.5 * static_cast<double>(degree_ + 1) / growth_now_, remaining);
+  const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
+  const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
   if (!(scale > 0.0) || !end_.u.allFinite()) {
     step_ = {};
     step_.kind = Step::Kind::failed;
@@ -196,10 +214,9 @@ Step ExactEngine::advance() {
         end_.u.allFinite() ? "the step has fallen below the resolution of time" : "the motion overflows";
     return step_;
   }
-  taylor_.expand(*segment_.forcing, t_, end_.u, end_.v, levels, scale, series_);
-  counters.solves += levels + 1;
   ++counters.steps;
-  double x = step_part(1.0);
+  double x = expand(scale);
+  last_ = scale * x;
   double end = t_ + scale * x;
   if (end > segment_.end || segment_.end - end < 0.01 * scale * x) end = segment_.end;
   x = (end - t_) / scale;
@@ -350,41 +367,41 @@ void ExactEngine::find_turns(double x_end) {
   turns_.clear();
   static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
                                                                ContactSeries::gap, ContactSeries::slide};
+  std::array<double, turn_samples + 1> x{}, value{};
+  for (std::size_t i = 0; i <= turn_samples; ++i)
+    x[i] = x_end * static_cast<double>(i) / static_cast<double>(turn_samples);
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     for (std::size_t f = 0; f < watched.size(); ++f) {
       const double* a = contacts_[c].of(watched[f]);
       Range& range = ranges_[4 * c + f];
-      double spread = 0.0, power = 1.0;
-      for (std::size_t k = 1; k <= degree_; ++k) spread += std::abs(a[k]) * (power *= x_end);
-      if (a[0] - spread >= range.least && a[0] + spread <= range.greatest) continue;
-      const auto slope = [&](double x) {
-        double sum = 0.0;
-        for (std::size_t k = degree_; k >= 1; --k) sum = sum * x + static_cast<double>(k) * a[k];
-        return sum;
+      value.fill(a[degree_]);
+      for (std::size_t k = degree_; k-- > 0;)
+        for (std::size_t i = 0; i <= turn_samples; ++i) value[i] = value[i] * x[i] + a[k];
+      const auto see = [&](double v) {
+        range.least = std::min(range.least, v);
+        range.greatest = std::max(range.greatest, v);
       };
-      const auto see = [&](double x, bool turn) {
-        const double value = value_at(a, degree_, x);
-        if (value >= range.least && value <= range.greatest) return;
-        range.least = std::min(range.least, value);
-        range.greatest = std::max(range.greatest, value);
-        if (turn) turns_.push_back(series_.t + x * series_.scale);
-      };
-      double lo = 0.0, slope_lo = slope(0.0);
-      for (std::size_t i = 1; i <= turn_samples; ++i) {
-        const double hi = x_end * static_cast<double>(i) / static_cast<double>(turn_samples);
-        const double slope_hi = slope(hi);
-        if (slope_lo * slope_hi < 0.0) {
-          double left = lo, right = hi;
-          for (int halving = 0; halving < 30; ++halving) {
-            const double mid = 0.5 * (left + right);
-            (slope(mid) * slope_lo > 0.0 ? left : right) = mid;
+      see(value.front());
+      see(value.back());
+      for (std::size_t i = 1; i < turn_samples; ++i) {
+        const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
+        if (left * right > 0.0 || left == right) continue;
+        // The parabola through three values turns here; a tenth more for what it leaves out.
+        const double rise = -(right + left) * (right + left) / (8.0 * (right - left));
+        const double turn = value[i] + 1.1 * rise;
+        if (turn >= range.least && turn <= range.greatest) continue;
+        double at = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
+        for (int newton = 0; newton < 4; ++newton) {
+          double slope = 0.0, bend = 0.0;
+          for (std::size_t k = degree_; k >= 1; --k) {
+            bend = bend * at + slope;
+            slope = slope * at + static_cast<double>(k) * a[k];
           }
-          see(0.5 * (left + right), true);
+          if (bend != 0.0) at = std::clamp(at - slope / bend, x[i - 1], x[i + 1]);
         }
-        lo = hi;
-        slope_lo = slope_hi;
+        see(contacts_[c].value(watched[f], at));
+        turns_.push_back(series_.t + at * series_.scale);
       }
-      see(x_end, false);
     }
   std::sort(turns_.begin(), turns_.end());
 }

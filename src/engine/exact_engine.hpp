@@ -41,7 +41,9 @@ class ExactEngine final : public Stepper {
   };
 
   [[nodiscard]] double growth_of(const Mode& mode);
-  [[nodiscard]] double step_part(double limit);
+  void measure(std::size_t first, std::size_t last);
+  [[nodiscard]] bool stands(double x) const;
+  [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
   void find_turns(double x);
@@ -52,7 +54,7 @@ class ExactEngine final : public Stepper {
   Taylor& taylor_;
   const double t_end_;
   FlowNorm norm_;
-  std::size_t degree_;  // of all polynomials
+  std::size_t degree_ = 0;  // of all polynomials on the last step
   std::map<std::vector<State>, double> growth_;
   Segment segment_;
   Series series_;
@@ -60,7 +62,8 @@ class ExactEngine final : public Stepper {
   std::vector<GuardWatch> watches_;
   std::vector<double> weights_, sizes_, guard_;
   Point end_;  // of the last step
-  double t_ = 0.0, growth_now_ = 0.0, part_ = 1.0;
+  double t_ = 0.0, growth_now_ = 0.0;
+  double last_ = 0.0;  // length of the last step of the segment
   Step step_;
   std::vector<Range> ranges_;  // so far, of N, T, g and the body's ut of each contact
   std::vector<double> turns_;

@@ -1,5 +1,6 @@
 #include "engine/first_fall.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -40,7 +41,7 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi) {
     (value > 0.0 ? lo : hi) = x;
     double next = x - value / slope;
     if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (std::abs(next - x) <= std::numeric_limits<double>::epsilon() * next || next == lo || next == hi)
+    if (std::abs(next - x) <= 4.0 * std::numeric_limits<double>::epsilon() * next || next == lo || next == hi)
       return next;
     x = next;
   }
@@ -48,8 +49,8 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi) {
 }
 
 struct Interval {
-  double lo = 0.0, hi = 1.0;
-  Coefficients b{};
+  double lo, hi;
+  Coefficients b;  // only degree + 1 of them are ever set
 };
 
 /// Halves: `left` becomes the left half, `right` the right one.
@@ -58,7 +59,8 @@ void halve(std::size_t n, Interval& left, Interval& right) {
   right.lo = middle;
   right.hi = left.hi;
   left.hi = middle;
-  Coefficients row = left.b;
+  Coefficients row;
+  std::copy_n(left.b.begin(), n + 1, row.begin());
   right.b[n] = row[n];
   for (std::size_t j = 1; j <= n; ++j) {
     for (std::size_t i = 0; i <= n - j; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
@@ -77,12 +79,17 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
   // Intervals still to be settled, the leftmost on top; each halving leaves one behind.
   std::array<Interval, 64> stack;
   std::size_t count = 1;
-  stack[0] = {};
+  stack[0].lo = 0.0;
+  stack[0].hi = 1.0;
+  std::fill_n(stack[0].b.begin(), degree + 1, 0.0);
   const auto& table = conversion(degree);
   for (std::size_t k = 0; k <= degree; ++k)
     for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * table[k][i];
 
   FirstFall result;  // none, or the first touch
+  const auto touch = [&](double x) {
+    if (result.kind == FirstFall::Kind::none) result = {FirstFall::Kind::touch, x};
+  };
   while (count > 0) {
     Interval& now = stack[count - 1];
     std::size_t above = 0, below = 0, rises = 0, falls = 0;
@@ -104,25 +111,30 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     if (one_change) return {FirstFall::Kind::fall, only_zero(a, degree, now.lo, now.hi)};
     if (rises == degree) {  // monotone: its ends tell
       if (now.b[0] < -slack) return {FirstFall::Kind::fall, now.lo};
-      --count;  // from within slack of zero, or from above
+      if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
+      --count;
       continue;
     }
     if (falls == degree) {
       const double right = now.b[degree];
       if (right < -slack)
         return {FirstFall::Kind::fall, now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi) : now.lo};
-      --count;  // stays above, or reaches zero just at the end: what follows sees it fall or turn
-      continue;
-    }
-    if (now.hi - now.lo <= finest) {
-      if (now.b[0] <= slack && result.kind == FirstFall::Kind::none)
-        result = {FirstFall::Kind::touch, now.lo};
+      // At the end of the step the next one sees whether it falls.
+      if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;
       continue;
     }
-    Interval left = now;
+    if (now.hi - now.lo <= finest) {
+      if (now.b[0] <= slack) touch(now.lo);
+      --count;
+      continue;
+    }
+    // The right half stays below, the left one comes on top.
+    Interval& left = stack[count++];
+    left.lo = now.lo;
+    left.hi = now.hi;
+    std::copy_n(now.b.begin(), degree + 1, left.b.begin());
     halve(degree, left, now);
-    stack[count++] = left;
   }
   return result;
 }

@@ -40,7 +40,7 @@ class Forcing {
   }
   /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
-    return surface_[k]->value(t, order);
+    return order > 0 && !moves_[k] ? 0.0 : surface_[k]->value(t, order);
   }
   /// True while the compression of slider k is zero over an interval.
   [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }

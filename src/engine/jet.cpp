@@ -97,8 +97,6 @@ std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet)
   const Jet other = expand(forcing, jet.t, jet.u.col(0), jet.u.col(1), levels_, &disturbance);
   std::vector<MotionJet> result(model_.contacts.size());
   for (std::size_t c = 0; c < result.size(); ++c) {
-    result[c].motion.reserve(orders + 1);
-    result[c].noise.reserve(orders + 1);
     for (std::size_t k = 0; k <= static_cast<std::size_t>(orders); ++k) {
       const ContactMotion a = motion(forcing, jet, c, k), b = motion(forcing, other, c, k);
       // One sample of rounding can be small by chance, so the terms of each sum count as well.
@@ -117,8 +115,8 @@ std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet)
       d.at = noise(a.at, b.at, terms.at);
       d.pressing = noise_factor * epsilon * terms.pressing;
       d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
-      result[c].motion.push_back(a);
-      result[c].noise.push_back(d);
+      result[c].motion[k] = a;
+      result[c].noise[k] = d;
     }
   }
   return result;

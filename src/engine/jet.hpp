@@ -26,7 +26,7 @@ struct Jet {
 class Expander {
  public:
   /// The orders up to which motions of contacts are needed to decide their states.
-  static constexpr int orders = 4;
+  static constexpr int orders = static_cast<int>(MotionJet::orders) - 1;
 
   Expander(const Model& model, const Structure& structure);
 

@@ -247,7 +247,7 @@ class Run {
   /// How sharp the time of an event is, and whether its order among the others is.
   void add_conditioning(std::size_t k, Event& event) {
     const Crossing& crossing = decision_.crossings[k];
-    if (crossing.derivatives.empty()) return;
+    if (!crossing.failed) return;
     event.guard_rate = crossing.derivatives[0];
     const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k]));
     double off = std::numeric_limits<double>::infinity(), factorial = 1.0;

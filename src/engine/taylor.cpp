@@ -69,14 +69,16 @@ void Taylor::solve(double* x) {
     return;
   }
   const std::size_t size = x_.size();
-  std::fill(y_.begin(), y_.end(), 0.0);
-  for (std::size_t j = 0; j < size; ++j) {
+  double* y = y_.data();
+  const double* column = inverse_->data();
+  for (std::size_t i = 0; i < size; ++i) y[i] = column[i] * x[0];
+  for (std::size_t j = 1; j < size; ++j) {
+    column += size;
     const double xj = x[j];
     if (xj == 0.0) continue;
-    const double* column = inverse_->data() + j * size;
-    for (std::size_t i = 0; i < size; ++i) y_[i] += column[i] * xj;
+    for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
   }
-  std::copy(y_.begin(), y_.end(), x);
+  for (std::size_t i = 0; i < size; ++i) x[i] = y[i];
 }
 
 void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
@@ -87,20 +89,25 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
   double* u_k = series.u.col(order).data();
   double* u_k1 = series.u.col(order + 1).data();
   double* u_k2 = series.u.col(order + 2).data();
-  for (std::size_t i = 0; i < n; ++i) {
-    known_u_[i] = kinds_[i] == Kind::algebraic ? 0.0 : u_k[i];
-    known_v_[i] = kinds_[i] == Kind::massive ? to_velocity * u_k1[i] : 0.0;
+  if (massless_) {
+    for (std::size_t i = 0; i < n; ++i) {
+      known_u_[i] = kinds_[i] == Kind::algebraic ? 0.0 : u_k[i];
+      known_v_[i] = kinds_[i] == Kind::massive ? to_velocity * u_k1[i] : 0.0;
+    }
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      known_u_[i] = u_k[i];
+      known_v_[i] = to_velocity * u_k1[i];
+    }
   }
-  std::fill(x_.begin(), x_.end(), 0.0);
+  std::fill(x_.begin(), x_.begin() + static_cast<std::ptrdiff_t>(n), 0.0);
   forcing.add_load(series.forcing, k, x_.data());
-  for (std::size_t i = 0; i < n; ++i) x_[i] = -x_[i];
   for (std::size_t j = 0; j < n; ++j) {
     const double uj = known_u_[j], vj = known_v_[j];
     const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
     for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
-      x_[static_cast<std::size_t>(structure_.row[p])] += structure_.c[p] * vj + structure_.k[p] * uj;
+      x_[static_cast<std::size_t>(structure_.row[p])] -= structure_.c[p] * vj + structure_.k[p] * uj;
   }
-  for (std::size_t i = 0; i < n; ++i) x_[i] = -x_[i];
 
   if (disturbance != nullptr) {
     std::fill(magnitude_.begin(), magnitude_.end(), 0.0);
@@ -118,40 +125,46 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
     const Contact& contact = model_.contacts[c];
     const double* surface = f.surface.data() + c * f.count + k;
     const double* pressing = f.pressing.data() + c * f.count + k;
-    ContactMotion m;
-    m.gap = contact.normal.dot(known_u_) + (order == 0 ? contact.gap : 0.0);
-    m.ut = contact.tangent.dot(known_u_) - surface[0];
-    m.vn = contact.normal.dot(known_v_);
-    m.vt = contact.tangent.dot(known_v_) - to_velocity * surface[1];
-    m.at = -to_acceleration * surface[2];
-    m.pressing = pressing[0];
-    m.pressing_rate = to_velocity * pressing[1];
+    // What is known of the rows' terms; N and T are unknowns, and so is g'' of a contact with mass.
+    const Form &normal = rows_[c].normal, &tangent = rows_[c].tangent;
+    double r = order == 0 ? normal.constant : 0.0, q = order == 0 ? tangent.constant : 0.0;
+    r += normal.pressing * pressing[0];
+    if (normal.gap != 0.0)
+      r += normal.gap * (contact.normal.dot(known_u_) + (order == 0 ? contact.gap : 0.0));
+    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_);
+    if (tangent.ut != 0.0) q += tangent.ut * (contact.tangent.dot(known_u_) - surface[0]);
+    if (tangent.vt != 0.0) q += tangent.vt * (contact.tangent.dot(known_v_) - to_velocity * surface[1]);
+    q -= tangent.at * to_acceleration * surface[2];
     const std::size_t row = n + 2 * c;
-    x_[row] = -(order == 0 ? rows_[c].normal.value(m) : rows_[c].normal.rate(m));
-    x_[row + 1] = -(order == 0 ? rows_[c].tangent.value(m) : rows_[c].tangent.rate(m));
+    x_[row] = -r;
+    x_[row + 1] = -q;
   }
 
   solve(x_.data());
-  for (std::size_t i = 0; i < n; ++i) switch (kinds_[i]) {
-      case Kind::massive:
-        u_k2[i] = x_[i] / to_acceleration;
-        break;
-      case Kind::damped:
-        u_k1[i] = x_[i] / to_velocity;
-        break;
-      case Kind::algebraic:
-        u_k[i] = x_[i];
-        break;
-    }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (kinds_[i] == Kind::massive)
+      u_k2[i] = x_[i] / to_acceleration;
+    else if (kinds_[i] == Kind::damped)
+      u_k1[i] = x_[i] / to_velocity;
+    else
+      u_k[i] = x_[i];
+  }
   double* forces = series.forces.col(order).data();
   std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), forces);
 }
 
 void Taylor::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels,
                     double scale, Series& out, const Disturbance* disturbance) {
+  begin(forcing, t, u, v, levels, scale, out, disturbance);
+  for (int k = 0; k <= levels; ++k) level(forcing, k, out, disturbance);
+  out.levels = levels;
+}
+
+void Taylor::begin(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels,
+                   double scale, Series& out, const Disturbance* disturbance) {
   out.t = t;
   out.scale = scale;
-  out.levels = levels;
+  out.levels = -1;
   out.u.setZero(u.size(), levels + 3);
   out.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()), levels + 1);
   forcing.expand(t, scale, static_cast<std::size_t>(levels) + 3, out.forcing);
@@ -163,7 +176,11 @@ void Taylor::expand(const Forcing& forcing, double t, const Vector& u, const Vec
       out.u(i, 0) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 7);
       out.u(i, 1) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 13);
     }
-  for (int k = 0; k <= levels; ++k) level(forcing, k, out, disturbance);
+}
+
+void Taylor::extend(const Forcing& forcing, int levels, Series& out) {
+  for (int k = out.levels + 1; k <= levels; ++k) level(forcing, k, out, nullptr);
+  out.levels = std::max(out.levels, levels);
 }
 
 }  // namespace signorini

@@ -42,6 +42,10 @@ class Taylor {
   /// The series about t from u and v (v of massless degrees of freedom is not read).
   void expand(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels, double scale,
               Series& out, const Disturbance* disturbance = nullptr);
+  /// The same in two parts: room for `levels`, then the levels up to the given one.
+  void begin(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels, double scale,
+             Series& out, const Disturbance* disturbance = nullptr);
+  void extend(const Forcing& forcing, int levels, Series& out);
   /// x := A^-1 x with the mode's system matrix; length n + 2 contacts.
   void solve(double* x);
 

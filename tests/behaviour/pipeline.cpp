@@ -20,10 +20,12 @@ constexpr Row table[] = {{0.0, 42.43, 10.97, 41.36, 116}, {0.1, 36.80, 10.85, 35
                          {0.7, 21.83, 10.15, 19.62, 199}, {1.0, 16.34, 9.82, 13.87, 187},
                          {1.3, 12.65, 9.62, 9.93, 237}};
 
-Result run(double f, const char* rtol, const char* t_end = "1.2") {
+Result run(double f, const char* rtol, const char* t_end = "1.2", const char* engine = "ida") {
   const Scene scene =
-      read_scene(SIGNORINI_MODELS "/pipeline.toml",
-                 {{"contacts.*.friction", fmt::format("{}", f)}, {"run.rtol", rtol}, {"run.t_end", t_end}});
+      read_scene(SIGNORINI_MODELS "/pipeline.toml", {{"contacts.*.friction", fmt::format("{}", f)},
+                                                     {"run.rtol", rtol},
+                                                     {"run.t_end", t_end},
+                                                     {"run.engine", engine}});
   return simulate(build_model(scene), scene.run);
 }
 
@@ -109,6 +111,27 @@ TEST_CASE("rtol 1e-6 keeps the energy to 1e-4 of the loads' work and the peaks t
   const Result result = run(0.3, "1e-6");
   check_peaks(result, table[2], 0.05);
   CHECK(result.report.audit.energy.value < 1e-4 * result.report.audit.work_of_loads);
+}
+
+TEST_CASE("by the exact flow: counts and peaks of the whole table, energy to roundoff") {
+  for (const Row& row : table) {
+    CAPTURE(row.f);
+    const Result result = run(row.f, "1e-8", "1.2", "exact");
+    CHECK(count(result) == row.events);
+    check_peaks(result, row, 0.0051);  // half of the last printed digit
+    CHECK(result.report.audit.energy.value < 1e-10 * result.report.audit.energy_scale);
+  }
+}
+
+TEST_CASE("both engines see the same run at f = 0.3, event by event, within ida's tolerance") {
+  const Result exact = run(0.3, "1e-8", "1.2", "exact"), ida = run(0.3, "1e-10");
+  REQUIRE(exact.events.size() == ida.events.size());
+  for (std::size_t i = 0; i < exact.events.size(); ++i) {
+    CAPTURE(i);
+    CHECK(exact.events[i].contact == ida.events[i].contact);
+    CHECK(exact.events[i].to == ida.events[i].to);
+    CHECK(std::abs(exact.events[i].t - ida.events[i].t) < 1e-8);
+  }
 }
 
 TEST_SUITE_END();

@@ -21,8 +21,8 @@ Contact element() {
 
 MotionJet jet(ContactMotion m, ContactMotion rate = {}) {
   MotionJet j;
-  j.motion = {m, rate};
-  j.noise = {{}, {}};
+  j.motion[0] = m;
+  j.motion[1] = rate;
   return j;
 }
 

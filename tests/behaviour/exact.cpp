@@ -1,0 +1,119 @@
+// What only the exact flow can promise: grazes down to rounding, hidden oscillations, sharp event times.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "behaviour/one_mass.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+/// x = -cos t above a stop at x = 1 - depth: touches it for 2 sqrt(2 depth) around t = pi.
+Result graze(double depth, const std::string& engine) {
+  return run_text(
+      matrix_scene("t_end = 6.0\ninitial = { u = [1.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                   fmt::format("law = \"compliant\"\nnormal = {{ d0 = 1.0 }}\nnormal_stiffness = "
+                               "1.0\ngap = {:.17g}",
+                               1.0 - depth)),
+      engine);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/exact");
+
+TEST_CASE("grazes from 1e-2 down to 1e-13 of the amplitude: found with the width they have, and none above") {
+  for (int digits = 2; digits <= 13; ++digits) {
+    CAPTURE(digits);
+    const double depth = std::pow(10.0, -digits);
+    const Result hit = graze(depth, "exact");
+    REQUIRE(hit.events.size() == 2);
+    // enters at cos t = depth - 1
+    const double enter = std::numbers::pi - 2.0 * std::asin(std::sqrt(0.5 * depth));
+    const double off = *hit.events[0].t_uncertainty;
+    CHECK(std::abs(hit.events[0].t - enter) < std::max(off, 1e-14));
+    CHECK(off < 1e-12 / std::sqrt(depth));
+    CHECK(graze(-depth, "exact").events.empty());
+  }
+}
+
+TEST_CASE("a graze within rounding is reported as undecidable") {
+  const Result result = graze(0.0, "exact");
+  REQUIRE(!result.report.warnings.empty());
+  CHECK(result.report.warnings[0].find("not decidable") != std::string::npos);
+  for (const Result::Row& row : result.rows)
+    CHECK(row.u[0] == doctest::Approx(std::cos(row.t)).epsilon(1e-12));
+}
+
+TEST_CASE("a slow guard with a fast small oscillation on it: the first of its many crossings") {
+  // g = 1 + x + 1e-3 y-ish: d0 falls slowly through the stop, d1 shakes it at 1000 rad/s
+  const Result result = run_text(
+      matrix_scene("t_end = 1.2\ninitial = { u = [1.0, 1e-3], v = [-1.0, 0.0] }",
+                   "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 1e6]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0, d1 = 1.0 }\nfriction = 0.0\nnormal_force = 1.0",
+                   "[[contacts]]\nname = \"stop\"\nlaw = \"compliant\"\nnormal = { d0 = 1.0, d1 = 1.0 }\n"
+                   "normal_stiffness = 1e-9\n"),
+      "exact");
+  // g = 1 - t + 1e-3 cos(1000 t): the first zero, by bisection from the first crest whose trough is below
+  double first = 0.0;
+  for (int i = 0; i < 4000000 && first == 0.0; ++i) {
+    const double t = 0.99 + i * 1e-8;
+    if (1.0 - t + 1e-3 * std::cos(1000.0 * t) < 0.0) first = t;
+  }
+  REQUIRE(!result.events.empty());
+  CHECK(result.events[0].type == EventType::contact);
+  CHECK(std::abs(result.events[0].t - first) < 2e-8);
+}
+
+TEST_CASE("the uncertainty of an event is its error over its rate, for both engines") {
+  // free fall onto a stop: g' = -sqrt(2 g h)
+  for (const char* engine : {"ida", "exact"}) {
+    CAPTURE(engine);
+    const Result result = run_text(
+        matrix_scene("t_end = 1.0\ninitial = { u = [0.5], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
+                     "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1e4",
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = -9.81\n"),
+        engine);
+    REQUIRE(result.events.size() >= 2);
+    const Event& e = result.events[0];
+    CHECK(*e.guard_rate == doctest::Approx(-std::sqrt(2.0 * 9.81 * 0.5)));
+    CHECK(*e.t_uncertainty > 0.0);
+    CHECK(*e.t_uncertainty < (std::string(engine) == "ida" ? 1e-9 : 1e-12));
+  }
+}
+
+TEST_CASE("two events closer than their uncertainty: their order is said to be open") {
+  const auto run = [](double shift) {
+    return run_text(
+        matrix_scene(
+            fmt::format("t_end = 1.0\ninitial = {{ u = [0.5, {:.17g}], v = [0.0, 0.0] }}", 0.5 + shift),
+            "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+            "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1e4",
+            "[[contacts]]\nname = \"other\"\nlaw = \"compliant\"\nnormal = { d1 = 1.0 }\n"
+            "normal_stiffness = 1e4\n"
+            "[[loads]]\ndirection = { d0 = 1.0, d1 = 1.0 }\namplitude = -9.81\n"),
+        "ida", "1e-6");
+  };
+  CHECK(!run(1e-8).report.warnings.empty());
+  CHECK(run(1e-8).report.warnings[0].find("order") != std::string::npos);
+  CHECK(run(1e-2).report.warnings.empty());
+}
+
+TEST_CASE("double zero eigenvalues, a defective slip mode and an undamped free flight keep their digits") {
+  // two free masses, one friction contact between a moving belt and the first: u = u0 + v0 t + a t^2/2
+  const Result result =
+      run_text(matrix_scene("t_end = 4.0\noutput_dt = 0.5\ninitial = { u = [0.0, 0.0], v = [3.0, 1.0] }",
+                            "mass = [[2.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+                            "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.25\nnormal_force = 2.0"),
+               "exact");
+  for (const Result::Row& row : result.rows) {
+    CHECK(row.u[0] == doctest::Approx(3.0 * row.t - 0.125 * row.t * row.t).epsilon(1e-15));
+    CHECK(row.u[1] == doctest::Approx(1.0 * row.t).epsilon(1e-15));
+  }
+}
+
+TEST_SUITE_END();

@@ -71,12 +71,9 @@ std::string audit_table(const Model& model, const Audit& a) {
   return table.str();
 }
 
-std::string orders(const Counters& counters) {
-  std::string text;
-  for (const auto& [order, steps] : counters.steps_by_order) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", order, steps);
-  }
-  return text.empty() ? "" : " (by order " + text + ")";
+std::string effort_of(const Settings& settings) {
+  if (settings.engine == "exact") return "exact (Taylor series)";
+  return fmt::format("{}, rtol {:g}, order at most {}", settings.engine, settings.rtol, settings.max_order);
 }
 
 }  // namespace
@@ -127,11 +124,8 @@ std::string closing(const Model& model, const Report& report) {
       number(a.work_of_loads), model.units.force, model.units.length, number(a.final.friction),
       number(a.final.damping), number(a.final.impact));
   text += "events: " + events_by_type(report) + "\n";
-  text += fmt::format(
-      "effort: {}, rtol {:g}, order at most {}{}, {}{}, {}, {:.2f} s\n", report.settings.engine,
-      report.settings.rtol, report.settings.max_order,
-      report.settings.max_order_reason.empty() ? "" : " (" + report.settings.max_order_reason + ")",
-      times(c.steps, "step"), orders(c), times(c.restarts, "restart"), report.wall_time);
+  text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", effort_of(report.settings), times(c.steps, "step"),
+                      times(c.restarts, "restart"), report.wall_time);
   return text;
 }
 

@@ -15,7 +15,7 @@ namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int fewest_levels = 12, more_levels = 6, most_levels = 30;
+constexpr int fewest_levels = 12, more_levels = 6;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from thirty powers of the flow
 constexpr int first_terms = 4;          // of a series: a motion may start from rest under a load that grows
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one

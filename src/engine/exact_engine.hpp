@@ -16,6 +16,9 @@
 
 namespace signorini {
 
+/// Terms of a series at most.
+inline constexpr int most_levels = 30;
+
 class ExactEngine final : public Stepper {
  public:
   /// The expander stands for the mode of the segment while it runs.

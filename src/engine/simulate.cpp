@@ -69,6 +69,8 @@ class Run {
     report_.settings = settings_for(model, spec);
     if (spec.engine == Engine::exact) {
       report_.settings.engine = "exact";
+      report_.settings.max_order = most_levels;
+      report_.settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
       stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
     } else {
       report_.settings.engine = "ida";

@@ -163,11 +163,10 @@ bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode&
   decision.u = instant.u;
   decision.v = instant.v;
   expander_.hold(after, instant.t, mode, decision.v);
-  decision.jet = expander_.expand(after, instant.t, decision.u, decision.v);
+  decision.jet = expander_.expand(after, instant.t, decision.u, decision.v, jets);
   decision.u = decision.jet.u.col(0);
   decision.v = decision.jet.u.col(1);
   decision.mode = mode;
-  jets = expander_.motions(after, decision.jet);
   return true;
 }
 

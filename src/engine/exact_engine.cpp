@@ -19,7 +19,7 @@ constexpr int fewest_levels = 12, more_levels = 6;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from thirty powers of the flow
 constexpr int first_terms = 4;          // of a series: a motion may start from rest under a load that grows
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
-constexpr std::size_t nodes = 12;       // of Gauss-Legendre quadrature: exact to degree 23
+constexpr std::size_t nodes = 10;       // of Gauss-Legendre quadrature: exact to degree 19
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr std::size_t turn_samples = 8;           // a step turns by less than 4 rad of any mode that matters
 
@@ -307,18 +307,24 @@ void ExactEngine::integrate(double from, double to, Works& works) {
   if (!(h > 0.0)) return;
   const auto count = static_cast<Eigen::Index>(degree_ + 1);
   std::array<double, nodes> x{};
-  powers_of_nodes_.resize(count, nodes);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    x[i] = (from + h * rule.x[i] - series_.t) / series_.scale;
-    double power = 1.0 / series_.scale;
-    for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
-      powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
+  for (std::size_t i = 0; i < nodes; ++i) x[i] = (from + h * rule.x[i] - series_.t) / series_.scale;
+  const bool loaded = segment_.forcing->loaded();
+  if (damped_ || loaded) {
+    powers_of_nodes_.resize(count, nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      double power = 1.0 / series_.scale;
+      for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
+        powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
+    }
+    if (series_.u.rows() < 8)
+      node_velocities_.noalias() = series_.u.middleCols(1, count).lazyProduct(powers_of_nodes_);
+    else
+      node_velocities_.noalias() = series_.u.middleCols(1, count) * powers_of_nodes_;
   }
-  node_velocities_.noalias() = series_.u.middleCols(1, count) * powers_of_nodes_;
-  for (std::size_t i = 0; i < nodes; ++i) {
+  for (std::size_t i = 0; i < nodes && (damped_ || loaded); ++i) {
     const double* v = node_velocities_.col(static_cast<Eigen::Index>(i)).data();
     const double weight = h * rule.w[i];
-    works.loads += weight * segment_.forcing->power(from + h * rule.x[i], v);
+    if (loaded) works.loads += weight * segment_.forcing->power(from + h * rule.x[i], v);
     if (damped_) works.damping += weight * structure_.quadratic(structure_.c, v);
   }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

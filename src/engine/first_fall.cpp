@@ -30,20 +30,27 @@ const std::array<Coefficients, size>& conversion(std::size_t n) {
 }
 
 /// The only zero of p in [lo, hi], where it falls: Newton's steps, kept inside by bisection.
-double only_zero(const double* a, std::size_t degree, double lo, double hi) {
-  double x = 0.5 * (lo + hi);
+double only_zero(const double* a, std::size_t degree, double lo, double hi, double guess) {
+  double x = guess > lo && guess < hi ? guess : 0.5 * (lo + hi);
+  double last = 1.0;  // length of the last step
   for (int i = 0; i < 200; ++i) {
     double value = a[degree], slope = 0.0;
     for (std::size_t k = degree; k-- > 0;) {
       slope = slope * x + value;
       value = value * x + a[k];
     }
+    const double newton = value / slope, step = std::abs(newton);
+    // Newton's steps shrink quadratically until rounding makes them wander.
+    if (step <= std::numeric_limits<double>::epsilon() * x || (last < 1e-6 && step > 0.25 * last)) return x;
     (value > 0.0 ? lo : hi) = x;
-    double next = x - value / slope;
-    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    if (std::abs(next - x) <= 4.0 * std::numeric_limits<double>::epsilon() * next || next == lo || next == hi)
-      return next;
-    x = next;
+    if (x - newton > lo && x - newton < hi) {
+      x -= newton;
+      last = step;
+    } else {
+      x = 0.5 * (lo + hi);
+      last = hi - lo;
+    }
+    if (x == lo || x == hi) return x;
   }
   return x;
 }
@@ -52,6 +59,15 @@ struct Interval {
   double lo, hi;
   Coefficients b;  // only degree + 1 of them are ever set
 };
+
+/// Where the control polygon falls through zero.
+double guess(std::size_t n, const Interval& now) {
+  std::size_t i = 0;
+  while (i < n && now.b[i] > 0.0) ++i;
+  if (i == 0) return now.lo;
+  const double part = static_cast<double>(i - 1) + now.b[i - 1] / (now.b[i - 1] - now.b[i]);
+  return now.lo + (now.hi - now.lo) * part / static_cast<double>(n);
+}
 
 /// Halves: `left` becomes the left half, `right` the right one.
 void halve(std::size_t n, Interval& left, Interval& right) {
@@ -108,7 +124,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     }
     if (below == degree + 1) return {FirstFall::Kind::fall, now.lo};
     one_change = one_change && above + below == degree + 1 && now.b[0] > slack;
-    if (one_change) return {FirstFall::Kind::fall, only_zero(a, degree, now.lo, now.hi)};
+    if (one_change) return {FirstFall::Kind::fall, only_zero(a, degree, now.lo, now.hi, guess(degree, now))};
     if (rises == degree) {  // monotone: its ends tell
       if (now.b[0] < -slack) return {FirstFall::Kind::fall, now.lo};
       if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
@@ -118,7 +134,8 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     if (falls == degree) {
       const double right = now.b[degree];
       if (right < -slack)
-        return {FirstFall::Kind::fall, now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi) : now.lo};
+        return {FirstFall::Kind::fall,
+                now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo};
       // At the end of the step the next one sees whether it falls.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;

@@ -10,14 +10,14 @@ const Piece* piece(const History& history, double t, Side side) {
   return side == Side::after ? &history.piece(t) : &history.piece_before(t);
 }
 
-bool varies(const Piece& piece) {
+bool changes(const Piece& piece) {
   return piece.amplitude != 0.0 ||
          std::any_of(piece.coefficients.begin(), piece.coefficients.end(),
                      [&](const double& c) { return &c != piece.coefficients.data() && c != 0.0; });
 }
 
 bool vanishes(const Piece& piece) {
-  return !varies(piece) && (piece.coefficients.empty() || piece.coefficients[0] == 0.0);
+  return !changes(piece) && (piece.coefficients.empty() || piece.coefficients[0] == 0.0);
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ Forcing::Forcing(const Model& model, double t, Side side)
     : model_(&model), constant_(Vector::Zero(model.size())) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Piece* p = piece(model.loads[i].history, t, side);
-    if (varies(*p))
+    if (changes(*p))
       varying_.emplace_back(i, p);
     else if (!vanishes(*p))
       model.loads[i].direction.add_to(constant_, p->coefficients[0]);
@@ -34,9 +34,12 @@ Forcing::Forcing(const Model& model, double t, Side side)
   for (const Contact& contact : model.contacts) {
     pressing_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
-    moves_.push_back(varies(*surface_.back()));
+    moves_.push_back(changes(*surface_.back()));
+    varies_ = varies_ || moves_.back() || changes(*pressing_.back());
     lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
   }
+  varies_ = varies_ || !varying_.empty();
+  loaded_ = !varying_.empty() || !constant_.isZero(0.0);
 }
 
 void Forcing::add_load(double t, int order, double* P) const {

@@ -28,10 +28,14 @@ class Forcing {
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector.
   void add_load(const ForcingSeries& series, std::size_t k, double* P) const;
+  /// False: no load acts.
+  [[nodiscard]] bool loaded() const { return loaded_; }
   /// P(t) . v
   [[nodiscard]] double power(double t, const double* v) const;
   /// True while the surface of contact k is not at rest where it began.
   [[nodiscard]] bool moves(std::size_t k) const { return moves_[k]; }
+  /// False: all loads, compressions and surfaces stand still.
+  [[nodiscard]] bool varies() const { return varies_; }
   /// Greatest circular frequency in it. Unit: rad per time.
   [[nodiscard]] double greatest_omega() const;
   /// Derivative of normal_force of contact k.
@@ -51,6 +55,7 @@ class Forcing {
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
   std::vector<bool> lifted_, moves_;
+  bool varies_ = false, loaded_ = false;
 };
 
 }  // namespace signorini

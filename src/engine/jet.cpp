@@ -1,5 +1,6 @@
 #include "engine/jet.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,40 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // How many times the difference of two roundings still counts as noise: the two are one sample each.
 constexpr double noise_factor = 64.0;
 
+constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
+
+/// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
+struct Derivatives {
+  std::array<double, known> N{}, T{}, gap{}, ut{}, gap_terms{}, ut_terms{};
+};
+
+/// From a series of scale 1: derivatives are k! times the coefficients.
+void fill(const Contact& contact, std::size_t c, const Series& series, Derivatives& d) {
+  const auto n = static_cast<std::size_t>(series.u.rows()),
+             forces = static_cast<std::size_t>(series.forces.rows());
+  const ForcingSeries& f = series.forcing;
+  const auto terms = [](const Combination& form, const double* x) {
+    double sum = 0.0;
+    for (const auto& [dof, factor] : form.terms) sum += std::abs(factor * x[dof]);
+    return sum;
+  };
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < known; ++k) {
+    if (k > 1) factorial *= static_cast<double>(k);
+    const double* u = series.u.data() + k * n;
+    const double surface = f.surface[c * f.count + k];
+    d.gap[k] = factorial * contact.normal.dot(u);
+    d.ut[k] = factorial * (contact.tangent.dot(u) - surface);
+    d.gap_terms[k] = factorial * terms(contact.normal, u);
+    d.ut_terms[k] = factorial * (terms(contact.tangent, u) + std::abs(surface));
+    if (k >= MotionJet::orders) continue;
+    d.N[k] = factorial * series.forces.data()[k * forces + 2 * c];
+    d.T[k] = factorial * series.forces.data()[k * forces + 2 * c + 1];
+  }
+  d.gap[0] += contact.gap;
+  d.gap_terms[0] += std::abs(contact.gap);
+}
+
 }  // namespace
 
 Expander::Expander(const Model& model, const Structure& structure)
@@ -18,114 +53,82 @@ Expander::Expander(const Model& model, const Structure& structure)
       // u^(k) of massless degrees of freedom is known one or two levels later
       levels_(taylor_.massless() ? orders + 2 : orders) {}
 
-Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels,
-                     const Disturbance* disturbance) const {
-  taylor_.expand(forcing, t, u, v, levels, 1.0, series_, disturbance);
+Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v,
+                     std::vector<MotionJet>& result) const {
+  taylor_.expand(forcing, t, u, v, levels_, 1.0, series_);
   Jet jet;
   jet.t = t;
   jet.u = series_.u;
   jet.forces = series_.forces;
   double factorial = 1.0;
-  for (Eigen::Index k = 2; k < levels + 3; ++k) {
+  for (Eigen::Index k = 2; k < levels_ + 3; ++k) {
     factorial *= static_cast<double>(k);
     jet.u.col(k) *= factorial;
-    if (k <= levels) jet.forces.col(k) *= factorial;
+    if (k <= levels_) jet.forces.col(k) *= factorial;
   }
+  const Disturbance disturbance;
+  taylor_.expand(forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  motions(result);
   return jet;
 }
 
-Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v) const {
-  return expand(forcing, t, u, v, levels_, nullptr);
-}
-
-ContactMotion Expander::motion(const Forcing& forcing, const Jet& jet, std::size_t c, std::size_t k) const {
-  const Contact& contact = model_.contacts[c];
-  const int order = static_cast<int>(k);
-  ContactMotion m;
-  m.N = jet.forces(static_cast<Eigen::Index>(2 * c), static_cast<Eigen::Index>(k));
-  m.T = jet.forces(static_cast<Eigen::Index>(2 * c + 1), static_cast<Eigen::Index>(k));
-  m.gap = contact.normal.dot(jet.u.col(static_cast<Eigen::Index>(k))) + (k == 0 ? contact.gap : 0.0);
-  m.ut = contact.tangent.dot(jet.u.col(static_cast<Eigen::Index>(k))) - forcing.surface(c, jet.t, order);
-  m.vn = contact.normal.dot(jet.u.col(static_cast<Eigen::Index>(k + 1)));
-  m.vt =
-      contact.tangent.dot(jet.u.col(static_cast<Eigen::Index>(k + 1))) - forcing.surface(c, jet.t, order + 1);
-  m.an = contact.normal.dot(jet.u.col(static_cast<Eigen::Index>(k + 2)));
-  m.at =
-      contact.tangent.dot(jet.u.col(static_cast<Eigen::Index>(k + 2))) - forcing.surface(c, jet.t, order + 2);
-  m.pressing = forcing.pressing(c, jet.t, order);
-  m.pressing_rate = forcing.pressing(c, jet.t, order + 1);
-  return m;
-}
-
-ContactMotion Expander::magnitude(const Forcing& forcing, const Jet& jet, std::size_t c,
-                                  std::size_t k) const {
-  const Contact& contact = model_.contacts[c];
-  const int order = static_cast<int>(k);
-  const auto sum = [](const Combination& form, const auto& x) {
-    double total = 0.0;
-    for (const auto& [dof, factor] : form.terms) total += std::abs(factor * x[dof]);
-    return total;
+void Expander::motions(std::vector<MotionJet>& result) const {
+  result.resize(model_.contacts.size());
+  // One sample of rounding can be small by chance, so the terms of each sum count as well.
+  const auto noise = [](double x, double y, double size) {
+    return noise_factor * (std::abs(x - y) + epsilon * size);
   };
-  ContactMotion m;
-  m.gap =
-      sum(contact.normal, jet.u.col(static_cast<Eigen::Index>(k))) + (k == 0 ? std::abs(contact.gap) : 0.0);
-  m.ut = sum(contact.tangent, jet.u.col(static_cast<Eigen::Index>(k))) +
-         std::abs(forcing.surface(c, jet.t, order));
-  m.vn = sum(contact.normal, jet.u.col(static_cast<Eigen::Index>(k + 1)));
-  m.vt = sum(contact.tangent, jet.u.col(static_cast<Eigen::Index>(k + 1))) +
-         std::abs(forcing.surface(c, jet.t, order + 1));
-  m.an = sum(contact.normal, jet.u.col(static_cast<Eigen::Index>(k + 2)));
-  m.at = sum(contact.tangent, jet.u.col(static_cast<Eigen::Index>(k + 2))) +
-         std::abs(forcing.surface(c, jet.t, order + 2));
-  m.pressing = std::abs(forcing.pressing(c, jet.t, order));
-  m.pressing_rate = std::abs(forcing.pressing(c, jet.t, order + 1));
-  const auto force = [&](const Form& row, double value) {
-    return row.magnitude(m) + (k == 0 ? std::abs(row.constant) : 0.0) + std::abs(value);
-  };
-  // Rows are read for N and T before these are filled in, so each sees the terms of its own law.
-  const double N = force(taylor_.rows()[c].normal,
-                         jet.forces(static_cast<Eigen::Index>(2 * c), static_cast<Eigen::Index>(k)));
-  const double T = force(taylor_.rows()[c].tangent,
-                         jet.forces(static_cast<Eigen::Index>(2 * c) + 1, static_cast<Eigen::Index>(k)));
-  m.N = N;
-  m.T = T + std::abs(taylor_.rows()[c].tangent.N) * N;
-  return m;
-}
-
-std::vector<MotionJet> Expander::motions(const Forcing& forcing, const Jet& jet) const {
-  const Disturbance disturbance;
-  const Jet other = expand(forcing, jet.t, jet.u.col(0), jet.u.col(1), levels_, &disturbance);
-  std::vector<MotionJet> result(model_.contacts.size());
+  Derivatives a, b;
   for (std::size_t c = 0; c < result.size(); ++c) {
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(orders); ++k) {
-      const ContactMotion a = motion(forcing, jet, c, k), b = motion(forcing, other, c, k);
-      // One sample of rounding can be small by chance, so the terms of each sum count as well.
-      const ContactMotion terms = magnitude(forcing, jet, c, k);
-      const auto noise = [](double x, double y, double size) {
-        return noise_factor * (std::abs(x - y) + epsilon * size);
-      };
-      ContactMotion d;
-      d.N = noise(a.N, b.N, terms.N);
-      d.T = noise(a.T, b.T, terms.T);
-      d.gap = noise(a.gap, b.gap, terms.gap);
-      d.ut = noise(a.ut, b.ut, terms.ut);
-      d.vn = noise(a.vn, b.vn, terms.vn);
-      d.vt = noise(a.vt, b.vt, terms.vt);
-      d.an = noise(a.an, b.an, terms.an);
-      d.at = noise(a.at, b.at, terms.at);
+    const Rows& rows = taylor_.rows()[c];
+    fill(model_.contacts[c], c, series_, a);
+    fill(model_.contacts[c], c, disturbed_, b);
+    const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+    double factorial = 1.0;
+    for (std::size_t k = 0; k < MotionJet::orders; ++k) {
+      if (k > 1) factorial *= static_cast<double>(k);
+      ContactMotion &m = result[c].motion[k], &d = result[c].noise[k];
+      m.N = a.N[k];
+      m.T = a.T[k];
+      m.gap = a.gap[k];
+      m.ut = a.ut[k];
+      m.vn = a.gap[k + 1];
+      m.vt = a.ut[k + 1];
+      m.an = a.gap[k + 2];
+      m.at = a.ut[k + 2];
+      m.pressing = factorial * pressing[k];
+      m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+      // The sizes of the terms of each row bound the rounding of its force.
+      ContactMotion terms;
+      terms.gap = a.gap_terms[k];
+      terms.ut = a.ut_terms[k];
+      terms.vn = a.gap_terms[k + 1];
+      terms.vt = a.ut_terms[k + 1];
+      terms.an = a.gap_terms[k + 2];
+      terms.at = a.ut_terms[k + 2];
+      terms.pressing = std::abs(m.pressing);
+      terms.pressing_rate = std::abs(m.pressing_rate);
+      const double N =
+          rows.normal.magnitude(terms) + (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
+      const double T = rows.tangent.magnitude(terms) + (k == 0 ? std::abs(rows.tangent.constant) : 0.0) +
+                       std::abs(m.T) + std::abs(rows.tangent.N) * N;
+      d.N = noise(a.N[k], b.N[k], N);
+      d.T = noise(a.T[k], b.T[k], T);
+      d.gap = noise(a.gap[k], b.gap[k], terms.gap);
+      d.ut = noise(a.ut[k], b.ut[k], terms.ut);
+      d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
+      d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt);
+      d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
+      d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
       d.pressing = noise_factor * epsilon * terms.pressing;
       d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
-      result[c].motion[k] = a;
-      result[c].noise[k] = d;
     }
   }
-  return result;
 }
 
 void Expander::consistent(const Forcing& forcing, double t, Point& point) const {
-  const bool massless = levels_ > orders;
-  const Jet jet = expand(forcing, t, point.u, point.v, massless ? 1 : 0, nullptr);
-  point = {jet.u.col(0), jet.u.col(1), jet.forces.col(0), jet.u.col(2)};
+  taylor_.expand(forcing, t, point.u, point.v, taylor_.massless() ? 1 : 0, 1.0, series_);
+  point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
 }
 
 void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const {

@@ -34,10 +34,10 @@ class Expander {
   bool set(const Mode& mode) { return taylor_.set(mode); }
   /// The series behind the jets, for engines that step with it.
   [[nodiscard]] Taylor& taylor() const { return taylor_; }
-  /// The jet at t from u and v (v of massless degrees of freedom is not read).
-  [[nodiscard]] Jet expand(const Forcing& forcing, double t, const Vector& u, const Vector& v) const;
-  /// The motion of every contact, orders 0 to `orders`, with its noise.
-  [[nodiscard]] std::vector<MotionJet> motions(const Forcing& forcing, const Jet& jet) const;
+  /// The jet at t from u and v (v of massless degrees of freedom is not read), and the motion of every
+  /// contact in it, orders 0 to `orders`, with its noise.
+  [[nodiscard]] Jet expand(const Forcing& forcing, double t, const Vector& u, const Vector& v,
+                           std::vector<MotionJet>& motions) const;
   /// Level 0 alone: makes forces, accelerations and v of massless degrees of freedom consistent with u, v.
   void consistent(const Forcing& forcing, double t, Point& point) const;
   /// v += the smallest impulsive change that makes t.v equal the surface velocity at contacts that
@@ -45,17 +45,11 @@ class Expander {
   void hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const;
 
  private:
-  [[nodiscard]] Jet expand(const Forcing& forcing, double t, const Vector& u, const Vector& v, int levels,
-                           const Disturbance* disturbance) const;
-  [[nodiscard]] ContactMotion motion(const Forcing& forcing, const Jet& jet, std::size_t contact,
-                                     std::size_t order) const;
-  /// The same entries with the magnitudes of the terms that are summed in them.
-  [[nodiscard]] ContactMotion magnitude(const Forcing& forcing, const Jet& jet, std::size_t contact,
-                                        std::size_t order) const;
+  void motions(std::vector<MotionJet>& result) const;
 
   const Model& model_;
   mutable Taylor taylor_;
-  mutable Series series_;
+  mutable Series series_, disturbed_;  // of the last jet
   int levels_;
 };
 

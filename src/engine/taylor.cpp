@@ -7,7 +7,7 @@
 namespace signorini {
 namespace {
 
-constexpr int small = 24;  // unknowns up to which a dense inverse is quicker than a sparse solve
+constexpr int small = 40;  // unknowns up to which a dense inverse is quicker than a sparse solve
 
 }  // namespace
 
@@ -42,35 +42,60 @@ Taylor::Taylor(const Model& model, const Structure& structure)
 bool Taylor::set(const Mode& mode) {
   rows_.resize(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) rows_[k] = signorini::rows(model_.contacts[k], mode[k]);
-  inverse_ = nullptr;
+  small_ = nullptr;
   if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
   key_.resize(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) key_[k] = mode[k].state;
-  const auto known = inverses_.find(key_);
-  if (known != inverses_.end()) {
-    inverse_ = &known->second;
-    return !inverse_->empty();
+  const auto known = smalls_.find(key_);
+  if (known != smalls_.end()) {
+    small_ = &known->second;
+    return !small_->inverse.empty();
   }
-  std::vector<double>& inverse = inverses_[key_];  // empty: singular
-  inverse_ = &inverse;
+  Small& made = smalls_[key_];  // empty: singular
+  small_ = &made;
   if (!matrix_.set(rows_, weights_, true)) return false;
-  const auto size = x_.size();
-  inverse.assign(size * size, 0.0);
+  const std::size_t size = x_.size(), n = known_u_.size();
+  made.inverse.assign(size * size, 0.0);
   for (std::size_t j = 0; j < size; ++j) {
-    inverse[j * size + j] = 1.0;
-    matrix_.solve(inverse.data() + j * size);
+    made.inverse[j * size + j] = 1.0;
+    matrix_.solve(made.inverse.data() + j * size);
+  }
+  // What a unit of u_k or v_k asks of the unknowns; massless parts know neither beforehand.
+  made.from_u.assign(size * n, 0.0);
+  made.from_v.assign(size * n, 0.0);
+  for (std::size_t j = 0; j < n && !massless_; ++j) {
+    double *u = made.from_u.data() + j * size, *v = made.from_v.data() + j * size;
+    for (auto p = static_cast<std::size_t>(structure_.column_start[j]);
+         p < static_cast<std::size_t>(structure_.column_start[j + 1]); ++p) {
+      u[structure_.row[p]] -= structure_.k[p];
+      v[structure_.row[p]] -= structure_.c[p];
+    }
+    for (std::size_t c = 0; c < mode.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      double normal = 0.0, tangent = 0.0;
+      for (const auto& [dof, factor] : contact.normal.terms)
+        if (dof == static_cast<int>(j)) normal += factor;
+      for (const auto& [dof, factor] : contact.tangent.terms)
+        if (dof == static_cast<int>(j)) tangent += factor;
+      u[n + 2 * c] -= rows_[c].normal.gap * normal;
+      v[n + 2 * c] -= rows_[c].normal.vn * normal;
+      u[n + 2 * c + 1] -= rows_[c].tangent.ut * tangent;
+      v[n + 2 * c + 1] -= rows_[c].tangent.vt * tangent;
+    }
+    solve(u);
+    solve(v);
   }
   return true;
 }
 
 void Taylor::solve(double* x) {
-  if (inverse_ == nullptr) {
+  if (small_ == nullptr) {
     matrix_.solve(x);
     return;
   }
   const std::size_t size = x_.size();
   double* y = y_.data();
-  const double* column = inverse_->data();
+  const double* column = small_->inverse.data();
   for (std::size_t i = 0; i < size; ++i) y[i] = column[i] * x[0];
   for (std::size_t j = 1; j < size; ++j) {
     column += size;
@@ -81,7 +106,62 @@ void Taylor::solve(double* x) {
   for (std::size_t i = 0; i < size; ++i) x[i] = y[i];
 }
 
+/// What rows of contact c know beforehand of forcing and constants at order k: pressing, surface, gap.
+void Taylor::known_of_rows(std::size_t c, int order, const Series& series, double& r, double& q) const {
+  const Form &normal = rows_[c].normal, &tangent = rows_[c].tangent;
+  const ForcingSeries& f = series.forcing;
+  const double to_velocity = (order + 1) / series.scale;
+  const double* surface = f.surface.data() + c * f.count + static_cast<std::size_t>(order);
+  const double* pressing = f.pressing.data() + c * f.count + static_cast<std::size_t>(order);
+  r = normal.pressing * pressing[0];
+  q = -tangent.ut * surface[0] - tangent.vt * to_velocity * surface[1] -
+      tangent.at * to_velocity * (order + 2) / series.scale * surface[2];
+  if (order > 0) return;
+  r += normal.constant + normal.gap * model_.contacts[c].gap;
+  q += tangent.constant;
+}
+
+void Taylor::level_small(const Forcing& forcing, int order, Series& series) {
+  const std::size_t n = known_u_.size(), size = x_.size();
+  const double to_velocity = (order + 1) / series.scale;
+  const double to_acceleration = to_velocity * (order + 2) / series.scale;
+  const double* u_k = series.u.data() + static_cast<std::size_t>(order) * n;
+  const double* u_k1 = u_k + n;
+  double* u_k2 = series.u.data() + static_cast<std::size_t>(order + 2) * n;
+  double *x = x_.data(), *y = y_.data();
+  std::fill(x, x + size, 0.0);
+  if (order == 0 || forcing.varies()) {
+    forcing.add_load(series.forcing, static_cast<std::size_t>(order), x);
+    for (std::size_t c = 0; c < rows_.size(); ++c) {
+      known_of_rows(c, order, series, x[n + 2 * c], x[n + 2 * c + 1]);
+      x[n + 2 * c] = -x[n + 2 * c];
+      x[n + 2 * c + 1] = -x[n + 2 * c + 1];
+    }
+    const double* column = small_->inverse.data();
+    std::fill(y, y + size, 0.0);
+    for (std::size_t j = 0; j < size; ++j, column += size) {
+      const double xj = x[j];
+      if (xj == 0.0) continue;
+      for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
+    }
+    std::swap(x, y);
+  }
+  const double *from_u = small_->from_u.data(), *from_v = small_->from_v.data();
+  for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
+    const double u = u_k[j], v = to_velocity * u_k1[j];
+    for (std::size_t i = 0; i < size; ++i) x[i] += from_u[i] * u + from_v[i] * v;
+  }
+  const double to_u = 1.0 / to_acceleration;
+  for (std::size_t i = 0; i < n; ++i) u_k2[i] = x[i] * to_u;
+  double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
+  for (std::size_t i = n; i < size; ++i) forces[i - n] = x[i];
+}
+
 void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
+  if (small_ != nullptr && !massless_ && disturbance == nullptr) {
+    level_small(forcing, order, series);
+    return;
+  }
   const auto k = static_cast<std::size_t>(order);
   const auto n = static_cast<std::size_t>(structure_.size);
   const double to_velocity = (order + 1) / series.scale;
@@ -120,24 +200,17 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
       x_[i] += Disturbance::sign(i + 31 * k) * (magnitude_[i] + std::abs(x_[i]));
   }
 
-  const ForcingSeries& f = series.forcing;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const double* surface = f.surface.data() + c * f.count + k;
-    const double* pressing = f.pressing.data() + c * f.count + k;
-    // What is known of the rows' terms; N and T are unknowns, and so is g'' of a contact with mass.
     const Form &normal = rows_[c].normal, &tangent = rows_[c].tangent;
-    double r = order == 0 ? normal.constant : 0.0, q = order == 0 ? tangent.constant : 0.0;
-    r += normal.pressing * pressing[0];
-    if (normal.gap != 0.0)
-      r += normal.gap * (contact.normal.dot(known_u_) + (order == 0 ? contact.gap : 0.0));
+    double r = 0.0, q = 0.0;
+    known_of_rows(c, order, series, r, q);
+    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_);
     if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_);
-    if (tangent.ut != 0.0) q += tangent.ut * (contact.tangent.dot(known_u_) - surface[0]);
-    if (tangent.vt != 0.0) q += tangent.vt * (contact.tangent.dot(known_v_) - to_velocity * surface[1]);
-    q -= tangent.at * to_acceleration * surface[2];
-    const std::size_t row = n + 2 * c;
-    x_[row] = -r;
-    x_[row + 1] = -q;
+    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_);
+    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_);
+    x_[n + 2 * c] = -r;
+    x_[n + 2 * c + 1] = -q;
   }
 
   solve(x_.data());

@@ -54,6 +54,7 @@ class Taylor {
   [[nodiscard]] bool massless() const { return massless_; }
 
  private:
+  void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
 
   const Model& model_;
@@ -63,9 +64,14 @@ class Taylor {
   bool massless_ = false;
   std::vector<Weights> weights_;
   std::vector<Rows> rows_;
-  // Of small systems the inverse is kept, one a combination of states (anchors are constants of rows).
-  std::map<std::vector<State>, std::vector<double>> inverses_;
-  const std::vector<double>* inverse_ = nullptr;
+  /// A small system in a mode, dense and column by column: x = from_u u_k + from_v v_k + inverse forcing_k.
+  struct Small {
+    std::vector<double> inverse, from_u, from_v;
+  };
+  void level_small(const Forcing& forcing, int k, Series& series);
+
+  std::map<std::vector<State>, Small> smalls_;  // by states; anchors are constants of rows
+  const Small* small_ = nullptr;
   std::vector<State> key_;
   std::vector<double> x_, y_, known_u_, known_v_, magnitude_;
 };

@@ -107,6 +107,42 @@ FrameEnd between(const Frame::Element& e, double s) {
   return p;
 }
 
+namespace {
+
+void shift(FrameEnd& end, double x, double y) {
+  end.x += x;
+  end.y += y;
+  end.ux -= x;
+  end.uy -= y;
+}
+
+}  // namespace
+
+void take_out_slides(std::vector<Frame>& frames) {
+  double greatest = 0.0, left = 0.0;
+  for (Frame& frame : frames) {
+    for (const auto& p : frame.points) {
+      frame.slid_x += p.at.ux / static_cast<double>(frame.points.size());
+      frame.slid_y += p.at.uy / static_cast<double>(frame.points.size());
+    }
+    for (const auto& p : frame.points) {
+      greatest = std::max(greatest, std::hypot(p.at.ux, p.at.uy));
+      left = std::max(left, std::hypot(p.at.ux - frame.slid_x, p.at.uy - frame.slid_y));
+    }
+  }
+  const bool slides = left < 0.5 * greatest;
+  for (Frame& frame : frames) {
+    if (!slides || frame.points.size() < 2) {
+      frame.slid_x = frame.slid_y = 0.0;
+      continue;
+    }
+    const double x = frame.slid_x, y = frame.slid_y;
+    for (auto& e : frame.elements) shift(e.a, x, y), shift(e.b, x, y);
+    for (auto& p : frame.points) shift(p.at, x, y);
+    for (auto& f : frame.forces) f.x += x, f.y += y, f.ux -= x, f.uy -= y;
+  }
+}
+
 FrameScales scales_of(const std::vector<Frame>& frames) {
   constexpr double largest_displacement = 0.125, arrow = 0.16;
   FrameScales scales;

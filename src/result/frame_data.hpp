@@ -33,6 +33,7 @@ struct Frame {
     double N = 0.0, T = 0.0;
   };
   double t = 0.0;
+  double slid_x = 0.0, slid_y = 0.0;  ///< taken out of the displacements, and added to the places
   std::vector<Element> elements;
   std::vector<Point> points;
   std::vector<Force> forces;
@@ -47,6 +48,9 @@ struct FrameScales {
 
 /// Frames between the two times; none where frames.csv is missing. Errors: FileError.
 [[nodiscard]] std::vector<Frame> read_frames(const std::filesystem::path& directory, double from, double to);
+/// A structure that slides far shows nothing of its deformation: where the shapes differ from a translation
+/// by less than half of their greatest displacement, each frame's mean translation is drawn in true scale.
+void take_out_slides(std::vector<Frame>& frames);
 [[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames);
 
 /// Displacement at the fraction s of an element: along it linear, across cubic (beams).

@@ -34,15 +34,23 @@ std::string contact_script(const PlottedRun& run, std::size_t k) {
   const std::string data = rows(run, k);
   const std::string curve = " with lines linewidth 1.4 linecolor '#1a1a1a' title ";
 
-  std::string s = begin_script(run, {"contact-" + run.slugs[k] + run.suffix,
-                                     "Contact '" + contact.name + "', " + friction_text(contact), 860});
+  // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.
+  const bool slider = contact.slider;
+  const std::vector<double> edges = slider ? std::vector<double>{0.885, 0.635, 0.345, 0.0, 0.075}
+                                           : std::vector<double>{0.905, 0.715, 0.49, 0.285, 0.065};
+  const std::vector<double> tops = slider ? std::vector<double>{0.915, 0.86, 0.61, 0.0, 0.32}
+                                          : std::vector<double>{0.93, 0.885, 0.695, 0.47, 0.265};
 
-  s += panel(run, 0.885, 0.915, "", false);
+  std::string s =
+      begin_script(run, {"contact-" + run.slugs[k] + run.suffix,
+                         "Contact '" + contact.name + "', " + friction_text(contact), slider ? 860 : 1040});
+
+  s += panel(run, edges[0], tops[0], "", false);
   s += "unset ytics\nset grid noxtics noytics\n";
   s += "set yrange [0:1]\n" + plot_command(band_elements(run, k, 1.0));
   s += "set grid xtics ytics\n";
 
-  s += panel(run, 0.635, 0.86, "N [" + units.force + "]", false);
+  s += panel(run, edges[1], tops[1], "N [" + units.force + "]", false);
   s += "set yrange [*:0] noextend\n";  // N <= 0; a constant one stands below zero
   auto elements = band_elements(run, k, 0.28);
   elements.push_back(data + " using 1:8" + curve + quoted("N"));
@@ -50,7 +58,7 @@ std::string contact_script(const PlottedRun& run, std::size_t k) {
   elements.insert(elements.end(), legend.begin(), legend.end());
   s += plot_command(elements);
 
-  s += panel(run, 0.345, 0.61, "T [" + units.force + "]", false);
+  s += panel(run, edges[2], tops[2], "T [" + units.force + "]", false);
   elements = band_elements(run, k, 0.28);
   if (contact.static_friction > 0.0) {
     const bool one = contact.static_friction == contact.kinetic_friction;
@@ -66,12 +74,15 @@ std::string contact_script(const PlottedRun& run, std::size_t k) {
   elements.push_back(data + " using 1:9" + curve + quoted("T"));
   s += plot_command(elements);
 
-  s += panel(run, 0.075, 0.32, "[" + units.length + "]", true);
-  elements = band_elements(run, k, 0.28);
-  if (!contact.slider) {
+  if (!slider) {  // its own scale: a lift-off is small beside the sliding
+    s += panel(run, edges[3], tops[3], "g [" + units.length + "]", false);
+    elements = band_elements(run, k, 0.28);
     elements.push_back(data + " using 1:4 with lines linewidth 1.4 linecolor '#2166ac' title " +
                        quoted("gap g"));
+    s += plot_command(elements);
   }
+  s += panel(run, edges[4], tops[4], "[" + units.length + "]", true);
+  elements = band_elements(run, k, 0.28);
   elements.push_back(data + " using 1:5 with lines linewidth 1.4 linecolor '#1a1a1a' title " +
                      quoted("motion ut"));
   elements.push_back(data + " using 1:7 with lines linewidth 1.4 linecolor '#b35806' dashtype 2 title " +

@@ -118,10 +118,13 @@ std::string script_of(const Frame& frame, const FrameScales& scales, const Plott
                       const std::string& name) {
   const Layout l = layout_of(scales);
   const Units& units = run.facts.units;
-  std::string about =
-      fmt::format("Shape at t = {:.9g} {}, displacements {}", frame.t, units.time,
-                  scales.magnification == 1.0 ? std::string("in true scale")
-                                              : fmt::format("magnified {:g} times", scales.magnification));
+  const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
+  std::string about = fmt::format(
+      "Shape at t = {:.9g} {}, {} {}", frame.t, units.time,
+      slid ? fmt::format("slid by ({:.4g}, {:.4g}) {}, deformation", frame.slid_x, frame.slid_y, units.length)
+           : std::string("displacements"),
+      scales.magnification == 1.0 ? std::string("in true scale")
+                                  : fmt::format("magnified {:g} times", scales.magnification));
   if (scales.greatest_force > 0.0)
     about += fmt::format("; longest arrow of the run: {:.4g} {}", scales.greatest_force, units.force);
   std::string s = begin_script(run, {name, about, l.height, false});
@@ -180,9 +183,10 @@ std::string script_of(const Frame& frame, const FrameScales& scales, const Plott
 }  // namespace
 
 std::vector<FramePicture> frame_pictures(const fs::path& directory, const PlottedRun& run) {
-  const std::vector<Frame> frames = read_frames(directory, run.from, run.to);
+  std::vector<Frame> frames = read_frames(directory, run.from, run.to);
   std::vector<FramePicture> pictures;
   if (frames.empty()) return pictures;
+  take_out_slides(frames);
   const FrameScales scales = scales_of(frames);
   const std::size_t count = std::min(frames.size(), most_pictures);
   for (std::size_t i = 0; i < count; ++i) {

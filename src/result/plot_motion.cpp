@@ -70,8 +70,10 @@ std::string displacement_script(const PlottedRun& run) {
     for (std::size_t j = 0; j < shown; ++j) {
       const std::string& name = run.columns[p.columns[j]];
       elements.push_back(fmt::format(
-          "'../history.csv' skip 1{} using 1:{} with lines linewidth 1.4 {} title {}", every(run, 1, 0),
-          p.columns[j] + 1, colour(j, shown), quoted(name.substr(0, name.size() - p.suffix.size()))));
+          "'../history.csv' skip 1{} using 1:{} with lines linewidth {} {} title {}", every(run, 1, 0),
+          // Curves that coincide show through: every other one is thinner and dashed, on top.
+          p.columns[j] + 1, j % 2 == 0 ? "1.9" : "1.2", colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
+          quoted(name.substr(0, name.size() - p.suffix.size()))));
     }
     if (shown < p.columns.size()) {
       elements.push_back("NaN with lines linecolor '#ffffff' title " +

@@ -85,6 +85,24 @@ TEST_CASE("frames: the drawn curve is the beam's own, and magnification keeps it
   CHECK(scales_of({frame}).magnification == 1.0);
 }
 
+TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnified") {
+  Frame frame;
+  frame.points = {{"L", false, {0.0, 0.0, 0.51, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.49, 0.0, 0.0}}};
+  frame.elements = {{"bar", frame.points[0].at, frame.points[1].at}};
+  std::vector<Frame> frames{frame};
+  take_out_slides(frames);
+  CHECK(frames[0].slid_x == doctest::Approx(0.5));
+  CHECK(frames[0].points[0].at.x == doctest::Approx(0.5));
+  CHECK(frames[0].points[0].at.ux == doctest::Approx(0.01));
+  CHECK(frames[0].elements[0].b.ux == doctest::Approx(-0.01));
+  CHECK(scales_of(frames).magnification == 100.0);
+  frame.points[1].at.ux = -0.4;  // a deformation as large as the motion: nothing is taken out
+  frames = {frame};
+  take_out_slides(frames);
+  CHECK(frames[0].slid_x == 0.0);
+  CHECK(frames[0].points[0].at.ux == 0.51);
+}
+
 TEST_CASE("frames: one picture a frame, and --force clears them away") {
   const Folder folder;
   const Tip tip;

@@ -310,16 +310,26 @@ void ExactEngine::integrate(double from, double to, Works& works) {
   for (std::size_t i = 0; i < nodes; ++i) x[i] = (from + h * rule.x[i] - series_.t) / series_.scale;
   const bool loaded = segment_.forcing->loaded();
   if (damped_ || loaded) {
-    powers_of_nodes_.resize(count, nodes);
-    for (std::size_t i = 0; i < nodes; ++i) {
-      double power = 1.0 / series_.scale;
-      for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
-        powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
-    }
-    if (series_.u.rows() < 8)
-      node_velocities_.noalias() = series_.u.middleCols(1, count).lazyProduct(powers_of_nodes_);
-    else
+    const Eigen::Index n = series_.u.rows();
+    if (n < 4) {
+      node_velocities_.setZero(n, nodes);
+      for (Eigen::Index k = count; k >= 1; --k)
+        for (Eigen::Index j = 0; j < n; ++j) {
+          const double v = static_cast<double>(k) / series_.scale * series_.u(j, k);
+          for (std::size_t i = 0; i < nodes; ++i) {
+            double& sum = node_velocities_(j, static_cast<Eigen::Index>(i));
+            sum = sum * x[i] + v;
+          }
+        }
+    } else {
+      powers_of_nodes_.resize(count, nodes);
+      for (std::size_t i = 0; i < nodes; ++i) {
+        double power = 1.0 / series_.scale;
+        for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
+          powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
+      }
       node_velocities_.noalias() = series_.u.middleCols(1, count) * powers_of_nodes_;
+    }
   }
   for (std::size_t i = 0; i < nodes && (damped_ || loaded); ++i) {
     const double* v = node_velocities_.col(static_cast<Eigen::Index>(i)).data();

@@ -35,7 +35,8 @@ Forcing::Forcing(const Model& model, double t, Side side)
     pressing_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
     moves_.push_back(changes(*surface_.back()));
-    varies_ = varies_ || moves_.back() || changes(*pressing_.back());
+    drives_.push_back(moves_.back() || changes(*pressing_.back()));
+    varies_ = varies_ || drives_.back();
     lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
   }
   varies_ = varies_ || !varying_.empty();

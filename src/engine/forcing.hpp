@@ -36,6 +36,8 @@ class Forcing {
   [[nodiscard]] bool moves(std::size_t k) const { return moves_[k]; }
   /// False: all loads, compressions and surfaces stand still.
   [[nodiscard]] bool varies() const { return varies_; }
+  /// True while the compression or the surface of contact k changes.
+  [[nodiscard]] bool drives(std::size_t k) const { return drives_[k]; }
   /// Greatest circular frequency in it. Unit: rad per time.
   [[nodiscard]] double greatest_omega() const;
   /// Derivative of normal_force of contact k.
@@ -54,7 +56,7 @@ class Forcing {
   Vector constant_;                                            // the loads that do not change
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
-  std::vector<bool> lifted_, moves_;
+  std::vector<bool> lifted_, moves_, drives_;
   bool varies_ = false, loaded_ = false;
 };
 

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "engine/audit.hpp"
 #include "engine/clock.hpp"
@@ -177,10 +179,10 @@ class Run {
     }
     if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
     if (!count_instant(now)) return false;
-    const Forcing before = forcing_;
-    if (now.jump) forcing_ = Forcing(model_, t_, Side::after);
+    std::optional<Forcing> before;
+    if (now.jump) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
-    Decision next = decider_.decide(now, before, forcing_);
+    Decision next = decider_.decide(now, before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);

@@ -121,46 +121,53 @@ void Taylor::known_of_rows(std::size_t c, int order, const Series& series, doubl
   q += tangent.constant;
 }
 
+/// Sizes known to the compiler (0: not known) let it unroll the loops over one or two masses.
+template <std::size_t fixed_n, std::size_t fixed_size>
 void Taylor::level_small(const Forcing& forcing, int order, Series& series) {
-  const std::size_t n = known_u_.size(), size = x_.size();
+  const std::size_t n = fixed_n > 0 ? fixed_n : known_u_.size();
+  const std::size_t size = fixed_size > 0 ? fixed_size : x_.size();
   const double to_velocity = (order + 1) / series.scale;
   const double to_acceleration = to_velocity * (order + 2) / series.scale;
   const double* u_k = series.u.data() + static_cast<std::size_t>(order) * n;
   const double* u_k1 = u_k + n;
   double* u_k2 = series.u.data() + static_cast<std::size_t>(order + 2) * n;
   double *x = x_.data(), *y = y_.data();
-  std::fill(x, x + size, 0.0);
+  const double *from_u = small_->from_u.data(), *from_v = small_->from_v.data();
+  for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
+  for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
+    const double u = u_k[j], v = to_velocity * u_k1[j];
+    for (std::size_t i = 0; i < size; ++i) y[i] += from_u[i] * u + from_v[i] * v;
+  }
   if (order == 0 || forcing.varies()) {
+    for (std::size_t i = 0; i < size; ++i) x[i] = 0.0;
     forcing.add_load(series.forcing, static_cast<std::size_t>(order), x);
     for (std::size_t c = 0; c < rows_.size(); ++c) {
-      known_of_rows(c, order, series, x[n + 2 * c], x[n + 2 * c + 1]);
-      x[n + 2 * c] = -x[n + 2 * c];
-      x[n + 2 * c + 1] = -x[n + 2 * c + 1];
+      if (order > 0 && !forcing.drives(c)) continue;
+      double r = 0.0, q = 0.0;
+      known_of_rows(c, order, series, r, q);
+      x[n + 2 * c] = -r;
+      x[n + 2 * c + 1] = -q;
     }
     const double* column = small_->inverse.data();
-    std::fill(y, y + size, 0.0);
     for (std::size_t j = 0; j < size; ++j, column += size) {
       const double xj = x[j];
       if (xj == 0.0) continue;
       for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
     }
-    std::swap(x, y);
-  }
-  const double *from_u = small_->from_u.data(), *from_v = small_->from_v.data();
-  for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
-    const double u = u_k[j], v = to_velocity * u_k1[j];
-    for (std::size_t i = 0; i < size; ++i) x[i] += from_u[i] * u + from_v[i] * v;
   }
   const double to_u = 1.0 / to_acceleration;
-  for (std::size_t i = 0; i < n; ++i) u_k2[i] = x[i] * to_u;
+  for (std::size_t i = 0; i < n; ++i) u_k2[i] = y[i] * to_u;
   double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
-  for (std::size_t i = n; i < size; ++i) forces[i - n] = x[i];
+  for (std::size_t i = n; i < size; ++i) forces[i - n] = y[i];
 }
 
 void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
   if (small_ != nullptr && !massless_ && disturbance == nullptr) {
-    level_small(forcing, order, series);
-    return;
+    const std::size_t masses = known_u_.size(), unknowns = x_.size();
+    if (masses == 1 && unknowns == 3) return level_small<1, 3>(forcing, order, series);
+    if (masses == 2 && unknowns == 4) return level_small<2, 4>(forcing, order, series);
+    if (masses == 2 && unknowns == 6) return level_small<2, 6>(forcing, order, series);
+    return level_small<0, 0>(forcing, order, series);
   }
   const auto k = static_cast<std::size_t>(order);
   const auto n = static_cast<std::size_t>(structure_.size);

@@ -68,6 +68,7 @@ class Taylor {
   struct Small {
     std::vector<double> inverse, from_u, from_v;
   };
+  template <std::size_t fixed_n, std::size_t fixed_size>
   void level_small(const Forcing& forcing, int k, Series& series);
 
   std::map<std::vector<State>, Small> smalls_;  // by states; anchors are constants of rows

@@ -3,28 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/springs.hpp"
+
 namespace signorini {
-namespace {
-
-void add_square(const Combination& form, double value, std::vector<Eigen::Triplet<double>>& entries) {
-  for (const auto& [i, a] : form.terms)
-    for (const auto& [j, b] : form.terms) entries.emplace_back(i, j, value * a * b);
-}
-
-}  // namespace
-
 FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   const double w = model.omega_max > 0.0 ? model.omega_max : 1.0;
   const int n = model.size();
-  std::vector<Eigen::Triplet<double>> springs;
+  std::vector<LineSpring> springs;
   for (const Contact& c : model.contacts) {
-    if (c.law == Law::compliant) add_square(c.normal, c.normal_stiffness, springs);
-    if (c.tangential_stiffness) add_square(c.tangent, *c.tangential_stiffness, springs);
+    if (c.law == Law::compliant) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
   }
-  SparseMatrix contact(n, n);
-  contact.setFromTriplets(springs.begin(), springs.end());
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
-  g_ = model.mass + damping / w + (model.stiffness + contact) / (w * w);
+  g_ = model.mass + damping / w + with_springs(model.stiffness, springs) / (w * w);
   Eigen::SimplicialLDLT<SparseMatrix> solver(g_);
   if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) {
     // A stiffness or damping that is not positive: the diagonal's magnitudes make a norm all the same.

@@ -4,32 +4,23 @@
 
 #include <numbers>
 
+#include "model/springs.hpp"
+
 namespace signorini {
 namespace {
 
 constexpr double fastest = 1e-6;  // time constant of a dashpot times the highest frequency
 
-/// Adds value * form form^T.
-void add_square(const Combination& form, double value, std::vector<Eigen::Triplet<double>>& entries) {
-  for (const auto& [i, a] : form.terms)
-    for (const auto& [j, b] : form.terms) entries.emplace_back(i, j, value * a * b);
-}
-
-SparseMatrix enlarged(const SparseMatrix& matrix, int size,
-                      const std::vector<Eigen::Triplet<double>>& added) {
-  std::vector<Eigen::Triplet<double>> entries = added;
-  for (int j = 0; j < matrix.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator it(matrix, j); it; ++it)
-      entries.emplace_back(static_cast<int>(it.row()), j, it.value());
-  SparseMatrix result(size, size);
-  result.setFromTriplets(entries.begin(), entries.end());
+SparseMatrix enlarged(const SparseMatrix& matrix, int size) {
+  SparseMatrix result = matrix;
+  result.conservativeResize(size, size);
   return result;
 }
 
 }  // namespace
 
 void add_shear_elements(const Scene& scene, Model& model) {
-  std::vector<Eigen::Triplet<double>> stiffness, damping;
+  std::vector<LineSpring> stiffness, damping;
   std::vector<double> u, v;
   const int before = model.size();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
@@ -50,17 +41,17 @@ void add_shear_elements(const Scene& scene, Model& model) {
     v.push_back(contact.surface_motion.piece(0.0).value(0.0, 1));
     Combination element = contact.tangent;
     element.terms.emplace_back(p, -1.0);
-    add_square(element, kt, stiffness);
-    add_square(element, ct, damping);
+    stiffness.push_back({element, kt});
+    damping.push_back({element, ct});
     contact.shear = ShearElement{contact.tangent, kt, ct};
     contact.tangential_stiffness.reset();
     contact.tangent.terms = {{p, 1.0}};
   }
   const int size = model.size();
   if (size == before) return;
-  model.mass = enlarged(model.mass, size, {});
-  model.stiffness = enlarged(model.stiffness, size, stiffness);
-  model.damping = enlarged(model.damping, size, damping);
+  model.mass = enlarged(model.mass, size);
+  model.stiffness = with_springs(enlarged(model.stiffness, size), stiffness);
+  model.damping = with_springs(enlarged(model.damping, size), damping);
   for (Vector* x : {&model.u0, &model.v0}) x->conservativeResize(size);
   for (int i = before; i < size; ++i) {
     model.u0[i] = u[static_cast<std::size_t>(i - before)];

@@ -78,10 +78,10 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
-void Auditor::instant(const Decision& decision, const Point& before, bool load_jumps) {
+void Auditor::instant(const Decision& decision, const Mode& old_mode, const Point& before, bool load_jumps) {
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
   const double released =
-      massless_ ? stored(decision.mode, before).stored() - stored(decision.mode, after).stored() : 0.0;
+      massless_ ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() : 0.0;
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];

@@ -24,7 +24,7 @@ class Auditor {
   void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
   void equilibrium(double t, double residual);
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
-  void instant(const Decision& decision, const Point& before, bool load_jumps);
+  void instant(const Decision& decision, const Mode& old_mode, const Point& before, bool load_jumps);
   /// Energies now; also audits the balance.
   Energy energy(double t, const Mode& mode, const Point& point);
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,

@@ -10,6 +10,7 @@
 namespace signorini {
 namespace {
 
+constexpr double same_speed = 1e-12;        // of two pieces of a history where they meet smoothly
 constexpr std::size_t most_enumerated = 6;  // 3^6 modes of contacts without tangential stiffness
 
 struct Sign {
@@ -137,7 +138,10 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
       s = {State::open, 0.0};
       continue;
     }
-    const double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
+    // Smooth tables meet to the rounding of their pieces: no jump.
+    const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
+    double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
+    if (std::abs(surface_jump) <= same_speed * (speed + model_.scales.velocity)) surface_jump = 0.0;
     const bool moves = std::abs(vt) > 64.0 * std::numeric_limits<double>::epsilon() *
                                           (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump));
     if (s.state == State::open) {

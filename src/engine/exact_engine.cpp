@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 
 #include "engine/clock.hpp"
 
@@ -16,11 +17,14 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int fewest_levels = 12, more_levels = 6;
-constexpr double growth_margin = 1.25;  // on a growth that is computed from thirty powers of the flow
-constexpr int first_terms = 4;          // of a series: a motion may start from rest under a load that grows
+constexpr int probe_levels = 20;
+constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
+constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
+constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
 constexpr std::size_t nodes = 10;       // of Gauss-Legendre quadrature: exact to degree 19
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr int most_touches = 5;                   // warnings about one and the same thing
 constexpr std::size_t turn_samples = 8;           // a step turns by less than 4 rad of any mode that matters
 
 struct GaussRule {
@@ -48,7 +52,16 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
       guard_(most_levels + 1),
       ranges_(4 * model.contacts.size()) {
   for (const Dof& dof : model.dofs)
-    weights_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
+    scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
+  weights_ = scales_;
+  fastest_ = std::max(model.omega_max, 1.0 / t_end);
+  for (int i = 0; i < model.size(); ++i) {
+    const double m = model.mass.coeff(i, i), c = model.damping.coeff(i, i), k = model.stiffness.coeff(i, i);
+    if (m > 0.0)
+      fastest_ = std::max(fastest_, c / m);
+    else if (c > 0.0)
+      fastest_ = std::max(fastest_, k / c);
+  }
   damped_ = std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; });
 }
 
@@ -60,19 +73,19 @@ double ExactEngine::growth_of(const Mode& mode) {
   if (known != growth_.end()) return known->second;
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
-  const double w = model_.omega_max > 0.0 ? model_.omega_max : 1.0 / t_end_;
+  std::mt19937_64 random(1);  // the same motion in every run
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    u[i] = (1.0 + 1e15 * Disturbance::sign(k)) / weights_[k];
-    v[i] = w * (1.0 + 1e15 * Disturbance::sign(k + 5)) / weights_[k];
+    u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];
+    v[i] = fastest_ * uniform(random) / scales_[static_cast<std::size_t>(i)];
   }
   Series series;
-  taylor_.expand(Forcing(model_, segment_.decision->jet.t, Side::after), 0.0, u, v, most_levels, 1.0 / w,
-                 series);
+  taylor_.expand(Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
   double greatest = 0.0;
-  for (Eigen::Index k = most_levels / 2; k + 2 <= most_levels - 2; ++k) {
+  for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
     const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
-    if (a > 0.0) greatest = std::max(greatest, w * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
+    if (a > 0.0)
+      greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
   return growth_[key] = growth_margin * greatest;
 }
@@ -84,6 +97,7 @@ void ExactEngine::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   last_ = 0.0;
+  polynomial_ = std::min<std::size_t>(segment.forcing->greatest_degree(), most_levels - 2);
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     GuardWatch& watch = watches_[slot];
@@ -110,7 +124,22 @@ void ExactEngine::start(const Segment& segment) {
   ++counters.restarts;
 }
 
-/// Sizes of the coefficients first .. last, relative to the scene's scale.
+/// Weights of the degrees of freedom from their own motion, so that each keeps its digits.
+void ExactEngine::weigh() {
+  const std::size_t n = scales_.size();
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double size = 0.0;
+    for (std::size_t k = 0; k < first_terms; ++k)
+      size = std::max(size, std::abs(series_.u.data()[k * n + i]));
+    weights_[i] = scales_[i] * size;
+    greatest = std::max(greatest, weights_[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    weights_[i] = greatest > 0.0 ? scales_[i] / std::max(weights_[i], least_share * greatest) : scales_[i];
+}
+
+/// Sizes of the coefficients first .. last, relative to the first ones of their degrees of freedom.
 void ExactEngine::measure(std::size_t first, std::size_t last) {
   for (std::size_t k = first; k <= last; ++k) {
     const double* u = series_.u.data() + k * weights_.size();
@@ -120,17 +149,33 @@ void ExactEngine::measure(std::size_t first, std::size_t last) {
   }
 }
 
-/// Does the series stand up to x: the two terms past `degree_` below rounding, no term much greater than
-/// the first ones?
-bool ExactEngine::stands(double x) const {
-  double first = epsilon, power = 1.0;
-  for (std::size_t k = 0; k <= degree_ + 2; ++k, power *= x) {
-    const double term = sizes_[k] * power;
-    if (k < first_terms)
+/// Do the coefficients 0 .. last make a series that stands up to x when cut after `degree_`: what follows
+/// below rounding, no term much greater than the first ones that are not zero?
+bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
+  double first = 0.0, power = 1.0;
+  std::size_t begin = last + 1;
+  for (std::size_t k = 0; k <= last; ++k, power *= x) {
+    const double term = std::abs(a[k]) * power;
+    if (k > degree_) {
+      if (term > 0.25 * epsilon * first) return false;
+      continue;
+    }
+    if (begin > last && term > 0.0) begin = k;
+    if (k < begin + first_terms)
       first = std::max(first, term);
-    else if (term > (k <= degree_ ? most_cancelled : 0.25 * epsilon) * first)
+    else if (term > most_cancelled * first)
       return false;
   }
+  return true;
+}
+
+/// The motion's series and those of all that drives it: with a block that sticks, T follows its load alone.
+bool ExactEngine::stands(double x) const {
+  if (!stands(sizes_.data(), degree_ + 2, x)) return false;
+  const ForcingSeries& f = series_.forcing;
+  for (const std::vector<double>* rows : {&f.loads, &f.pressing, &f.surface})
+    for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count)
+      if (!stands(rows->data() + i, f.count - 1, x)) return false;
   return true;
 }
 
@@ -143,15 +188,18 @@ double ExactEngine::expand(double scale) {
   for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
     taylor_.extend(*segment_.forcing, level, series_);
     degree_ = static_cast<std::size_t>(level - late);
+    if (measured == 0) weigh();
     measure(measured, degree_ + 2);
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
-    if (growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) && stands(1.0)) break;
+    if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
+        stands(1.0))
+      break;
     if (level == most_levels) break;
   }
   counters.solves += series_.levels + 1;
   double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
-  while (!stands(x)) x *= 0.9;
+  while (x > std::numeric_limits<double>::min() && !stands(x)) x *= 0.9;
   return x;
 }
 
@@ -206,12 +254,18 @@ Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
   const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
   const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
-  if (!(scale > 0.0) || !end_.u.allFinite()) {
+  const bool too_fast = growth_now_ * resolution_at(t_, 0.0) > 1.0;
+  if (!(scale > 0.0) || too_fast || !end_.u.allFinite()) {
     step_ = {};
     step_.kind = Step::Kind::failed;
     step_.begin = step_.end = t_;
-    step_.reason =
-        end_.u.allFinite() ? "the step has fallen below the resolution of time" : "the motion overflows";
+    step_.reason = "the step has fallen below the resolution of time";
+    if (!end_.u.allFinite()) step_.reason = "the motion overflows";
+    if (too_fast)
+      step_.reason = fmt::format(
+          "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this "
+          "time",
+          growth_now_ / growth_margin);
     return step_;
   }
   ++counters.steps;
@@ -232,6 +286,7 @@ Step ExactEngine::advance() {
   step_ = {};
   step_.begin = t_;
   std::optional<std::size_t> first;
+  std::vector<std::pair<std::size_t, double>> touches;  // slot, place in the step
   double at = 1.0;
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
     if (watches_[slot].arming == Arming::idle) continue;
@@ -240,13 +295,18 @@ Step ExactEngine::advance() {
       first = slot;
       at = fall.x;
     } else if (fall.kind == FirstFall::Kind::touch && watches_[slot].arming == Arming::armed) {
-      warnings.push_back(
-          fmt::format("contact '{}': its {} touches zero at {:.12g}; whether it falls there is not decidable "
-                      "at this precision, and it was taken not to",
-                      model_.contacts[slot / guards_per_contact].name,
-                      to_string(segment_.decision->guards[slot].kind), t_ + fall.x * x * scale));
+      touches.emplace_back(slot, fall.x);
     }
   }
+  for (const auto& [slot, where] : touches)
+    if (where < at && ++touches_ <= most_touches)
+      warnings.push_back(
+          fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
+                      "at this precision, and it was taken not to",
+                      model_.contacts[slot / guards_per_contact].name,
+                      to_string(segment_.decision->guards[slot].kind), t_ + where * x * scale));
+    else if (where < at && touches_ == most_touches + 1)
+      warnings.emplace_back("more guards touch zero; these are not listed");
   if (first) {
     step_.kind = Step::Kind::event;
     step_.fired = {{*first / guards_per_contact, segment_.decision->guards[*first].kind}};

@@ -44,7 +44,9 @@ class ExactEngine final : public Stepper {
   };
 
   [[nodiscard]] double growth_of(const Mode& mode);
+  void weigh();
   void measure(std::size_t first, std::size_t last);
+  [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
   [[nodiscard]] bool stands(double x) const;
   [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
@@ -63,7 +65,10 @@ class ExactEngine final : public Stepper {
   Series series_;
   std::vector<ContactSeries> contacts_;
   std::vector<GuardWatch> watches_;
-  std::vector<double> weights_, sizes_, guard_;
+  std::vector<double> scales_, weights_, sizes_, guard_;
+  double fastest_ = 0.0;        // bound on all rates of the structure, for scaling
+  std::size_t polynomial_ = 0;  // greatest degree in the forcing
+  int touches_ = 0;
   Point end_;  // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
   double last_ = 0.0;  // length of the last step of the segment

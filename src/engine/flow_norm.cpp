@@ -37,8 +37,10 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
 }
 
 double FlowNorm::of(const Eigen::Ref<const Vector>& x) const {
-  product_.noalias() = g_ * x;
-  return std::sqrt(std::max(0.0, x.dot(product_)));
+  const double size = x.cwiseAbs().maxCoeff();  // squares must not overflow
+  if (!(size > 0.0) || !std::isfinite(size)) return size;
+  product_.noalias() = g_ * (x / size);
+  return size * std::sqrt(std::max(0.0, x.dot(product_) / size));
 }
 
 }  // namespace signorini

@@ -49,6 +49,16 @@ void Forcing::add_load(double t, int order, double* P) const {
   for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, p->value(t, order));
 }
 
+Forcing Forcing::none(const Model& model) {
+  static const Piece still;
+  Forcing f(model);
+  f.pressing_.assign(model.contacts.size(), &still);
+  f.surface_ = f.pressing_;
+  f.lifted_.assign(model.contacts.size(), false);
+  f.moves_ = f.drives_ = f.lifted_;
+  return f;
+}
+
 void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
   out.count = count;
   out.loads.resize(varying_.size() * count);
@@ -86,6 +96,25 @@ double Forcing::greatest_omega() const {
   for (const Piece* p : pressing_) consider(p);
   for (const Piece* p : surface_) consider(p);
   return omega;
+}
+
+double Forcing::surface_omega() const {
+  double omega = 0.0;
+  for (const Piece* p : surface_)
+    if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
+  return omega;
+}
+
+std::size_t Forcing::greatest_degree() const {
+  std::size_t degree = 0;
+  const auto consider = [&](const Piece* p) {
+    for (std::size_t j = degree + 1; j < p->coefficients.size(); ++j)
+      if (p->coefficients[j] != 0.0) degree = j;
+  };
+  for (const auto& [load, p] : varying_) consider(p);
+  for (const Piece* p : pressing_) consider(p);
+  for (const Piece* p : surface_) consider(p);
+  return degree;
 }
 
 }  // namespace signorini

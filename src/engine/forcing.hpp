@@ -21,6 +21,8 @@ struct ForcingSeries {
 class Forcing {
  public:
   Forcing(const Model& model, double t, Side side);
+  /// Nothing acts and nothing moves.
+  [[nodiscard]] static Forcing none(const Model& model);
 
   /// P += the derivative of the given order of the load vector; length n.
   void add_load(double t, int order, double* P) const;
@@ -38,8 +40,11 @@ class Forcing {
   [[nodiscard]] bool varies() const { return varies_; }
   /// True while the compression or the surface of contact k changes.
   [[nodiscard]] bool drives(std::size_t k) const { return drives_[k]; }
-  /// Greatest circular frequency in it. Unit: rad per time.
+  /// Greatest circular frequency in it, and in the motions of surfaces alone. Unit: rad per time.
   [[nodiscard]] double greatest_omega() const;
+  [[nodiscard]] double surface_omega() const;
+  /// Greatest degree of a polynomial in it.
+  [[nodiscard]] std::size_t greatest_degree() const;
   /// Derivative of normal_force of contact k.
   [[nodiscard]] double pressing(std::size_t k, double t, int order) const {
     return pressing_[k]->value(t, order);
@@ -52,6 +57,8 @@ class Forcing {
   [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }
 
  private:
+  explicit Forcing(const Model& model) : model_(&model), constant_(Vector::Zero(model.size())) {}
+
   const Model* model_;
   Vector constant_;                                            // the loads that do not change
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece

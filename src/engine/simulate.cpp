@@ -187,7 +187,7 @@ class Run {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);
     }
-    auditor_.instant(next, point_, jump);
+    auditor_.instant(next, old_mode, point_, jump);
     decision_ = std::move(next);
     log(old_mode, jump);
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
@@ -219,6 +219,10 @@ class Run {
       Event event;
       event.t = t_;
       recorder_.event(event);
+      if (last_.contact >= 0 && t_ - last_.t < *last_.t_uncertainty)
+        warn_of_order(fmt::format("the event of '{}' at {:.12g} and the jump of a load at {:.12g}",
+                                  model_.contacts[static_cast<std::size_t>(last_.contact)].name, last_.t,
+                                  t_));
     }
     for (std::size_t k = 0; k < old_mode.size(); ++k) {
       const State from = old_mode[k].state, to = decision_.mode[k].state;
@@ -248,6 +252,12 @@ class Run {
     }
   }
 
+  void warn_of_order(const std::string& which) {
+    if (++unordered_ <= most_unordered)
+      report_.warnings.push_back("the order of " + which +
+                                 " is not determined at this precision (t_uncertainty in events.csv)");
+  }
+
   /// How sharp the time of an event is, and whether its order among the others is.
   void add_conditioning(std::size_t k, Event& event) {
     const Crossing& crossing = decision_.crossings[k];
@@ -264,12 +274,10 @@ class Run {
     if (!std::isfinite(off)) return;
     event.t_uncertainty = std::max(off, resolution_);
     if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > resolution_ &&
-        event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty && ++unordered_ <= most_unordered)
-      report_.warnings.push_back(fmt::format(
-          "the order of the events of '{}' at {:.12g} and of '{}' at {:.12g} is not determined at this "
-          "precision: their times may be off by {:.1e} and {:.1e}",
-          model_.contacts[static_cast<std::size_t>(last_.contact)].name, last_.t, model_.contacts[k].name,
-          event.t, *last_.t_uncertainty, *event.t_uncertainty));
+        event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
+      warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}",
+                                model_.contacts[static_cast<std::size_t>(last_.contact)].name, last_.t,
+                                model_.contacts[k].name, event.t));
     last_ = event;
   }
 
@@ -353,7 +361,26 @@ class Run {
 
 }  // namespace
 
+/// A series has to reach the end of every polynomial in the forcing.
+void check_exact(const Model& model, const RunSpec& run) {
+  const auto check = [&](const History& history, const std::string& what) {
+    for (const Piece& p : history.pieces())
+      for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)
+        if (p.coefficients[j] != 0.0)
+          throw SceneError(
+              run.place, "run.engine",
+              fmt::format("engine \"exact\" takes polynomials up to degree {}; {} has degree {} or more",
+                          most_levels - 2, what, j));
+  };
+  for (const Load& load : model.loads) check(load.history, load.name);
+  for (const Contact& contact : model.contacts) {
+    check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
+    check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
+  }
+}
+
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
+  if (settings.engine == Engine::exact) check_exact(model, settings);
   return Run(model, settings, recorder).go();
 }
 

@@ -23,15 +23,13 @@ Taylor::Taylor(const Model& model, const Structure& structure)
   for (std::size_t p = 0; p < structure.row.size(); ++p)
     damping[static_cast<std::size_t>(structure.row[p])] += std::abs(structure.c[p]);
   for (std::size_t i = 0; i < n; ++i) {
-    const Kind kind = !model.dofs[i].massless ? Kind::massive
-                      : damping[i] > 0.0      ? Kind::damped
-                                              : Kind::algebraic;
-    kinds_.push_back(kind);
-    massless_ = massless_ || kind != Kind::massive;
-    weights_.push_back(kind == Kind::massive  ? Weights{1.0, 0.0, 0.0}
-                       : kind == Kind::damped ? Weights{0.0, 1.0, 0.0}
-                                              : Weights{0.0, 0.0, 1.0});
+    own_kinds_.push_back(!model.dofs[i].massless ? Kind::massive
+                         : damping[i] > 0.0      ? Kind::damped
+                                                 : Kind::algebraic);
+    massless_ = massless_ || own_kinds_.back() != Kind::massive;
   }
+  kinds_ = own_kinds_;
+  weights_.resize(n);
   x_.resize(static_cast<std::size_t>(matrix_.size()));
   y_.resize(x_.size());
   known_u_.resize(n);
@@ -42,6 +40,18 @@ Taylor::Taylor(const Model& model, const Structure& structure)
 bool Taylor::set(const Mode& mode) {
   rows_.resize(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) rows_[k] = signorini::rows(model_.contacts[k], mode[k]);
+  if (massless_) {  // the dashpot of a closed contact damps what it presses
+    kinds_ = own_kinds_;
+    for (std::size_t k = 0; k < mode.size(); ++k)
+      if (rows_[k].normal.vn != 0.0)
+        for (const auto& [dof, factor] : model_.contacts[k].normal.terms)
+          if (Kind& kind = kinds_[static_cast<std::size_t>(dof)]; kind == Kind::algebraic && factor != 0.0)
+            kind = Kind::damped;
+  }
+  for (std::size_t i = 0; i < kinds_.size(); ++i)
+    weights_[i] = kinds_[i] == Kind::massive  ? Weights{1.0, 0.0, 0.0}
+                  : kinds_[i] == Kind::damped ? Weights{0.0, 1.0, 0.0}
+                                              : Weights{0.0, 0.0, 1.0};
   small_ = nullptr;
   if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
   key_.resize(mode.size());

@@ -60,7 +60,7 @@ class Taylor {
   const Model& model_;
   const Structure& structure_;
   SystemMatrix matrix_;
-  std::vector<Kind> kinds_;
+  std::vector<Kind> own_kinds_, kinds_;  // by the structure alone; in the mode
   bool massless_ = false;
   std::vector<Weights> weights_;
   std::vector<Rows> rows_;

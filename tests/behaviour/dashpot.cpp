@@ -209,4 +209,20 @@ TEST_CASE("dashpots across and along, two feet coupled by a frame: always a cons
       }
 }
 
+TEST_CASE("a part without mass on a dashpot of its own contact creeps, and does not jump") {
+  // u1 has neither mass nor damper; the contact's 20 u1' + 100 (u1 - 1) decides it. Value by RK4, step 1e-5.
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene("t_end = 0.5\noutput_dt = 0.1\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+                     "mass = [[1.0, 0.0], [0.0, 0.0]]\nstiffness = [[10.0, -10.0], [-10.0, 11.0]]",
+                     "law = \"compliant\"\nnormal = { d1 = 1.0 }\ngap = -1.0\nnormal_stiffness = 100.0\n"
+                     "normal_damping = 20.0",
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = -30.0\n"),
+        engine);
+    CHECK(result.rows[0].u[1] == 0.0);
+    CHECK(result.rows.back().u[0] == doctest::Approx(-2.5450).epsilon(1e-5));
+    CHECK(result.report.audit.energy.value < 1e-7 * result.report.audit.energy_scale);
+  }
+}
+
 TEST_SUITE_END();

@@ -116,4 +116,108 @@ TEST_CASE("double zero eigenvalues, a defective slip mode and an undamped free f
   }
 }
 
+TEST_CASE("a stuck block feels only its load: slip where P(t), normal_force(t) or the surface says so") {
+  const std::string run = "t_end = 3.4\ninitial = { u = [0.0], v = [0.0] }";
+  const std::string held =
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 1.0\nnormal_force = 10.0\n"
+      "[[contacts]]\nname = \"s\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 1.0\n"
+      "tangential_stiffness = 1.0\n";
+  const double pi = std::numbers::pi;
+  SUBCASE("load: (1 - cos t)/2 = 0.99998") {
+    const Result r = run_text(
+        matrix_scene(run, "mass = [[1.0]]\nstiffness = [[0.0]]",
+                     "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.99998\nnormal_force = 1.0",
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\n"
+                     "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\nhistory = { type = \"harmonic\", "
+                     "omega = 1.0, phase = -1.5707963267948966 }\n"),
+        "exact");
+    REQUIRE(r.events.size() == 2);
+    CHECK(std::abs(r.events[0].t - (pi - 2.0 * std::asin(std::sqrt(2e-5)))) < 1e-11);
+  }
+  SUBCASE("compression: 2 + cos t = 1.00005") {
+    const Result r =
+        run_text(matrix_scene(run, "mass = [[1.0]]\nstiffness = [[1.0]]",
+                              held + "initial_shear = 1.00005\nnormal_force = { type = \"harmonic\", "
+                                     "omega = 1.0, phase = 1.5707963267948966, offset = 2.0 }"),
+                 "exact");
+    REQUIRE(r.events.size() == 2);
+    CHECK(std::abs(r.events[0].t - (pi - 2.0 * std::asin(std::sqrt(2.5e-5)))) < 1e-11);
+    CHECK(std::abs(r.events[1].t - pi) < 1e-7);  // the slip rate is N'(t): a grazing return
+  }
+  SUBCASE("surface: 1 - cos t = 1.9999") {
+    const Result r = run_text(matrix_scene(run, "mass = [[1.0]]\nstiffness = [[1.0]]",
+                                           held + "normal_force = 1.9999\nsurface_velocity = { type = "
+                                                  "\"harmonic\", omega = 1.0 }"),
+                              "exact");
+    REQUIRE(r.events.size() == 2);
+    CHECK(std::abs(r.events[0].t - (pi - 2.0 * std::asin(std::sqrt(5e-5)))) < 1e-11);
+  }
+}
+
+TEST_CASE("a load that grows with t^13 from rest, and motions of very different size") {
+  const Result r =
+      run_text(matrix_scene("t_end = 2.0\ninitial = { u = [0.0, 0.001], v = [0.0, 0.0] }",
+                            "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 4.0]]",
+                            "law = \"slider\"\ntangent = { d1 = 1.0 }\nfriction = 0.0\n"
+                            "normal_force = 1.0",
+                            "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1e9\nhistory = { type = "
+                            "\"polynomial\", coefficients = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, "
+                            "0.0, 0.0, 0.0, 0.0, 0.0, 1.0] }\n"),
+               "exact");
+  const Result::Row& end = r.rows.back();
+  CHECK(end.u[0] == doctest::Approx(1e9 * std::pow(2.0, 15) / 210.0).epsilon(1e-14));
+  CHECK(end.u[1] == doctest::Approx(0.001 * std::cos(4.0)).epsilon(1e-11));
+}
+
+TEST_CASE("a polynomial beyond the series is refused, not cut") {
+  std::string coefficients = "0.0";
+  for (int i = 0; i < 29; ++i) coefficients += ", 1.0";
+  CHECK_THROWS_WITH_AS(
+      (void)run_text(matrix_scene("t_end = 1.0\ninitial = { u = [0.0], v = [0.0] }",
+                                  "mass = [[1.0]]\nstiffness = [[1.0]]",
+                                  "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.1\n"
+                                  "normal_force = 1.0",
+                                  "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory "
+                                  "= { type = \"polynomial\", coefficients = [" +
+                                      coefficients + "] }\n"),
+                     "exact"),
+      doctest::Contains("polynomials up to degree 28"), SceneError);
+}
+
+TEST_CASE("a contact far below the resolution of the clock stops the run instead of being lost") {
+  const Result r =
+      run_text(matrix_scene("t_end = 1000000.00001\noutput_times = [1.0]\ninitial = { u = [0.0], v = "
+                            "[1.0] }",
+                            "mass = [[1.0]]\nstiffness = [[0.0]]",
+                            "law = \"compliant\"\nnormal = { d0 = -1.0 }\ngap = 1000000.0\n"
+                            "normal_stiffness = 1e18"),
+               "exact");
+  CHECK(r.report.outcome.kind == Outcome::Kind::stopped);
+  CHECK(r.report.outcome.reason.find("resolution of the clock") != std::string::npos);
+}
+
+TEST_CASE("a stiff pair that its own symmetry hides keeps its digits") {
+  const Result r = run_text(
+      matrix_scene(
+          "t_end = 100.0\noutput_dt = 10.0\ninitial = { u = [1.0, 1.0, 1.0, 1.0], v = [0.0, 0.0, 0.0, 0.0] }",
+          "mass = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, "
+          "1.0]]\nstiffness = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1000001.0, "
+          "-1000000.0], [0.0, 0.0, -1000000.0, 1000001.0]]",
+          "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = 0.0\nnormal_force = 1.0"),
+      "exact");
+  for (const Result::Row& row : r.rows)
+    for (int i = 0; i < 4; ++i) CHECK(row.u[i] == doctest::Approx(std::cos(row.t)).epsilon(1e-9));
+  CHECK(r.report.counters.steps > 5000);  // the pair's 1.4e3 rad/s rule the step
+}
+
+TEST_CASE("many grazes: a handful of warnings, not one each") {
+  const Result r =
+      run_text(matrix_scene("t_end = 100.0\noutput_dt = 50.0\ninitial = { u = [1.0], v = [0.0] }",
+                            "mass = [[1.0]]\nstiffness = [[1.0]]",
+                            "law = \"compliant\"\nnormal = { d0 = 1.0 }\nnormal_stiffness = 1e-9\n"
+                            "gap = 1.0"),
+               "exact");
+  CHECK(r.report.warnings.size() <= 6);
+}
+
 TEST_SUITE_END();

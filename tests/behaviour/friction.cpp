@@ -162,4 +162,29 @@ TEST_CASE("an initial shear above the friction limit is cut, and the run says so
   }
 }
 
+TEST_CASE("a surface that shakes under a slow body: every reversal, though the body's own motion is smooth") {
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene("t_end = 6.0\ninitial = { u = [0.0], v = [0.5] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
+                     "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 1e-6\n"
+                     "surface_velocity = { type = \"harmonic\", omega = 50.0, amplitude = 1.0 }"),
+        engine, "1e-8");
+    CHECK(result.events.size() == 96);
+  }
+}
+
+TEST_CASE("a smooth table of the surface's velocity shakes nothing loose at its points") {
+  for (const std::string& engine : engines) {
+    const Result result = run_text(
+        matrix_scene(
+            "t_end = 6.0\ninitial = { u = [0.0], v = [0.1] }", "mass = [[1.3]]\nstiffness = [[10.0]]",
+            "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 100.0\nfriction = 0.5\n"
+            "surface_velocity = { type = \"table\", interpolation = \"steffen\", times = [0.0, 0.36, 0.79, "
+            "1.72, 2.15, 3.33, 4.1, 5.2, 6.5], values = [0.1, 0.907, 0.313, 0.269, 0.166, 0.05, 0.4, 0.3, "
+            "0.1] }"),
+        engine, "1e-8");
+    CHECK(result.events.empty());
+  }
+}
+
 TEST_SUITE_END();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 namespace signorini {
@@ -214,7 +215,17 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, double t, const V
   return result;
 }
 
-Decision Decider::decide(const Instant& instant, const Forcing& before, const Forcing& after) const {
+Decision Decider::decide(const Instant& found, const Forcing& before, const Forcing& after) const {
+  // What sticks rigidly moves with its surface: an integrator's drift must not decide what comes next.
+  const bool drifts = std::any_of(model_.contacts.begin(), model_.contacts.end(), [](const Contact& c) {
+    return c.law == Law::slider && !c.tangential_stiffness && !c.shear;
+  });
+  std::optional<Instant> held;
+  if (drifts && expander_.set(found.mode)) {
+    held = found;
+    expander_.hold(before, found.t, found.mode, held->v);
+  }
+  const Instant& instant = held ? *held : found;
   Decision decision;
   const std::size_t count = model_.contacts.size();
   decision.visited.assign(count, false);

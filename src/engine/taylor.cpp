@@ -228,6 +228,24 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
     if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_);
     x_[n + 2 * c] = -r;
     x_[n + 2 * c + 1] = -q;
+    if (disturbance == nullptr) continue;
+    // kn g is a difference of great numbers: its rounding is that of its terms.
+    double r_terms = std::abs(r), q_terms = std::abs(q);
+    if (order == 0) {
+      r_terms += std::abs(normal.constant) + std::abs(normal.gap * contact.gap);
+      q_terms += std::abs(tangent.constant) +
+                 std::abs(tangent.ut * series.forcing.surface[c * series.forcing.count]);
+    }
+    for (const auto& [dof, factor] : contact.normal.terms) {
+      const auto i = static_cast<std::size_t>(dof);
+      r_terms += std::abs(normal.gap * factor * known_u_[i]) + std::abs(normal.vn * factor * known_v_[i]);
+    }
+    for (const auto& [dof, factor] : contact.tangent.terms) {
+      const auto i = static_cast<std::size_t>(dof);
+      q_terms += std::abs(tangent.ut * factor * known_u_[i]) + std::abs(tangent.vt * factor * known_v_[i]);
+    }
+    x_[n + 2 * c] += Disturbance::sign(c + 17 * k) * r_terms;
+    x_[n + 2 * c + 1] += Disturbance::sign(c + 17 * k + 3) * q_terms;
   }
 
   solve(x_.data());

@@ -25,9 +25,10 @@ output_dt = 1e-3
 ```
 
 Events are found to full accuracy whatever `output_dt` is: it only says which rows `history.csv` has. `t_end` is
-always one of them. `engine = "exact"` follows the closed
-form of the motion between events, to rounding and whatever `rtol` is; it is the quicker one too, except where
-stiff dampers or a fine mesh bring rates that nothing excites.)"},
+always one of them.
+
+`engine = "exact"` follows the closed form of the motion between events, to rounding and whatever `rtol` is; it is
+the quicker one too, except where stiff dampers or a fine mesh bring rates that nothing excites.)"},
     {"run.atol", "### `run.atol`",
      R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
 motions matter.)"},

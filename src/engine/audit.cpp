@@ -24,7 +24,6 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       structure_(structure),
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
-      scratch_(Vector::Zero(model.size())),
       massless_(moves_at_once(model)) {}
 
 void Auditor::add(const Works& works) {
@@ -108,14 +107,10 @@ void Auditor::instant(const Decision& decision, const Mode& old_mode, const Poin
   work_.friction += lost;
 }
 
-Energy Auditor::stored(const Mode& mode, const Point& point) {
+Energy Auditor::stored(const Mode& mode, const Point& point) const {
   Energy e;
-  scratch_.setZero();
-  structure_.add_product(structure_.m, point.v.data(), scratch_.data());
-  e.kinetic = 0.5 * scratch_.dot(point.v);
-  scratch_.setZero();
-  structure_.add_product(structure_.k, point.u.data(), scratch_.data());
-  e.elastic = 0.5 * scratch_.dot(point.u);
+  e.kinetic = 0.5 * structure_.quadratic(structure_.m, point.v.data());
+  e.elastic = 0.5 * structure_.quadratic(structure_.k, point.u.data());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const double N = point.forces[static_cast<Eigen::Index>(2 * k)];

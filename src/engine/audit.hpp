@@ -39,7 +39,7 @@ class Auditor {
   }
 
   /// Kinetic, elastic and contact energy.
-  [[nodiscard]] Energy stored(const Mode& mode, const Point& point);
+  [[nodiscard]] Energy stored(const Mode& mode, const Point& point) const;
 
   const Model& model_;
   const Structure& structure_;
@@ -51,7 +51,6 @@ class Auditor {
   };
   std::vector<Place> at_start_;
   std::vector<Peak> peaks_;
-  Vector scratch_;
   bool massless_;  // there are degrees of freedom that move at once
   bool begun_ = false;
 };

@@ -22,6 +22,7 @@ class ContactSeries {
   enum Field : std::size_t { N, T, gap, ut, vn, vt, an, pressing_rate, slide, fields };
 
   void fill(const Contact& contact, std::size_t index, const Series& series, std::size_t degree);
+  [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const double* of(Field field) const { return values_.data() + field * (degree_ + 1); }
   /// out[0 .. degree]: coefficients of the form.
   void combine(const Form& form, double* out) const;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <tuple>
 
 namespace signorini {
@@ -215,17 +214,7 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, double t, const V
   return result;
 }
 
-Decision Decider::decide(const Instant& found, const Forcing& before, const Forcing& after) const {
-  // What sticks rigidly moves with its surface: an integrator's drift must not decide what comes next.
-  const bool drifts = std::any_of(model_.contacts.begin(), model_.contacts.end(), [](const Contact& c) {
-    return c.law == Law::slider && !c.tangential_stiffness && !c.shear;
-  });
-  std::optional<Instant> held;
-  if (drifts && expander_.set(found.mode)) {
-    held = found;
-    expander_.hold(before, found.t, found.mode, held->v);
-  }
-  const Instant& instant = held ? *held : found;
+Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) const {
   Decision decision;
   const std::size_t count = model_.contacts.size();
   decision.visited.assign(count, false);
@@ -245,6 +234,8 @@ Decision Decider::decide(const Instant& found, const Forcing& before, const Forc
     noise.push_back(jet.noise[0]);
   }
   decision.slides_before = slides(before, instant.t, decision.u, decision.v);
+  // What sticks rigidly moves with its surface: an integrator's drift must not decide what comes next.
+  instant.v = decision.v;
 
   Mode mode = instant.mode;
   if (instant.jump) follow_forcing(instant, before, after, decision.before, mode);

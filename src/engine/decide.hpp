@@ -71,7 +71,7 @@ class Decider {
       : model_(model), expander_(expander), max_rounds_(max_rounds) {}
 
   /// `before` and `after`: the forcing on both sides of the instant.
-  [[nodiscard]] Decision decide(const Instant& found, const Forcing& before, const Forcing& after) const;
+  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after) const;
 
  private:
   struct Failure {

@@ -1,13 +1,10 @@
 #include "engine/exact_engine.hpp"
 
 #include <fmt/core.h>
-#include <gsl/gsl_integration.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <random>
 
 #include "engine/clock.hpp"
@@ -22,20 +19,8 @@ constexpr double growth_margin = 1.25;  // on a growth that is computed from twe
 constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
 constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
-constexpr std::size_t nodes = 10;       // of Gauss-Legendre quadrature: exact to degree 19
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr int most_touches = 5;                   // warnings about one and the same thing
-constexpr std::size_t turn_samples = 8;           // a step turns by less than 4 rad of any mode that matters
-
-struct GaussRule {
-  std::array<double, nodes> x{}, w{};  // on [0, 1]
-  GaussRule() {
-    const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
-        gsl_integration_glfixed_table_alloc(nodes), gsl_integration_glfixed_table_free);
-    for (std::size_t i = 0; i < nodes; ++i)
-      gsl_integration_glfixed_point(0.0, 1.0, i, &x[i], &w[i], table.get());
-  }
-};
 
 }  // namespace
 
@@ -50,7 +35,8 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
       watches_(guards_per_contact * model.contacts.size()),
       sizes_(most_levels + 3),
       guard_(most_levels + 1),
-      ranges_(4 * model.contacts.size()) {
+      works_(model, structure),
+      turns_(model.contacts.size()) {
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
   weights_ = scales_;
@@ -62,14 +48,12 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
     else if (c > 0.0)
       fastest_ = std::max(fastest_, k / c);
   }
-  damped_ = std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; });
 }
 
 /// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
 double ExactEngine::growth_of(const Mode& mode) {
-  std::vector<State> key;
-  for (const ContactState& s : mode) key.push_back(s.state);
-  const auto known = growth_.find(key);
+  const std::vector<State> states = states_of(mode);
+  const auto known = growth_.find(states);
   if (known != growth_.end()) return known->second;
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
@@ -87,7 +71,7 @@ double ExactEngine::growth_of(const Mode& mode) {
     if (a > 0.0)
       greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
-  return growth_[key] = growth_margin * greatest;
+  return growth_[states] = growth_margin * greatest;
 }
 
 void ExactEngine::start(const Segment& segment) {
@@ -97,7 +81,7 @@ void ExactEngine::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   last_ = 0.0;
-  polynomial_ = std::min<std::size_t>(segment.forcing->greatest_degree(), most_levels - 2);
+  polynomial_ = segment.forcing->greatest_degree();
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     GuardWatch& watch = watches_[slot];
@@ -111,16 +95,7 @@ void ExactEngine::start(const Segment& segment) {
       watch.leading = std::max(guard.leading, 0);
     }
   }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const ContactMotion& m = decision.after[c];
-    const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
-    for (std::size_t i = 0; i < 4; ++i) {
-      Range& range = ranges_[4 * c + i];
-      range.least = began_ ? std::min(range.least, now[i]) : now[i];
-      range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
-    }
-  }
-  began_ = true;
+  turns_.start(decision);
   ++counters.restarts;
 }
 
@@ -324,7 +299,7 @@ Step ExactEngine::advance() {
   }
   step_.end = end;
   step_.resolution = resolution_at(end, end - t_);
-  find_turns(x);
+  turns_.find(contacts_, series_, x);
   evaluate_at(x, end_);  // sharper than at the rounded time
   t_ = end;
   return step_;
@@ -362,67 +337,7 @@ void ExactEngine::evaluate_at(double x, Point& point) const {
 }
 
 void ExactEngine::integrate(double from, double to, Works& works) {
-  static const GaussRule rule;
-  const double h = to - from;
-  if (!(h > 0.0)) return;
-  const auto count = static_cast<Eigen::Index>(degree_ + 1);
-  std::array<double, nodes> x{};
-  for (std::size_t i = 0; i < nodes; ++i) x[i] = (from + h * rule.x[i] - series_.t) / series_.scale;
-  const bool loaded = segment_.forcing->loaded();
-  if (damped_ || loaded) {
-    const Eigen::Index n = series_.u.rows();
-    if (n < 4) {
-      node_velocities_.setZero(n, nodes);
-      for (Eigen::Index k = count; k >= 1; --k)
-        for (Eigen::Index j = 0; j < n; ++j) {
-          const double v = static_cast<double>(k) / series_.scale * series_.u(j, k);
-          for (std::size_t i = 0; i < nodes; ++i) {
-            double& sum = node_velocities_(j, static_cast<Eigen::Index>(i));
-            sum = sum * x[i] + v;
-          }
-        }
-    } else {
-      powers_of_nodes_.resize(count, nodes);
-      for (std::size_t i = 0; i < nodes; ++i) {
-        double power = 1.0 / series_.scale;
-        for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
-          powers_of_nodes_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
-      }
-      node_velocities_.noalias() = series_.u.middleCols(1, count) * powers_of_nodes_;
-    }
-  }
-  for (std::size_t i = 0; i < nodes && (damped_ || loaded); ++i) {
-    const double* v = node_velocities_.col(static_cast<Eigen::Index>(i)).data();
-    const double weight = h * rule.w[i];
-    if (loaded) works.loads += weight * segment_.forcing->power(from + h * rule.x[i], v);
-    if (damped_) works.damping += weight * structure_.quadratic(structure_.c, v);
-  }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const Contact& contact = model_.contacts[c];
-    const ContactState& state = segment_.decision->mode[c];
-    if (state.inside) {
-      const auto gap = [&](double t) {
-        return contacts_[c].value(ContactSeries::gap, (t - series_.t) / series_.scale);
-      };
-      works.damping += inside_loss(contact, gap(from), gap(to));
-    }
-    if (state.state == State::open) continue;
-    const int s = slip_sign(state.state);
-    const bool moved = segment_.forcing->moves(c);
-    if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
-    if (s != 0) contacts_[c].combine(slip_rate(contact, s), guard_.data());
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double weight = h * rule.w[i];
-      if (s != 0 || moved) {
-        const double T = contacts_[c].value(ContactSeries::T, x[i]);
-        if (s != 0) works.friction[c] += weight * T * value_at(guard_.data(), degree_, x[i]);
-        if (moved) works.surface[c] -= weight * T * segment_.forcing->surface(c, from + h * rule.x[i], 1);
-      }
-      if (contact.normal_damping == 0.0) continue;
-      const double vn = contacts_[c].value(ContactSeries::vn, x[i]);
-      works.damping += weight * contact.normal_damping * vn * vn;
-    }
-  }
+  works_.add(segment_.decision->mode, *segment_.forcing, series_, contacts_, degree_, from, to, works);
 }
 
 double ExactEngine::residual() {
@@ -436,50 +351,6 @@ double ExactEngine::residual() {
     model_.contacts[k].tangent.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k) + 1]);
   }
   return r.cwiseAbs().maxCoeff();
-}
-
-/// Extreme values between the ends of a step, which an observer at its ends would not see.
-void ExactEngine::find_turns(double x_end) {
-  turns_.clear();
-  static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
-                                                               ContactSeries::gap, ContactSeries::slide};
-  std::array<double, turn_samples + 1> x{}, value{};
-  for (std::size_t i = 0; i <= turn_samples; ++i)
-    x[i] = x_end * static_cast<double>(i) / static_cast<double>(turn_samples);
-  for (std::size_t c = 0; c < contacts_.size(); ++c)
-    for (std::size_t f = 0; f < watched.size(); ++f) {
-      const double* a = contacts_[c].of(watched[f]);
-      Range& range = ranges_[4 * c + f];
-      value.fill(a[degree_]);
-      for (std::size_t k = degree_; k-- > 0;)
-        for (std::size_t i = 0; i <= turn_samples; ++i) value[i] = value[i] * x[i] + a[k];
-      const auto see = [&](double v) {
-        range.least = std::min(range.least, v);
-        range.greatest = std::max(range.greatest, v);
-      };
-      see(value.front());
-      see(value.back());
-      for (std::size_t i = 1; i < turn_samples; ++i) {
-        const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
-        if (left * right > 0.0 || left == right) continue;
-        // The parabola through three values turns here; a tenth more for what it leaves out.
-        const double rise = -(right + left) * (right + left) / (8.0 * (right - left));
-        const double turn = value[i] + 1.1 * rise;
-        if (turn >= range.least && turn <= range.greatest) continue;
-        double at = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
-        for (int newton = 0; newton < 4; ++newton) {
-          double slope = 0.0, bend = 0.0;
-          for (std::size_t k = degree_; k >= 1; --k) {
-            bend = bend * at + slope;
-            slope = slope * at + static_cast<double>(k) * a[k];
-          }
-          if (bend != 0.0) at = std::clamp(at - slope / bend, x[i - 1], x[i + 1]);
-        }
-        see(contacts_[c].value(watched[f], at));
-        turns_.push_back(series_.t + at * series_.scale);
-      }
-    }
-  std::sort(turns_.begin(), turns_.end());
 }
 
 }  // namespace signorini

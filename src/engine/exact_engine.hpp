@@ -12,7 +12,9 @@
 #include "engine/contact_series.hpp"
 #include "engine/first_fall.hpp"
 #include "engine/flow_norm.hpp"
+#include "engine/series_works.hpp"
 #include "engine/stepper.hpp"
+#include "engine/turning_points.hpp"
 
 namespace signorini {
 
@@ -31,16 +33,13 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
   [[nodiscard]] double guard_error(const Form&, const ContactMotion&) const override { return 0.0; }
-  [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_; }
+  [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
 
  private:
   enum class Arming : unsigned char { idle, armed, leaving, unknown };
   struct GuardWatch {
     Arming arming = Arming::idle;
     int leading = 0;  // leaving: the guard is x^leading times a polynomial that is positive at 0
-  };
-  struct Range {
-    double least = 0.0, greatest = 0.0;
   };
 
   [[nodiscard]] double growth_of(const Mode& mode);
@@ -51,7 +50,6 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
-  void find_turns(double x);
   void evaluate_at(double x, Point& point) const;
 
   const Model& model_;
@@ -73,10 +71,8 @@ class ExactEngine final : public Stepper {
   double t_ = 0.0, growth_now_ = 0.0;
   double last_ = 0.0;  // length of the last step of the segment
   Step step_;
-  std::vector<Range> ranges_;  // so far, of N, T, g and the body's ut of each contact
-  std::vector<double> turns_;
-  Eigen::MatrixXd powers_of_nodes_, node_velocities_;
-  bool damped_ = false, began_ = false;
+  SeriesWorks works_;
+  TurningPoints turns_;
 };
 
 }  // namespace signorini

@@ -10,4 +10,11 @@ namespace signorini {
 /// One entry a contact, in the order of Model::contacts.
 using Mode = std::vector<ContactState>;
 
+/// What of a mode stands in the matrix of its system: anchors are constants of rows.
+[[nodiscard]] inline std::vector<State> states_of(const Mode& mode) {
+  std::vector<State> states(mode.size());
+  for (std::size_t k = 0; k < mode.size(); ++k) states[k] = mode[k].state;
+  return states;
+}
+
 }  // namespace signorini

@@ -4,16 +4,9 @@
 
 namespace signorini {
 
-Powers::Powers(const Model& model, const Structure& structure)
-    : model_(model), structure_(structure), scratch_(Vector::Zero(model.size())) {}
-
-void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) {
-  scratch_.setZero();
-  forcing.add_load(t, 0, scratch_.data());
-  out[0] = scratch_.dot(point.v);
-  scratch_.setZero();
-  structure_.add_product(structure_.c, point.v.data(), scratch_.data());
-  out[1] = scratch_.dot(point.v);
+void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const {
+  out[0] = forcing.power(t, point.v.data());
+  out[1] = structure_.quadratic(structure_.c, point.v.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     const int s = slip_sign(mode[k].state);

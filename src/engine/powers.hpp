@@ -29,19 +29,18 @@ struct Works {
 
 class Powers {
  public:
-  Powers(const Model& model, const Structure& structure);
+  Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
 
   /// Numbers at one time: loads, damping, then friction and surface of each contact.
   [[nodiscard]] std::size_t count() const { return 2 + 2 * model_.contacts.size(); }
   /// out[0 .. count())
-  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out);
+  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
   /// works += factor * powers
   void add(const double* powers, double factor, Works& works) const;
 
  private:
   const Model& model_;
   const Structure& structure_;
-  Vector scratch_;
 };
 
 }  // namespace signorini

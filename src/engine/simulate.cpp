@@ -111,7 +111,7 @@ class Run {
     instant.v = model_.v0;
     instant.resolution = resolution_at(0.0, 0.0);
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
-    decision_ = decider_.decide(instant, forcing_, forcing_);
+    decision_ = decider_.decide(std::move(instant), forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
     warn_of_cut_shear();
     auditor_.begin(decision_, forcing_);
@@ -182,7 +182,7 @@ class Run {
     std::optional<Forcing> before;
     if (now.jump) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
-    Decision next = decider_.decide(now, before ? *before : forcing_, forcing_);
+    Decision next = decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);

@@ -54,14 +54,13 @@ bool Taylor::set(const Mode& mode) {
                                               : Weights{0.0, 0.0, 1.0};
   small_ = nullptr;
   if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
-  key_.resize(mode.size());
-  for (std::size_t k = 0; k < mode.size(); ++k) key_[k] = mode[k].state;
-  const auto known = smalls_.find(key_);
+  const std::vector<State> states = states_of(mode);
+  const auto known = smalls_.find(states);
   if (known != smalls_.end()) {
     small_ = &known->second;
     return !small_->inverse.empty();
   }
-  Small& made = smalls_[key_];  // empty: singular
+  Small& made = smalls_[states];  // empty: singular
   small_ = &made;
   if (!matrix_.set(rows_, weights_, true)) return false;
   const std::size_t size = x_.size(), n = known_u_.size();

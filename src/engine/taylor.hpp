@@ -73,7 +73,6 @@ class Taylor {
 
   std::map<std::vector<State>, Small> smalls_;  // by states; anchors are constants of rows
   const Small* small_ = nullptr;
-  std::vector<State> key_;
   std::vector<double> x_, y_, known_u_, known_v_, magnitude_;
 };
 

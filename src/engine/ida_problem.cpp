@@ -81,6 +81,7 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   m.vn = velocity(contact.normal);
   m.vt = velocity(contact.tangent) - segment_.forcing->surface(k, t, 1);
   const Rows& rows = linear_.rows()[k];
+  if (rows.normal.an != 0.0) m.an = acceleration(contact.normal);
   if (rows.tangent.at != 0.0) m.at = acceleration(contact.tangent) - segment_.forcing->surface(k, t, 2);
   if (contact.law == Law::slider) {
     m.pressing = segment_.forcing->pressing(k, t, 0);

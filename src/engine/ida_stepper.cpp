@@ -17,7 +17,9 @@ namespace {
 
 constexpr int most_retries = 4;          // restarts with a tenth of the first step before giving up
 constexpr double surface_step = 0.25;    // rad of a surface's oscillation a step: 1e-7 of it at order 5
-constexpr double first_step_part = 0.4;  // of the step whose local error would just be accepted
+// Of the step whose local error would just be accepted. The order-one start leaves its error for good, and
+// after it steps double: 0.03 instead of 0.4 is five steps more and ten times sharper (case 04a, measured).
+constexpr double first_step_part = 0.03;
 
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));

@@ -63,7 +63,8 @@ class Run {
         recorder_(recorder),
         structure_(model),
         expander_(model, structure_),
-        decider_(model, expander_, spec.max_events_at_once),
+        decider_(model, expander_, spec.max_events_at_once,
+                 settings_for(model, spec).capture_velocity),
         auditor_(model, structure_),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
@@ -77,7 +78,7 @@ class Run {
     } else {
       report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
-      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings);
+      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings, spec.t_end);
     }
   }
 
@@ -93,7 +94,7 @@ class Run {
       report_.warnings.push_back(
           fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_unordered));
     report_.warnings.insert(report_.warnings.end(), stepper_->warnings.begin(), stepper_->warnings.end());
-    auditor_.finish(report_, last_energy_);
+    auditor_.finish(report_, last_energy_, t_, decision_.mode);
     report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return report_;
   }
@@ -111,10 +112,14 @@ class Run {
     instant.v = model_.v0;
     instant.resolution = resolution_at(0.0, 0.0);
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
+    const Mode first = instant.mode;
     decision_ = decider_.decide(std::move(instant), forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
     warn_of_cut_shear();
-    auditor_.begin(decision_, forcing_);
+    warn_of_gain();
+    auditor_.begin(decision_, first, forcing_);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      if (hit(k)) log_contact(k, EventType::impact, first[k].state);
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     last_energy_ = auditor_.energy(0.0, decision_.mode, point_);
     auditor_.observe(forcing_, 0.0, decision_.mode, point_);
@@ -131,6 +136,14 @@ class Run {
           "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
           model_.contacts[k].name, asked, found));
     }
+  }
+
+  void warn_of_gain() {
+    if (!decision_.impact_gains || ++gains_ > most_unordered) return;
+    report_.warnings.push_back(
+        fmt::format("the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
+                    "does that at times",
+                    t_, -decision_.impact_loss));
   }
 
   /// From a restart to the next event or discontinuity. False: the run ends.
@@ -187,8 +200,9 @@ class Run {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);
     }
-    auditor_.instant(next, old_mode, point_, jump);
+    auditor_.instant(t_, next, old_mode, point_, jump);
     decision_ = std::move(next);
+    warn_of_gain();
     log(old_mode, jump);
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
@@ -226,18 +240,32 @@ class Run {
     }
     for (std::size_t k = 0; k < old_mode.size(); ++k) {
       const State from = old_mode[k].state, to = decision_.mode[k].state;
-      const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k];
-      auto type = classify(from, to, dropped);
+      const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k] &&
+                           model_.contacts[k].law != Law::rigid;
+      auto type = hit(k) ? std::optional(EventType::impact) : classify(from, to, dropped);
       if (!type && jump && decision_.jumped[k]) type = EventType::time;
-      if (!type) continue;
-      if (*type != EventType::time) ++report_.events_by_type[to_string(*type)];
+      if (type) log_contact(k, *type, from);
+    }
+  }
+
+  [[nodiscard]] bool hit(std::size_t k) const {
+    return !decision_.impulses.empty() && decision_.impulses[k].hit;
+  }
+
+  /// A row of one contact, from what the decision knows.
+  void log_contact(std::size_t k, EventType type, State from) {
+      if (type != EventType::time) ++report_.events_by_type[to_string(type)];
       const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
       Event event;
       event.t = t_;
       event.contact = static_cast<int>(k);
-      event.type = *type;
+      event.type = type;
       event.from = from;
-      event.to = to;
+      event.to = decision_.mode[k].state;
+      if (hit(k)) {
+        event.impulse_n = decision_.impulses[k].normal;
+        event.impulse_t = decision_.impulses[k].tangent;
+      }
       event.gap = after.gap;
       event.N = before.N;
       event.T = before.T;
@@ -249,7 +277,6 @@ class Run {
       event.vt_after = decision_.slides_after[k].vt;
       add_conditioning(k, event);
       recorder_.event(event);
-    }
   }
 
   void warn_of_order(const std::string& which) {
@@ -352,7 +379,7 @@ class Run {
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
   Event last_;  // with a contact whose guard fell
-  int unordered_ = 0;
+  int unordered_ = 0, gains_ = 0;
   int instants_ = 0;
   std::size_t next_breakpoint_ = 0, next_output_ = 0, next_frame_ = 0;
   bool audit_due_ = false;

@@ -37,6 +37,26 @@ Taylor::Taylor(const Model& model, const Structure& structure)
   magnitude_.resize(n);
 }
 
+void Taylor::pin(const Mode& mode) {
+  pinned_.clear();
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (rows_[c].normal.an != 0.0 && rows_[c].normal.N == 0.0 && contact.normal.terms.size() == 1)
+      pinned_.push_back(
+          {static_cast<std::size_t>(contact.normal.terms[0].first), c, contact.normal.terms[0].second, false});
+    if (rows_[c].tangent.at != 0.0 && contact.tangent.terms.size() == 1)
+      pinned_.push_back(
+          {static_cast<std::size_t>(contact.tangent.terms[0].first), c, contact.tangent.terms[0].second, true});
+  }
+}
+
+double Taylor::pinned_value(const Pinned& p, int order, const Series& series) const {
+  if (!p.tangent) return 0.0;
+  const ForcingSeries& f = series.forcing;
+  const double second = static_cast<double>((order + 1) * (order + 2)) / (series.scale * series.scale);
+  return second * f.surface[p.contact * f.count + static_cast<std::size_t>(order) + 2] / p.factor;
+}
+
 bool Taylor::set(const Mode& mode) {
   rows_.resize(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) rows_[k] = signorini::rows(model_.contacts[k], mode[k]);
@@ -52,6 +72,7 @@ bool Taylor::set(const Mode& mode) {
     weights_[i] = kinds_[i] == Kind::massive  ? Weights{1.0, 0.0, 0.0}
                   : kinds_[i] == Kind::damped ? Weights{0.0, 1.0, 0.0}
                                               : Weights{0.0, 0.0, 1.0};
+  pin(mode);
   small_ = nullptr;
   if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
   const std::vector<State> states = states_of(mode);
@@ -164,6 +185,7 @@ void Taylor::level_small(const Forcing& forcing, int order, Series& series) {
       for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
     }
   }
+  for (const Pinned& p : pinned_) y[p.dof] = pinned_value(p, order, series);
   const double to_u = 1.0 / to_acceleration;
   for (std::size_t i = 0; i < n; ++i) u_k2[i] = y[i] * to_u;
   double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
@@ -248,6 +270,9 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
   }
 
   solve(x_.data());
+  if (disturbance == nullptr)
+    for (const Pinned& p : pinned_)
+      if (kinds_[p.dof] == Kind::massive) x_[p.dof] = pinned_value(p, order, series);
   for (std::size_t i = 0; i < n; ++i) {
     if (kinds_[i] == Kind::massive)
       u_k2[i] = x_[i] / to_acceleration;

@@ -54,6 +54,14 @@ class Taylor {
   [[nodiscard]] bool massless() const { return massless_; }
 
  private:
+  /// A degree of freedom whose acceleration a contact alone prescribes: exact, not to an elimination's roundoff.
+  struct Pinned {
+    std::size_t dof, contact;
+    double factor;
+    bool tangent;
+  };
+  void pin(const Mode& mode);
+  [[nodiscard]] double pinned_value(const Pinned& pinned, int k, const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
 
@@ -73,6 +81,7 @@ class Taylor {
 
   std::map<std::vector<State>, Small> smalls_;  // by states; anchors are constants of rows
   const Small* small_ = nullptr;
+  std::vector<Pinned> pinned_;
   std::vector<double> x_, y_, known_u_, known_v_, magnitude_;
 };
 

@@ -66,12 +66,16 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
 /// Greatest static displacement under the amplitude of any one load; 0 when the matrix is singular.
 double answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
   const SparseMatrix k = with_springs(model.stiffness, holding.springs);
-  if (null_motions(with_grips(k, holding.fixed)).cols() > 0) return 0.0;
+  const SparseMatrix gripped = with_grips(k, holding.fixed);
+  if (null_motions(gripped).cols() > 0) return 0.0;
   const HeldStructure structure(k, holding.fixed);
+  const SymmetricSolver loose(gripped);
   double result = 0.0;
   for (const Load& load : model.loads) {
     const Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
-    result = std::max(result, greatest_translation(structure.solve(p), map));
+    const double answer = greatest_translation(structure.solve(p), map);
+    // Where all that could move is fixed, only roundoff answers.
+    if (answer > 1e-10 * greatest_translation(loose.solve(p), map)) result = std::max(result, answer);
   }
   return result;
 }

@@ -54,10 +54,15 @@ const char* to_string(Law law) {
 
 int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
 
-double sliding_friction(const Contact& contact, double slip_rate) {
+double sliding_friction(const Contact& contact, double along) {
   if (!contact.stribeck_velocity) return contact.kinetic_friction;
-  return contact.kinetic_friction + (contact.static_friction - contact.kinetic_friction) *
-                                        std::exp(-std::abs(slip_rate) / *contact.stribeck_velocity);
+  return contact.kinetic_friction +
+         (contact.static_friction - contact.kinetic_friction) * std::exp(-along / *contact.stribeck_velocity);
+}
+
+double sliding_friction_slope(const Contact& contact, double along) {
+  if (!contact.stribeck_velocity) return 0.0;
+  return (contact.kinetic_friction - sliding_friction(contact, along)) / *contact.stribeck_velocity;
 }
 
 Form slip_rate(const Contact& contact, int s) {

@@ -15,7 +15,8 @@
 //              slip s  -N, s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
-//              p' = ut'                         rigid, slider without kt, and the sliding point of a shear element
+//              p' = ut'                         rigid, slider without kt, and the sliding point of a shear
+//              element
 //
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.
@@ -49,8 +50,10 @@ struct Rows {
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
 [[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
                                                                const ContactState& state);
-/// Coefficient of friction at a slip rate: f = fk + (fs - fk) exp(-|p'| / v_s), fk without Stribeck's law.
-[[nodiscard]] double sliding_friction(const Contact& contact, double slip_rate);
+/// Coefficient of friction at a slip rate along the slip, s p': f = fk + (fs - fk) exp(-s p' / v_s), fk
+/// without Stribeck's law; smooth past zero. And its derivative by the rate.
+[[nodiscard]] double sliding_friction(const Contact& contact, double along);
+[[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
 

@@ -83,7 +83,7 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
       raise(audit_.product, std::abs(m.gap * m.N), t, index);
     }
     const int s = slip_sign(mode[k].state);
-    const double friction = s == 0 ? contact.static_friction : sliding_friction(contact, m.vt);
+    const double friction = s == 0 ? contact.static_friction : sliding_friction(contact, s * m.vt);
     if (mode[k].state != State::open) raise(audit_.friction, std::abs(m.T) + friction * m.N, t, index);
     if (s != 0) raise(audit_.direction, -m.T * slip_rate(contact, s).value(m), t, index);
   }
@@ -97,10 +97,10 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
-  const double released =
-      massless_ ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -
-                      (decision.impact_loss - decision.impact_surface_work)
-                : 0.0;
+  const double released = massless_
+                              ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -
+                                    (decision.impact_loss - decision.impact_surface_work)
+                              : 0.0;
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];

@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr double same_speed = 1e-12;        // of two pieces of a history where they meet smoothly
+constexpr double same_speed = 1e-12;  // of two pieces of a history where they meet smoothly
 
 struct Sign {
   int sign = 0;   // -1, 0, +1
@@ -217,7 +217,8 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   for (std::size_t c = 0; c < mode.size(); ++c) {
     if (model_.contacts[c].law != Law::rigid) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
-    if (mode[c].state == State::open && !fired(c, Guard::closing) && !is_zero(m.gap, noise.gap, m.vn)) continue;
+    if (mode[c].state == State::open && !fired(c, Guard::closing) && !is_zero(m.gap, noise.gap, m.vn))
+      continue;
     touching.push_back(c);
     impact = impact || (mode[c].state == State::open && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
   }
@@ -255,14 +256,14 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     Participant who{c};
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
     double tangent_size = std::abs(after.surface(c, instant.t, 1));
-    for (const auto& [dof, factor] : contact.tangent.terms)
-      tangent_size += std::abs(factor * instant.v[dof]);
+    for (const auto& [dof, factor] : contact.tangent.terms) tangent_size += std::abs(factor * instant.v[dof]);
     const bool rests = (!impact && fired(c, Guard::sliding)) ||
-                       std::abs(vt) <= noise.vt + 64.0 * std::numeric_limits<double>::epsilon() * tangent_size +
+                       std::abs(vt) <= noise.vt +
+                                           64.0 * std::numeric_limits<double>::epsilon() * tangent_size +
                                            instant.resolution * std::abs(m.at);
     who.slipping = contact.has_friction() && !rests;
     who.sign = vt > 0.0 ? 1 : -1;
-    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : vt);
+    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(vt));
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
@@ -334,17 +335,17 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
     return decision;
   }
-  for (;;) {
+  for (bool open = instant.start;; open = false) {
     const std::vector<Failure> failed = failures(jets, mode, instant, first);
     first = false;
-    if (failed.empty()) break;
+    if (failed.empty() && !open) break;
     if (++decision.rounds > max_rounds_) {
       decision.reason =
           fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
                       max_rounds_, describe(failed));
       return decision;
     }
-    bool jointly = joint.sliders;
+    bool jointly = joint.sliders || open;
     for (const Failure& f : failed) {
       const Contact& contact = model_.contacts[f.contact];
       if (!decision.visited[f.contact]) decision.crossings[f.contact] = crossing(f.form, jets[f.contact]);
@@ -360,12 +361,12 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     }
     if (jointly) {
       if (std::string why = decide_jointly(instant, after, joint, decision, jets, mode); !why.empty()) {
-        decision.reason = fmt::format("{} (after {})", why, describe(failed));
+        decision.reason = failed.empty() ? why : fmt::format("{} (after {})", why, describe(failed));
         return decision;
       }
     }
     std::vector<Memory> now = states(mode);
-    if (std::find(seen.begin(), seen.end(), now) != seen.end() && decision.impulses.empty()) {
+    if (!open && std::find(seen.begin(), seen.end(), now) != seen.end() && decision.impulses.empty()) {
       if (joint.sliders) {
         decision.reason =
             fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));

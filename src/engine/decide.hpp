@@ -29,7 +29,8 @@ struct Instant {
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
-  bool jump = false;  ///< the forcing is not smooth here
+  bool jump = false;   ///< the forcing is not smooth here
+  bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
 };
 
 /// One guard in force after the decision.
@@ -57,14 +58,14 @@ struct Decision {
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;   ///< guards_per_contact a contact
-  std::vector<Crossing> crossings;  ///< of the contacts visited
-  std::vector<bool> visited;        ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;         ///< contacts whose N or T jumps
-  std::vector<Impulse> impulses;    ///< one a contact, where rigid contacts were hit; else empty
-  double impact_loss = 0.0;         ///< energy that the impacts dissipate
+  std::vector<GuardStart> guards;    ///< guards_per_contact a contact
+  std::vector<Crossing> crossings;   ///< of the contacts visited
+  std::vector<bool> visited;         ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;          ///< contacts whose N or T jumps
+  std::vector<Impulse> impulses;     ///< one a contact, where rigid contacts were hit; else empty
+  double impact_loss = 0.0;          ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;  ///< that moving surfaces do in them
-  bool impact_gains = false;        ///< an impact gained energy (Newton's law with friction)
+  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
   int rounds = 0;
 };
 

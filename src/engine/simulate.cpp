@@ -63,8 +63,7 @@ class Run {
         recorder_(recorder),
         structure_(model),
         expander_(model, structure_),
-        decider_(model, expander_, spec.max_events_at_once,
-                 settings_for(model, spec).capture_velocity),
+        decider_(model, expander_, spec.max_events_at_once, settings_for(model, spec).capture_velocity),
         auditor_(model, structure_),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
@@ -111,6 +110,7 @@ class Run {
     instant.u = model_.u0;
     instant.v = model_.v0;
     instant.resolution = resolution_at(0.0, 0.0);
+    instant.start = true;
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     const Mode first = instant.mode;
     decision_ = decider_.decide(std::move(instant), forcing_, forcing_);
@@ -254,29 +254,29 @@ class Run {
 
   /// A row of one contact, from what the decision knows.
   void log_contact(std::size_t k, EventType type, State from) {
-      if (type != EventType::time) ++report_.events_by_type[to_string(type)];
-      const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
-      Event event;
-      event.t = t_;
-      event.contact = static_cast<int>(k);
-      event.type = type;
-      event.from = from;
-      event.to = decision_.mode[k].state;
-      if (hit(k)) {
-        event.impulse_n = decision_.impulses[k].normal;
-        event.impulse_t = decision_.impulses[k].tangent;
-      }
-      event.gap = after.gap;
-      event.N = before.N;
-      event.T = before.T;
-      event.N_after = after.N;
-      event.T_after = after.T;
-      event.vn = before.vn;
-      event.vn_after = after.vn;
-      event.vt = decision_.slides_before[k].vt;
-      event.vt_after = decision_.slides_after[k].vt;
-      add_conditioning(k, event);
-      recorder_.event(event);
+    if (type != EventType::time) ++report_.events_by_type[to_string(type)];
+    const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
+    Event event;
+    event.t = t_;
+    event.contact = static_cast<int>(k);
+    event.type = type;
+    event.from = from;
+    event.to = decision_.mode[k].state;
+    if (hit(k)) {
+      event.impulse_n = decision_.impulses[k].normal;
+      event.impulse_t = decision_.impulses[k].tangent;
+    }
+    event.gap = after.gap;
+    event.N = before.N;
+    event.T = before.T;
+    event.N_after = after.N;
+    event.T_after = after.T;
+    event.vn = before.vn;
+    event.vn_after = after.vn;
+    event.vt = decision_.slides_before[k].vt;
+    event.vt_after = decision_.slides_after[k].vt;
+    add_conditioning(k, event);
+    recorder_.event(event);
   }
 
   void warn_of_order(const std::string& which) {
@@ -401,6 +401,11 @@ void check_exact(const Model& model, const RunSpec& run) {
   };
   for (const Load& load : model.loads) check(load.history, load.name);
   for (const Contact& contact : model.contacts) {
+    if (contact.stribeck_velocity)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"exact\" needs laws that are linear, and the friction of contact "
+                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
+                                   contact.name));
     check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
     check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
   }

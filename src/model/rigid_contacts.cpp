@@ -26,10 +26,11 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
     if (form == &contact.tangent && !contact.has_friction()) continue;
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
-        refuse(scene, k, ".law",
-               fmt::format("a rigid contact needs mass where it acts, and {} has none; give it a mass, or the "
-                           "contact law = \"compliant\"",
-                           d.displacement));
+        refuse(
+            scene, k, ".law",
+            fmt::format("a rigid contact needs mass where it acts, and {} has none; give it a mass, or the "
+                        "contact law = \"compliant\"",
+                        d.displacement));
   }
 }
 
@@ -46,10 +47,11 @@ void close_gap(const Scene& scene, Model& model, std::size_t k) {
     if (contact.normal.terms.size() == 1)
       model.u0[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
   } else if (gap < 0.0) {
-    refuse(scene, k, ".gap",
-           fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
-                       "penetrated",
-                       gap, model.units.length));
+    refuse(
+        scene, k, ".gap",
+        fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
+                    "penetrated",
+                    gap, model.units.length));
   }
 }
 
@@ -97,7 +99,15 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
 void check_rigid_contacts(const Scene& scene, Model& model) {
   std::vector<std::size_t> rigid;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    if (model.contacts[k].law != Law::rigid) continue;
+    const Contact& contact = model.contacts[k];
+    if (contact.stribeck_velocity)
+      for (const auto& term : contact.tangent.terms)
+        if (const Dof& d = model.dofs[static_cast<std::size_t>(term.first)]; d.massless)
+          refuse(
+              scene, k, ".friction",
+              fmt::format("friction that falls with the slip rate needs mass where it acts, and {} has none",
+                          d.displacement));
+    if (contact.law != Law::rigid) continue;
     check_mass(scene, model, k);
     close_gap(scene, model, k);
     rigid.push_back(k);

@@ -22,6 +22,7 @@ struct Program {
 
 void add_run(Program& program);
 void add_check(Program& program);
+void add_compare(Program& program);
 void add_plot(Program& program);
 void add_keys(Program& program);
 

@@ -188,6 +188,8 @@ void check_units(const ComparisonReport& report) {
 bool by_engine(const CompareOptions& options) { return !options.engines.empty(); }
 
 void check_sources(const CompareOptions& options) {
+  if (!(options.instant >= 0.0))
+    throw UsageError(fmt::format("--instant: found {}, expected a time >= 0", options.instant));
   const auto& sources = options.sources;
   std::error_code error;
   if (by_engine(options)) {
@@ -298,8 +300,7 @@ void add_compare(Program& program) {
   command
       ->add_option("--instant", options->instant,
                    "events of different contacts that lie no further apart have no order")
-      ->option_text("T")
-      ->check(CLI::NonNegativeNumber);
+      ->option_text("T");
   command->add_flag("--force", options->force, "replace an earlier comparison in the directory");
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->add_flag("--json", options->json, "print compare.json instead of tables");

@@ -121,9 +121,7 @@ class Pictures {
       s += "set format y '%.0e'\n";
       std::vector<std::string> elements;
       for (std::size_t r = 1; r < runs_.size(); ++r) elements.push_back(difference(curves[i], r));
-      // A logarithmic axis needs something positive, also where all runs agree to the last digit.
-      elements.push_back(fmt::format("{} with lines linecolor '#ffffff' notitle", 1e-300));
-      s += "set yrange [" + lowest(curves[i]) + ":*] noextend\n";
+      s += y_range(curves[i], elements);
       for (std::size_t r = 1; r < runs_.size(); ++r)
         if (const auto& split = report_.comparisons[r - 1].alignment.split)
           s += fmt::format(
@@ -144,8 +142,9 @@ class Pictures {
     return {upper - each, upper};
   }
 
-  /// Differences are drawn over at most 12 decades below the greatest one.
-  [[nodiscard]] std::string lowest(const Curve& curve) const {
+  /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
+  /// runs agree to the last digit.
+  [[nodiscard]] std::string y_range(const Curve& curve, std::vector<std::string>& elements) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
       const Deviation& d = curve.name == "motion"   ? c.displacement
@@ -153,7 +152,11 @@ class Pictures {
                                                     : c.force;
       greatest = std::max(greatest, d.whole.value);
     }
-    return shortest(greatest > 0.0 && greatest < 1e300 ? greatest * 1e-12 : 1e-20);
+    if (greatest > 0.0 && greatest < 1e300) {
+      return "set yrange [" + shortest(greatest * 1e-12) + "<*:*] noextend\n";
+    }
+    elements.push_back(fmt::format("{} with lines linecolor '#ffffff' notitle", 1e-18));
+    return "set yrange [1e-20:1e-10]\n";
   }
 
   [[nodiscard]] std::string difference(const Curve& curve, std::size_t r) const {

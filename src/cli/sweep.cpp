@@ -38,6 +38,14 @@ std::optional<std::string> environment(const char* name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
+/// The reader was told the values with --set, the user said --vary.
+std::string as_given(const std::string& message, const std::vector<Vary>& varied) {
+  const std::string set = "--set ";
+  for (const Vary& vary : varied)
+    if (message.rfind(set + vary.path + "=", 0) == 0) return "--vary " + message.substr(set.size());
+  return message;
+}
+
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
 /// a wrong command line, a value that only some rows cannot take is a row.
 SweepSpec specify(const SweepOptions& options) {
@@ -65,7 +73,7 @@ SweepSpec specify(const SweepOptions& options) {
       if (!first) first = error;
     }
   }
-  throw Error(*first);
+  throw Error(first->code(), as_given(first->what(), spec.vary));
 }
 
 std::size_t jobs_of(const SweepOptions& options) {

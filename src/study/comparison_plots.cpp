@@ -147,10 +147,12 @@ class Pictures {
   [[nodiscard]] std::string y_range(const Curve& curve, std::vector<std::string>& elements) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
-      const Deviation& d = curve.name == "motion"   ? c.displacement
-                           : curve.name == "events" ? c.event_time
-                                                    : c.force;
-      greatest = std::max(greatest, d.whole.value);
+      if (curve.name == "motion") greatest = std::max(greatest, c.displacement.whole.value);
+      if (curve.name == "events") greatest = std::max(greatest, c.event_time.whole.value);
+      if (curve.name != "forces") continue;
+      const std::string end = curve.column == 2 ? ".N" : ".T";
+      for (const auto& [column, deviation] : c.columns)
+        if (column.ends_with(end)) greatest = std::max(greatest, deviation.whole.value);
     }
     if (greatest > 0.0 && greatest < 1e300) {
       return "set yrange [" + shortest(greatest * 1e-12) + "<*:*] noextend\n";

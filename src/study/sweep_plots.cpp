@@ -62,14 +62,22 @@ std::vector<Curve> group(const SweepSpec& spec, const SweepRows& rows, const Axi
       std::string name;
       for (std::size_t i = 0; i < row.values.size(); ++i) {
         if (i == axis.key || spec.vary[i].values.size() < 2) continue;
-        const std::size_t dot = spec.vary[i].path.rfind('.');
-        name += (name.empty() ? "" : ", ") + spec.vary[i].path.substr(dot + 1) + " " + row.values[i];
+        name += (name.empty() ? "" : ", ") + row.values[i];
       }
       list.push_back({name, {}});
     }
     list[found->second].rows.push_back(&row);
   }
   return list;
+}
+
+/// What the numbers in the legend are.
+std::string other_keys(const SweepSpec& spec, const Axis& axis) {
+  std::string text;
+  for (std::size_t i = 0; i < spec.vary.size(); ++i)
+    if (i != axis.key && spec.vary[i].values.size() > 1)
+      text += (text.empty() ? "; curves: " : ", ") + spec.vary[i].path;
+  return text;
 }
 
 std::string curve_table(const Curve& curve, const Axis& axis, const std::vector<std::string>& contacts) {
@@ -120,7 +128,7 @@ class Script {
     const double line = 1.0 / height;
     const double bottom = 62.0 * line, top = 1.0 - 62.0 * line, space = 26.0 * line;
     const double each = (top - bottom - space * (count - 1)) / count;
-    s += "set offsets graph 0.02,graph 0.02,graph 0.05,0\n";
+    s += "set offsets 0,0,graph 0.05,0\n" + x_range();
     for (int i = 0; i < count; ++i) {
       const double upper = top - i * (each + space);
       s += panel(run_, upper - each, upper, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
@@ -133,6 +141,20 @@ class Script {
   }
 
  private:
+  /// Of all values, also where no run began: a hole at an end is seen.
+  [[nodiscard]] std::string x_range() const {
+    double first = 0.0, last = static_cast<double>(axis_.vary->values.size()) - 1.0;
+    if (axis_.numbers) {
+      first = last = *parse_number(axis_.vary->values.front());
+      for (const std::string& value : axis_.vary->values) {
+        first = std::min(first, *parse_number(value));
+        last = std::max(last, *parse_number(value));
+      }
+    }
+    const double air = last > first ? 0.03 * (last - first) : 1.0;
+    return "set xrange [" + shortest(first - air) + ":" + shortest(last + air) + "]\n";
+  }
+
   [[nodiscard]] std::string ticks(bool named) const {
     std::string s = "set xtics (";
     for (std::size_t i = 0; i < axis_.vary->values.size(); ++i)
@@ -146,16 +168,20 @@ class Script {
     for (std::size_t k = 0; k < curves; ++k) {
       for (std::size_t c = 0; c < curves_.size() && list.size() < most_curves; ++c) {
         const int column = panel.figure == 0 ? 2 : 2 + static_cast<int>(5 * k) + panel.figure;
-        std::string title = panel.figure == 0 ? "events" : contacts_[k];
-        if (!curves_[c].name.empty()) title += ", " + curves_[c].name;
+        const bool alone = panel.figure == 0 || (contacts_.size() == 1 && curves_.size() > 1);
+        std::string title = panel.figure == 0 ? (curves_.size() == 1 ? "events" : "")
+                            : alone           ? ""
+                                              : contacts_[k];
+        if (!curves_[c].name.empty()) title += (title.empty() ? "" : ", ") + curves_[c].name;
         // Colour says which contact, or which values of the other keys where there are several.
         const std::size_t colour = curves_.size() > 1 ? c : k;
-        const std::size_t dash = curves_.size() > 1 ? k : 0;
+        // Curves that coincide show through: later ones are thinner and dashed, on top.
         list.push_back(fmt::format(
-            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth 1.5 pointtype {} pointsize 0.7 "
-            "dashtype {} linecolor '{}' title {}",
-            c + 1, column, 7 - 2 * static_cast<int>(std::min<std::size_t>(k, 1)), dash % 5 + 1,
-            colours[colour % colours.size()], signorini::quoted(title)));
+            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {} pointtype {} pointsize 0.7{} "
+            "linecolor '{}' title {}",
+            c + 1, column, list.size() % 2 == 0 ? "2.0" : "1.2", 7 - 2 * static_cast<int>(k % 3),
+            list.size() % 2 == 0 ? "" : " dashtype 2", colours[colour % colours.size()],
+            signorini::quoted(title)));
       }
     }
     return list;
@@ -188,10 +214,11 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   const Script script(spec, axis, list, contacts);
   std::vector<fs::path> scripts;
+  const std::string others = other_keys(spec, axis);
   const auto add = [&](const std::string& name, const std::string& subtitle,
                        const std::vector<Panel>& panels) {
     scripts.push_back(folder / (name + ".gp"));
-    write_file(scripts.back(), script.str(name, subtitle, panels));
+    write_file(scripts.back(), script.str(name, subtitle + others, panels));
   };
   if (!contacts.empty()) {
     add("motion", "Greatest motion of the contacts from the start",

@@ -155,7 +155,7 @@ class Pictures {
         if (column.ends_with(end)) greatest = std::max(greatest, deviation.whole.value);
     }
     if (greatest > 0.0 && greatest < 1e300) {
-      return "set yrange [" + shortest(greatest * 1e-12) + "<*:*] noextend\n";
+      return "set yrange [" + shortest(greatest * 1e-12) + "<*:*]\n";
     }
     elements.push_back(fmt::format("{} with lines linecolor '#ffffff' notitle", 1e-18));
     return "set yrange [1e-20:1e-10]\n";
@@ -167,7 +167,7 @@ class Pictures {
       return fmt::format(
           "'../events.csv' skip 1 using 2:(strcol(1) eq {0} && $4 != 0 ? abs($4) : NaN) with points "
           "pointtype 7 "
-          "pointsize 0.5 linecolor '{1}' title {0}",
+          "pointsize 0.7 linecolor '{1}' title {0}",
           quoted(name), colours[r % colours.size()]);
     }
     return fmt::format(

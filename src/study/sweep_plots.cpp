@@ -176,11 +176,12 @@ class Script {
         // Colour says which contact, or which values of the other keys where there are several.
         const std::size_t colour = curves_.size() > 1 ? c : k;
         // Curves that coincide show through: later ones are thinner and dashed, on top.
+        const std::size_t i = list.size();
         list.push_back(fmt::format(
-            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {} pointtype {} pointsize 0.7{} "
+            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {:.1f} pointtype {} pointsize 0.7{} "
             "linecolor '{}' title {}",
-            c + 1, column, list.size() % 2 == 0 ? "2.0" : "1.2", 7 - 2 * static_cast<int>(k % 3),
-            list.size() % 2 == 0 ? "" : " dashtype 2", colours[colour % colours.size()],
+            c + 1, column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 7 - 2 * static_cast<int>(k % 3),
+            i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1), colours[colour % colours.size()],
             signorini::quoted(title)));
       }
     }

@@ -122,12 +122,22 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Scene
   const Model model = build_model(scene);
   RunDirectory directory(path / engine, scene, model, {options.force, command_line});
   Report report;
+  double reached = 0.0;
   try {
     Live live(directory, model, scene.run.t_end, !options.quiet);
-    report = simulate(model, scene.run, live);
+    try {
+      report = simulate(model, scene.run, live);
+    } catch (const FileError&) {
+      reached = live.reached();
+      throw;
+    }
   } catch (const SceneError& error) {
+    if (options.force) remove_run(path / engine);  // an earlier one's would be taken for this one's
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
+  } catch (const FileError& error) {
+    directory.abandon(reached, error.what());
+    throw;
   }
   directory.finish(report);
   for (const std::string& warning : report.warnings) print_warning(engine + ": " + warning);
@@ -165,14 +175,6 @@ std::vector<std::string> names_of(const std::vector<std::string>& directories) {
   return names;
 }
 
-Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
-  Outcomes outcomes;
-  for (const std::string& name : names_of(options.sources))
-    outcomes.report.runs.push_back(read_compared_run(name, name));
-  begin(path, options.force);
-  return outcomes;
-}
-
 void check_units(const ComparisonReport& report) {
   const Units& first = report.runs.front().figures.facts.units;
   for (const ComparedRun& run : report.runs) {
@@ -183,6 +185,15 @@ void check_units(const ComparisonReport& report) {
         fmt::format("has the units {}, {}, {}, expected those of the reference, {}, {}, {}", units.force,
                     units.length, units.time, first.force, first.length, first.time));
   }
+}
+
+Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
+  Outcomes outcomes;
+  for (const std::string& name : names_of(options.sources))
+    outcomes.report.runs.push_back(read_compared_run(name, name));
+  check_units(outcomes.report);
+  begin(path, options.force);
+  return outcomes;
 }
 
 bool by_engine(const CompareOptions& options) { return !options.engines.empty(); }
@@ -244,7 +255,6 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
     return ExitCode::interrupted;
   }
   ComparisonReport& report = outcomes.report;
-  check_units(report);
   report.limits = limits;
   for (std::size_t i = 1; i < report.runs.size(); ++i) {
     const ComparedRun& run = report.runs[i];

@@ -111,6 +111,12 @@ void begin(const fs::path& path, bool force) {
   write_file(path / "compare.json", "{}\n");
 }
 
+/// Takes back what begin() made; what else is there stays.
+void leave(const fs::path& path) {
+  std::error_code ignored;
+  for (const fs::path& made : {path / "compare.json", path / "plots", path}) fs::remove(made, ignored);
+}
+
 struct Outcomes {
   ComparisonReport report;
   bool interrupted = false, stopped = false;
@@ -156,11 +162,12 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
   for (const Scene& scene : scenes) {
     run_engine(options, path, scene, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
+    if (outcomes.report.runs.empty()) {  // nothing to compare the others with
+      leave(path);
+      throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
+                                       ", refuses the scene: " + outcomes.report.refused.front().second);
+    }
   }
-  const auto& refused = outcomes.report.refused;
-  if (!refused.empty() && refused.front().first == options.engines.front())
-    throw Error(ExitCode::scene,
-                "the reference, " + refused.front().first + ", refuses the scene: " + refused.front().second);
   return outcomes;
 }
 

@@ -48,6 +48,13 @@ std::string run_table(const ComparisonReport& report) {
   return text;
 }
 
+/// Where one of the two did not come to its end, or has another one.
+std::string up_to(const ComparisonReport& report, std::size_t i) {
+  const RunFigures &a = report.runs.front().figures, &b = report.runs[i + 1].figures;
+  if (a.done() && b.done() && a.t == b.t) return "";
+  return fmt::format(" up to t = {:.9g}", report.comparisons[i].t_end);
+}
+
 std::string sequence(const ComparisonReport& report, std::size_t i) {
   const Alignment& alignment = report.comparisons[i].alignment;
   const std::size_t pairs = alignment.pairs.size();
@@ -55,7 +62,7 @@ std::string sequence(const ComparisonReport& report, std::size_t i) {
                          ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
                                        count_of(pairs, "event"), alignment.split->t, split_text(report, i),
                                        count_of(alignment.split->unaligned, "event"))
-                         : fmt::format("the same, {}", count_of(pairs, "event"));
+                         : fmt::format("the same, {}", count_of(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)
     text += fmt::format("; {} swapped with events of other contacts closer than their uncertainties",
                         alignment.swapped);
@@ -79,6 +86,7 @@ std::string difference_table(const ComparisonReport& report, std::size_t i) {
     header.insert(header.end(), {"before they part", at});
     right.insert(right.end(), {true, true});
   }
+  if (c.common_times == 0 && c.event_time.count == 0) return "";
   Table table(std::move(header), std::move(right));
   for (const Quantity& q : quantities(c, units)) {
     if (q.deviation->count == 0) continue;

@@ -234,7 +234,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   compare_motion(reference, other, settings, split, c);
   compare_forces(reference, other, settings, split, c);
   compare_energy(reference, other, split, c);
-  if (c.common_times < 2) {
+  if (c.common_times < 2 && c.t_end > 0.0) {
     c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
                                   c.common_times, c.common_times == 1 ? "time is" : "times are"));
   }

@@ -121,6 +121,42 @@ TEST_CASE("cli compare: a run that stopped early is a row, and keeps no limit") 
   CHECK(has(limited.err, "cut: stopped at t = 12"));
 }
 
+TEST_CASE("cli compare: engines that stop early or refuse the scene are rows") {
+  const std::string contact =
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4\n";
+  const std::string scene =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+      "10.0\n"
+      "output_dt = 0.1\ninitial = { u = [3.0], v = [0.0] }\n[matrices]\nmass = [[1.0]]\nstiffness = [[1.0]]\n"
+      "[[contacts]]\nname = \"one\"\n" +
+      contact;
+  const Shell shell;
+  shell.write("twice.toml", scene + "[[contacts]]\nname = \"other\"\n" + contact);
+  const Ending stopped = shell.run({"compare", "twice.toml", "--engines", "exact,ida", "--no-plots", "--set",
+                                    "exact:contacts.other.friction=0"});
+  CHECK(stopped.code == 4);
+  CHECK(has(stopped.out, "ida: stopped at t = 0: the rows of the contacts"));
+  CHECK(has(stopped.out, "sequence: the same, 0 events up to t = 0\n"));
+  CHECK(has(stopped.err, "a computation stopped early"));
+  CHECK(exists(shell, "twice-compare/exact/events.csv"));
+
+  std::string zeros;
+  for (int i = 0; i < 29; ++i) zeros += "0.0, ";
+  shell.write("steep.toml", scene +
+                                "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1e-40\nhistory = { type = "
+                                "\"polynomial\", coefficients = [" +
+                                zeros + "1.0] }\n");
+  const Ending row = shell.run({"compare", "steep.toml", "--engines", "ida,exact", "--no-plots"});
+  CHECK(row.code == 0);
+  CHECK(has(row.out, "exact: refused: steep.toml:"));
+  CHECK(json::parse(shell.read("steep-compare/compare.json"))["runs"][1]["outcome"] == "refused");
+  const Ending reference =
+      shell.run({"compare", "steep.toml", "--engines", "exact,ida", "--no-plots", "-o", "nothing"});
+  CHECK(reference.code == 3);
+  CHECK(has(reference.err, "the reference, exact, refuses the scene: steep.toml:"));
+  CHECK_FALSE(exists(shell, "nothing"));
+}
+
 TEST_CASE("cli compare: what is wrong is told before anything is written") {
   const Shell shell;
   shell.write("belt.toml", belt(5));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/number.hpp"
 #include "result/csv.hpp"
 #include "study/joined_tables.hpp"
 
@@ -50,8 +51,8 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
     if (std::find(a.header().begin(), a.header().end(), b.header()[i]) == a.header().end())
       alone.push_back(b.header()[i]);
   if (!alone.empty()) {
-    c.notes.push_back(fmt::format("{}: {} of {} in one of the two runs only, \"{}\" the first", table,
-                                  alone.size(), alone.size() == 1 ? "column is" : "columns are", alone[0]));
+    c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
+                                  count_of(alone.size(), "column"), alone[0]));
   }
   return columns;
 }

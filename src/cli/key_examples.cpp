@@ -164,7 +164,19 @@ tangent is t = (ny, -nx), [1, 0] for a floor; tangential motion is `t . u` less 
 A dashpot acts beside its spring: N = kn g + cn g' while closed, T = kt (ut - p) + ct ut' in stick. The contact
 opens at N = 0, so it never pulls.
 
-N <= 0 is compression. How stiff is stiff enough? `signorini check` compares each contact with the structure.
+N <= 0 is compression. How stiff is stiff enough? `signorini check` compares each contact with the structure, and
+validation/contact-stiffness shows what follows from it. Where the surfaces are joined by a layer of some material,
+that layer says how stiff:
+
+```toml
+[[contacts]]
+name = "bedding"
+node = "A"
+law = "compliant"
+normal = [0.0, 1.0]
+friction = 0.4
+seam = { E = 2.0e5, G = 8.0e4, thickness = 0.05, area = 0.3 }   # kn = E area / thickness, kt = G area / thickness
+```
 
 A contact joins its node to the ground, or to what is named by `against`: the gap is then that between the two, and n
 points from the touched body to the node.

@@ -55,8 +55,8 @@ std::optional<VectorXd> by_lemke(const JointProblem& p, const Scaled& s, const s
   for (const JointItem& item : p.items)
     size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
   const Index n = s.b.size();
-  MatrixXd F = MatrixXd::Zero(n, size);    // forces of a unit of each variable
-  MatrixXd G = MatrixXd::Zero(size, n);    // w = G response + H z + h
+  MatrixXd F = MatrixXd::Zero(n, size);  // forces of a unit of each variable
+  MatrixXd G = MatrixXd::Zero(size, n);  // w = G response + H z + h
   MatrixXd H = MatrixXd::Zero(size, size);
   VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
   Index at = 0;
@@ -176,7 +176,8 @@ std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const 
       good = states[i] == Try::stick ? item.sign * x[ti] >= -zero : item.sign * r[ti] >= -zero;
     } else {
       good = l >= -zero && (item.kind == Kind::pressed || r[ni] >= -zero);
-      if (states[i] == Try::stick && item.kind != Kind::normal) good = good && std::abs(x[ti]) <= f * l + zero;
+      if (states[i] == Try::stick && item.kind != Kind::normal)
+        good = good && std::abs(x[ti]) <= f * l + zero;
       if (sign != 0 && item.kind != Kind::sliding) good = good && sign * r[ti] >= -zero;
     }
     if (!good) return std::nullopt;
@@ -235,7 +236,8 @@ std::vector<JointSolution> all_solutions(const JointProblem& p) {
     JointSolution solution = finished(p, s, *x, kinetic);
     const bool known = std::any_of(found.begin(), found.end(), [&](const JointSolution& other) {
       const VectorXd inverse = s.unit.cwiseInverse();
-      const double size = s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
+      const double size =
+          s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
       return inverse.cwiseProduct(solution.response - other.response).cwiseAbs().maxCoeff() <=
              same_solution * size;
     });
@@ -267,7 +269,8 @@ bool may_have_many(const JointProblem& p) {
       nt(i, j) = s.W(2 * i, 2 * j + 1) * p.items[at].static_friction * s.ratio[at];
     }
   const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
-  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
   return !(least > 2.0 * nt.norm());
 }
 

@@ -22,7 +22,7 @@ struct JointItem {
     sliding,     ///< it moves along sign already: k = -sign f l
     frictional,  ///< may stick, or begin to slip in either direction
     pressed,     ///< l is given: k alone
-    limit,       ///< slides along sign at its limit, as the matrix W has it; k = +sign d, d >= 0, if it sticks
+    limit,  ///< slides along sign at its limit, as the matrix W has it; k = +sign d, d >= 0, if it sticks
   } kind = Kind::normal;
   double static_friction = 0.0, kinetic_friction = 0.0;
   double pressing = 0.0;  ///< pressed: l

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = JointItem::Kind;
 
-constexpr std::size_t most_compared = 4;  // contacts up to which all solutions are looked for
+constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
 constexpr double noise_of_solution = 4.0;  // over that of its right side, in units of the problem
 
 State slip(int sign) { return sign > 0 ? State::slip_plus : State::slip_minus; }
@@ -40,10 +40,11 @@ JointItem JointDecision::item_of(const Entry& entry, const Forcing& forcing, dou
 
 std::string JointDecision::refusal(const JointProblem& problem, const std::vector<std::size_t>& contacts,
                                    bool several) const {
-  std::string text = several ? "several motions continue this one (Painleve's paradox: friction is so strong that "
-                               "a contact may as well press as let go)"
-                             : "no motion continues this one (Painleve's paradox: friction is so strong that "
-                               "pressing a sliding contact pushes it into what it slides on)";
+  std::string text =
+      several ? "several motions continue this one (Painleve's paradox: friction is so strong that "
+                "a contact may as well press as let go)"
+              : "no motion continues this one (Painleve's paradox: friction is so strong that "
+                "pressing a sliding contact pushes it into what it slides on)";
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const JointItem& item = problem.items[i];
     const auto n = static_cast<Eigen::Index>(2 * i);

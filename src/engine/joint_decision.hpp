@@ -1,6 +1,7 @@
 // joint_decision.hpp: the next states of all contacts whose forces may jump, at one instant together.
 //
-//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)        r: g'' and ut'' of the contacts that are undecided
+//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)        r: g'' and ut'' of the contacts that are
+//   undecided
 //
 // Rigid contacts with g = g' = 0 and sliders that stick rigidly move each other through M. On the level of
 // accelerations that is a joint problem (contact/joint_problem.hpp) with the forces as unknowns. A contact

@@ -24,7 +24,8 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::
 
 void check_gap(const ContactSpec& spec, const Contact& contact, const std::string& key) {
   if (!spec.normal)
-    throw SceneError(spec.place, key + ".normal", fmt::format("a {} contact needs a normal", to_string(spec.law)));
+    throw SceneError(spec.place, key + ".normal",
+                     fmt::format("a {} contact needs a normal", to_string(spec.law)));
   if (contact.normal.terms.empty())
     throw SceneError(spec.place, key + ".normal", "a support fixes all motion along the normal");
   if (contact.has_friction() && contact.tangent.terms.empty())

@@ -138,9 +138,10 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       const int d = map.number[static_cast<std::size_t>(node)][c];
       if (d >= 0) result.terms.emplace_back(d, weight * (unit ? vector[c] / length : vector[c]));
       if (d == DofMap::absent && !skip_absent)
-        throw SceneError(direction.place, key,
-                         fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there",
-                                     name, c == 0 ? "x" : "y"));
+        throw SceneError(
+            direction.place, key,
+            fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there", name,
+                        c == 0 ? "x" : "y"));
     }
   };
   add(direction.node, 1.0);

@@ -57,8 +57,7 @@ SparseMatrix StaticProblem::matrix(const std::vector<bool>& closed) const {
 Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
   Vector p = load;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (is_support(k) && closed[k])
-      contacts[k].normal.add_to(p, -normal_stiffness(k) * contacts[k].gap);
+    if (is_support(k) && closed[k]) contacts[k].normal.add_to(p, -normal_stiffness(k) * contacts[k].gap);
   return p;
 }
 
@@ -103,7 +102,7 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
 }
 
 HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                  const std::vector<FreeMotion>& held) {
+                     const std::vector<FreeMotion>& held) {
   SparseMatrix k = problem.matrix(closed);
   std::vector<LineSpring> springs;
   bool loose = false;
@@ -141,7 +140,8 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     Eigen::MatrixXd answer(problem.size(), m), give(m, m);
     Eigen::VectorXd miss(m);
     for (Eigen::Index j = 0; j < m; ++j)
-      answer.col(j) = refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
+      answer.col(j) =
+          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
     for (Eigen::Index i = 0; i < m; ++i) {
       const std::size_t c = rigid[static_cast<std::size_t>(i)];
       miss[i] = -problem.gap(c, state.u);

@@ -104,8 +104,8 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   std::string pulls;
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
     const Contact& c = problem.contacts[k];
-    const double pull = c.law == Law::rigid ? -gripped.reactions[k]
-                                            : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
+    const double pull =
+        c.law == Law::rigid ? -gripped.reactions[k] : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
     if (!problem.is_support(k) || !(pull > 0.0)) continue;
     pulls += fmt::format("{}contact '{}' would have to pull with {:.4g} {}", pulls.empty() ? "" : ", ",
                          c.name, pull, unit);

@@ -102,8 +102,9 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "normal", direction, "", "", "", "Direction in which the contact opens; it is made a unit vector with [nodes], taken as given with [matrices]. The tangent is (ny, -nx)."},
     {"contacts[]", "tangent", direction, "", "", "", "Direction of sliding of a slider; with [matrices] of any contact with friction."},
     {"contacts[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state."},
-    {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\"."},
-    {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction; a slider without it is rigid in stick."},
+    {"contacts[]", "normal_stiffness", positive, "force/length", "", "", "Stiffness normal to the contact; required for \"compliant\" without a seam."},
+    {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction and without a seam; a slider without it is rigid in stick."},
+    {"contacts[]", "seam", table, "", "", "", "Material between the surfaces of a compliant contact, from which its stiffnesses follow: kn = E area / thickness, kt = G area / thickness; instead of normal_stiffness and tangential_stiffness."},
     {"contacts[]", "normal_force", standing_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
     {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }."},
     {"contacts[]", "surface_velocity", standing_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
@@ -112,6 +113,11 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "Rebounds of a rigid contact slower than this come to rest; rtol times the scale of velocities (or run.atol.velocity) where absent."},
     {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
     {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; the two stand in series with the friction."},
+
+    {"contacts[].seam", "E", positive, "force/length^2", "required", "", "Young's modulus of the seam."},
+    {"contacts[].seam", "G", positive, "force/length^2", "", "", "Shear modulus of the seam; required with friction."},
+    {"contacts[].seam", "thickness", positive, "length", "required", "", "Thickness of the seam."},
+    {"contacts[].seam", "area", positive, "length^2", "required", "", "Area that belongs to the contact: spacing of the nodes times width."},
 
     {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},

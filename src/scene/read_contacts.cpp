@@ -1,6 +1,8 @@
 // [[contacts]]: what each law needs, and what has no meaning for it.
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "base/number.hpp"
 #include "model/history_from_spec.hpp"
 #include "model/history_internal.hpp"
@@ -77,8 +79,31 @@ void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
   contact.capture_velocity = table.optional_number("capture_velocity");
 }
 
+/// The frame-rod element of a seam: a bar of its area and thickness across, the same in shear along.
+void read_seam(Table& table, ContactSpec& contact) {
+  for (const char* key : {"normal_stiffness", "tangential_stiffness"})
+    if (table.has(key)) table.fail(key, "stands beside seam, expected one of the two");
+  Table seam = table.child("seam");
+  const bool friction = contact.friction.static_ > 0.0;
+  if (friction) seam.require("G", " (with friction)");
+  const double E = seam.number("E"), thickness = seam.number("thickness"), area = seam.number("area");
+  const std::optional<double> G = seam.optional_number("G");
+  seam.finish();
+  contact.normal_stiffness = E * area / thickness;
+  if (G) contact.tangential_stiffness = *G * area / thickness;
+  for (const double k : {contact.normal_stiffness, contact.tangential_stiffness.value_or(1.0)})
+    if (!std::isnormal(k))
+      table.fail("seam", fmt::format("found a stiffness of {}, expected a number > 0", k));
+  table.record("seam", seam.record().inline_table());
+}
+
 void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
   read_gap(table, contact, space, "compliant");
+  if (table.has("seam")) {
+    read_seam(table, contact);
+    contact.normal_damping = table.number("normal_damping");
+    return;
+  }
   table.require("normal_stiffness", " (compliant)");
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
@@ -94,7 +119,7 @@ void read_against(Table& table, ContactSpec& contact, const Scene& scene, const 
 }
 
 void read_elements(Table& table, ContactSpec& contact) {
-  contact.tangential_stiffness = table.optional_number("tangential_stiffness");
+  if (!table.has("seam")) contact.tangential_stiffness = table.optional_number("tangential_stiffness");
   if (contact.tangential_stiffness) {
     contact.initial_shear = table.number("initial_shear");
     contact.tangential_damping = table.number("tangential_damping");
@@ -104,8 +129,9 @@ void read_elements(Table& table, ContactSpec& contact) {
   }
   // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
   if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
-    table.fail("friction", "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
-                           "point has no mass, so friction that falls with its rate leaves its motion undecided");
+    table.fail("friction",
+               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
+               "point has no mass, so friction that falls with its rate leaves its motion undecided");
 }
 
 void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {

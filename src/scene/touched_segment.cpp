@@ -35,9 +35,10 @@ std::vector<std::pair<std::string, double>> read_touched(Table& contact, const S
     if (!(square > 0.0)) contact.wrong(against, "two nodes at different places");
     const double x = ((at.x - from.x) * dx + (at.y - from.y) * dy) / square;
     if (x < -beside || x > 1.0 + beside)
-      contact.fail(against, fmt::format("node '{}' projects beside the segment from '{}' to '{}', at {:.4g} of "
-                                        "its length, expected 0 to 1",
-                                        node, b, c, x));
+      contact.fail(against,
+                   fmt::format("node '{}' projects beside the segment from '{}' to '{}', at {:.4g} of "
+                               "its length, expected 0 to 1",
+                               node, b, c, x));
     return {{b, 1.0 - x}, {c, x}};
   }
   const std::string name = node_name(contact, *found, space, node);

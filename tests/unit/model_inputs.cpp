@@ -42,6 +42,33 @@ TEST_SUITE("unit/model") {
     CHECK(model.v0.cwiseAbs().sum() == doctest::Approx(1.1));
   }
 
+  TEST_CASE("seams, touched segments and the motion of the base") {
+    const Model model = build_model(good("touching.toml"));
+    REQUIRE(model.contacts.size() == 3);
+    const Contact &plank = model.contacts[0], &bedding = model.contacts[2];
+    CHECK(bedding.normal_stiffness == doctest::Approx(2.0e5 * 0.3 / 0.05));
+    CHECK(*bedding.tangential_stiffness == doctest::Approx(8.0e4 * 0.3 / 0.05));
+    CHECK(plank.restitution == 0.5);
+    CHECK(*plank.capture_velocity == 1e-6);
+    CHECK(*plank.stribeck_velocity == 0.1);
+    // a at x = 0 between l at -1 and r at 3: weights 3/4 and 1/4
+    Vector u = Vector::Zero(model.size());
+    u[dof(model, "a.uy")] = 1.0;
+    CHECK(plank.normal.dot(u) == 1.0);
+    u.setZero();
+    u[dof(model, "l.uy")] = 1.0;
+    CHECK(plank.normal.dot(u) == doctest::Approx(-0.75));
+    u.setZero();
+    u[dof(model, "r.ux")] = 1.0;
+    CHECK(plank.tangent.dot(u) == doctest::Approx(-0.25));
+    const Load& base = model.loads.back();
+    CHECK(base.name == "base motion");
+    Vector p = Vector::Zero(model.size());
+    base.direction.add_to(p, base.history.value(0.1));
+    CHECK(p[dof(model, "l.ux")] == doctest::Approx(-2.0 * 0.6 * 2.0 * std::sin(0.5)));
+    CHECK(p[dof(model, "b.uy")] == doctest::Approx(-1.0 * 0.8 * 2.0 * std::sin(0.5)));
+  }
+
   TEST_CASE("dashpots and positions of contacts") {
     const Model model = build_model(good("rest.toml"));
     CHECK(model.contacts[0].normal_damping == 12.5);

@@ -36,7 +36,7 @@ class Dump {
     add(h.offset), add(h.amplitude), add(h.start), add(h.end), add(h.omega), add(h.phase);
     add(h.coefficients), add(h.times), add(h.values), add(h.steffen), add(h.start_given);
   }
-  void add(const Direction& d) { add(d.node), add(d.vector), add(d.dofs); }
+  void add(const Direction& d) { add(d.node), add(d.vector), add(d.dofs), add(d.against); }
   template <class T>
   void add(const std::optional<T>& value) {
     if (value) {
@@ -80,11 +80,13 @@ std::string dump(const Scene& s) {
   dump.line("damping", s.damping.alpha, s.damping.beta, s.damping.alpha_over_omega1);
   dump_structure(dump, s);
   for (const auto& c : s.contacts) {
-    dump.line("contact", c.name, c.law == Law::slider, c.normal, c.tangent, c.gap, c.normal_stiffness,
+    dump.line("contact", c.name, static_cast<int>(c.law), c.normal, c.tangent, c.gap, c.normal_stiffness,
               c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
-              c.normal_force, c.surface_velocity, c.initial_shear, c.tangential_damping);
+              c.friction.stribeck_velocity, c.normal_force, c.surface_velocity, c.initial_shear,
+              c.tangential_damping, c.restitution, c.capture_velocity);
   }
   for (const auto& l : s.loads) dump.line("load", l.direction, l.amplitude, l.history);
+  if (s.base_motion) dump.line("base", s.base_motion->direction, s.base_motion->acceleration);
   return dump.text;
 }
 

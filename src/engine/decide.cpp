@@ -187,6 +187,10 @@ bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode&
 struct Decider::Joint {
   bool sliders = false;                ///< sliders that stick rigidly take part
   std::vector<bool> decided, kinetic;  ///< one a contact
+  // What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration
+  // is known only once a state has been tried, so these are found out in the course of a decision.
+  std::vector<bool> stays, rests;  ///< vn, vt count as zero
+  explicit Joint(std::size_t n) : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false) {}
 };
 
 /// Sliders that stick rigidly slip as soon as their slip rate is not zero, after an impact for example.
@@ -227,6 +231,8 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     if (!result.solved) return result.reason;
     instant.u = result.u;
     instant.v = result.v;
+    joint.stays.assign(mode.size(), false);
+    joint.rests.assign(mode.size(), false);
     decision.impact_loss += result.loss;
     decision.impact_surface_work += result.surface_work;
     decision.impact_gains = decision.impact_gains || result.gains;
@@ -236,6 +242,8 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
       sum.hit = sum.hit || result.impulses[c].hit;
       sum.normal += result.impulses[c].normal;
       sum.tangent += result.impulses[c].tangent;
+      sum.rests = result.impulses[c].rests;
+      sum.sticks = result.impulses[c].sticks;
     }
     follow_velocity(instant, after, mode);
   }
@@ -246,18 +254,19 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     const double vn = contact.normal.dot(instant.v);
     double size = 0.0;  // of the velocities whose difference it is
     for (const auto& [dof, factor] : contact.normal.terms) size += std::abs(factor * instant.v[dof]);
-    const bool struck = impact && decision.impulses[c].normal > 0.0;
+    const Impulse struck = impact ? decision.impulses[c] : Impulse{};
     const double zero = noise.vn + 64.0 * std::numeric_limits<double>::epsilon() * size +
-                        (struck ? 0.0 : instant.resolution * std::abs(m.an));
-    if (vn > zero) {
+                        (struck.normal > 0.0 ? 0.0 : instant.resolution * std::abs(m.an));
+    if (!struck.rests && !joint.stays[c] && vn > zero) {
       mode[c] = {State::open, 0.0};
       continue;
     }
+    joint.stays[c] = true;
     Participant who{c};
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
     double tangent_size = std::abs(after.surface(c, instant.t, 1));
     for (const auto& [dof, factor] : contact.tangent.terms) tangent_size += std::abs(factor * instant.v[dof]);
-    const bool rests = (!impact && fired(c, Guard::sliding)) ||
+    const bool rests = struck.sticks || joint.rests[c] || (!impact && fired(c, Guard::sliding)) ||
                        std::abs(vt) <= noise.vt +
                                            64.0 * std::numeric_limits<double>::epsilon() * tangent_size +
                                            instant.resolution * std::abs(m.at);
@@ -307,7 +316,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   decision.jumped.assign(count, false);
   decision.crossings.resize(count);
   std::vector<MotionJet> jets;
-  Joint joint{false, std::vector<bool>(count, false), std::vector<bool>(count, false)};
+  Joint joint(count);
 
   // The motion just before, in the old mode under the old forcing.
   if (!evaluate(instant, before, instant.mode, decision, jets)) {
@@ -355,6 +364,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         jointly = true;
         // It was left at its static limit, and that falls.
         if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;
+        if (f.guard == Guard::sliding && joint.decided[f.contact]) joint.rests[f.contact] = true;
       } else {
         mode[f.contact] = next_state(contact, mode[f.contact], f.guard, jets[f.contact]);
       }

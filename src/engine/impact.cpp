@@ -8,6 +8,33 @@
 namespace signorini {
 namespace {
 
+constexpr double at_the_limit =
+    1e-9;                        // of f Pn: an impulse below it sticks, whatever its velocity's rounding
+constexpr double stuck = 1e-12;  // of the velocities before: at the limit, slower than this sticks
+
+/// A velocity that the impact's solution makes zero, or what restitution says.
+struct Fixed {
+  Eigen::Index row;
+  const Combination* form;
+  double value;
+};
+
+/// v with these velocities to the last digit: the solution has them to the rounding of an elimination.
+void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
+  const auto count = static_cast<Eigen::Index>(fixed.size());
+  std::vector<Eigen::Index> rows;
+  for (const Fixed& f : fixed) rows.push_back(f.row);
+  const Eigen::MatrixXd W = d.W(rows, rows), effect = d.effect(Eigen::all, rows);
+  Eigen::VectorXd miss(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Fixed& f = fixed[static_cast<std::size_t>(i)];
+    miss[i] = f.value - f.form->dot(v);
+  }
+  v += effect * W.completeOrthogonalDecomposition().solve(miss);
+  for (const Fixed& f : fixed)  // one degree of freedom: exact
+    if (f.form->terms.size() == 1) v[f.form->terms[0].first] = f.value / f.form->terms[0].second;
+}
+
 /// All that could sticks rigidly let go: only then does the system's matrix say what an impulse does.
 Mode released(const Model& model, Mode mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
@@ -87,17 +114,33 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
   impact.solved = true;
   impact.u = closed(touching, d, u);
   impact.v += d.effect * solution->force;
+  const double size = before.cwiseAbs().maxCoeff();
+  std::vector<Fixed> fixed;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const std::size_t c = touching[static_cast<std::size_t>(i)];
+    const double n = solution->force[2 * i], k = solution->force[2 * i + 1];
+    if (!(n > 0.0)) continue;
+    after[2 * i] = -restitution[i] * std::min(before[2 * i], 0.0);
+    fixed.push_back({2 * i, &model_.contacts[c].normal, after[2 * i]});
+    impact.impulses[c].rests = after[2 * i] == 0.0;
+    if (!model_.contacts[c].has_friction()) continue;
+    const JointItem& item = problem.items[static_cast<std::size_t>(i)];
+    const double f =
+        solution->kinetic[static_cast<std::size_t>(i)] ? item.kinetic_friction : item.static_friction;
+    if (std::abs(k) > f * n * (1.0 - at_the_limit) && std::abs(after[2 * i + 1]) > stuck * size) continue;
+    after[2 * i + 1] = 0.0;
+    fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
+    impact.impulses[c].sticks = true;
+  }
+  settle(d, fixed, impact.v);
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const double n = solution->force[2 * i], k = solution->force[2 * i + 1];
-    impact.impulses[c] = {n > 0.0 && mode[c].state == State::open, n, k};
-    const Contact& contact = model_.contacts[c];
-    if (n > 0.0) {  // its condition holds exactly, not to the roundoff of an elimination
-      after[2 * i] = -restitution[i] * std::min(before[2 * i], 0.0);
-      if (contact.normal.terms.size() == 1)
-        impact.v[contact.normal.terms[0].first] = after[2 * i] / contact.normal.terms[0].second;
-    }
+    Impulse& impulse = impact.impulses[c];
+    impulse.hit = n > 0.0 && mode[c].state == State::open;
+    impulse.normal = n;
+    impulse.tangent = k;
     const double normal = 0.5 * n * (before[2 * i] + after[2 * i]);
     const double tangent = 0.5 * k * (before[2 * i + 1] + after[2 * i + 1]);
     impact.loss -= normal + tangent;

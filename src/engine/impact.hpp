@@ -20,6 +20,7 @@ namespace signorini {
 struct Impulse {
   bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
   double normal = 0.0, tangent = 0.0;
+  bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
 };
 
 struct Impact {

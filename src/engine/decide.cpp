@@ -75,7 +75,8 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
         const double vt = contact.tangent.dot(v) - forcing.surface(c, t, 1);
         double size = std::abs(forcing.surface(c, t, 1));
         for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * v[dof]);
-        if (std::abs(vt) > 8.0 * std::numeric_limits<double>::epsilon() * size)
+        if (std::abs(vt) >
+            8.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, t))
           s.state = vt > 0.0 ? State::slip_plus : State::slip_minus;
       }
     }
@@ -88,6 +89,7 @@ Decider::Decider(const Model& model, Expander& expander, int max_rounds, double 
     : model_(model),
       expander_(expander),
       max_rounds_(max_rounds),
+      capture_velocity_(capture_velocity),
       impacts_(model, expander, capture_velocity) {}
 
 std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
@@ -152,7 +154,8 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_speed * (speed + model_.scales.velocity)) surface_jump = 0.0;
     const bool moves = std::abs(vt) > 64.0 * std::numeric_limits<double>::epsilon() *
-                                          (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump));
+                                              (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
+                                          after.surface_rounding(c, t);
     if (s.state == State::open) {
       s = {at_rest(contact), ut};
       if (contact.has_friction() && !contact.tangential_stiffness && moves)
@@ -193,15 +196,38 @@ struct Decider::Joint {
   explicit Joint(std::size_t n) : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false) {}
 };
 
-/// Sliders that stick rigidly slip as soon as their slip rate is not zero, after an impact for example.
-void Decider::follow_velocity(const Instant& instant, const Forcing& after, Mode& mode) const {
+/// The rounding of t.v less the velocity of the surface.
+double Decider::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
+  double size = std::abs(forcing.surface(c, instant.t, 1));
+  for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
+    size += std::abs(factor * instant.v[dof]);
+  return 64.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, instant.t);
+}
+
+/// g' from which on a contact with g = 0 leaves. Slower, and pulled back, it stays: its flight would be
+/// shorter than the clock resolves, lower than the rounding of its gap, or a rebound below capture_velocity.
+double Decider::leaving_velocity(std::size_t c, const MotionJet& free, const Instant& instant) const {
+  const Contact& contact = model_.contacts[c];
+  double size = 0.0;
+  for (const auto& [dof, factor] : contact.normal.terms) size += std::abs(factor * instant.v[dof]);
+  const double rounding = free.noise[0].vn + 64.0 * std::numeric_limits<double>::epsilon() * size;
+  const double pull = -free.motion[0].an;
+  if (!(pull > 0.0)) return rounding;
+  return rounding + std::max({instant.resolution * pull, std::sqrt(2.0 * pull * free.noise[0].gap),
+                              contact.capture_velocity.value_or(capture_velocity_)});
+}
+
+/// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
+/// lets N jump, T stays continuous: the element sticks at it unless its limit has fallen below.
+void Decider::follow_velocity(const Instant& instant, const Forcing& after,
+                              const std::vector<ContactMotion>& before, Mode& mode) const {
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
+    if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
+      mode[c] = {State::stick, before[c].ut - before[c].T / *contact.tangential_stiffness};
     if (contact.law != Law::slider || !contact.sticks_rigidly() || mode[c].state == State::open) continue;
-    double size = std::abs(after.surface(c, instant.t, 1));
-    for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * instant.v[dof]);
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
-    if (std::abs(vt) > 64.0 * std::numeric_limits<double>::epsilon() * size)
+    if (std::abs(vt) > rounding_of_slide(c, after, instant))
       mode[c].state = vt > 0.0 ? State::slip_plus : State::slip_minus;
   }
 }
@@ -216,6 +242,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
+  const Mode old = mode;
   std::vector<std::size_t> touching;
   bool impact = false;
   for (std::size_t c = 0; c < mode.size(); ++c) {
@@ -245,34 +272,27 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
       sum.rests = result.impulses[c].rests;
       sum.sticks = result.impulses[c].sticks;
     }
-    follow_velocity(instant, after, mode);
+    follow_velocity(instant, after, decision.before, mode);
   }
+  // Without forces at all that touch: how fast each is pulled back.
+  for (const std::size_t c : touching) mode[c] = {State::open, 0.0};
+  if (!expander_.set(mode)) return "the equations of motion without rigid contacts are singular";
+  std::vector<MotionJet> free;
+  (void)expander_.expand(after, instant.t, instant.u, instant.v, free);
   std::vector<Participant> participants;
   for (const std::size_t c : touching) {
     const Contact& contact = model_.contacts[c];
-    const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
-    const double vn = contact.normal.dot(instant.v);
-    double size = 0.0;  // of the velocities whose difference it is
-    for (const auto& [dof, factor] : contact.normal.terms) size += std::abs(factor * instant.v[dof]);
+    const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
     const Impulse struck = impact ? decision.impulses[c] : Impulse{};
-    const double zero = noise.vn + 64.0 * std::numeric_limits<double>::epsilon() * size +
-                        (struck.normal > 0.0 ? 0.0 : instant.resolution * std::abs(m.an));
-    if (!struck.rests && !joint.stays[c] && vn > zero) {
-      mode[c] = {State::open, 0.0};
-      continue;
-    }
+    if (!struck.rests && !joint.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
     joint.stays[c] = true;
+    const double zero = noise.vt + rounding_of_slide(c, after, instant) + instant.resolution * std::abs(m.at);
+    const bool rests =
+        struck.sticks || joint.rests[c] || (!impact && fired(c, Guard::sliding)) || std::abs(m.vt) <= zero;
     Participant who{c};
-    const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
-    double tangent_size = std::abs(after.surface(c, instant.t, 1));
-    for (const auto& [dof, factor] : contact.tangent.terms) tangent_size += std::abs(factor * instant.v[dof]);
-    const bool rests = struck.sticks || joint.rests[c] || (!impact && fired(c, Guard::sliding)) ||
-                       std::abs(vt) <= noise.vt +
-                                           64.0 * std::numeric_limits<double>::epsilon() * tangent_size +
-                                           instant.resolution * std::abs(m.at);
     who.slipping = contact.has_friction() && !rests;
-    who.sign = vt > 0.0 ? 1 : -1;
-    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(vt));
+    who.sign = m.vt > 0.0 ? 1 : -1;
+    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
@@ -284,8 +304,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
-  const Mode old = mode;
-  std::string reason = JointDecision(model_, expander_).decide(instant, after, participants, mode);
+  std::string reason = JointDecision(model_, expander_).decide(instant, after, participants, old, mode);
   for (const Participant& who : participants) {
     joint.decided[who.contact] = true;
     if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
@@ -364,7 +383,9 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         jointly = true;
         // It was left at its static limit, and that falls.
         if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;
-        if (f.guard == Guard::sliding && joint.decided[f.contact]) joint.rests[f.contact] = true;
+        if (f.guard == Guard::sliding && joint.decided[f.contact] &&
+            starts_at_zero(f.form, jets[f.contact], instant.resolution))
+          joint.rests[f.contact] = true;
       } else {
         mode[f.contact] = next_state(contact, mode[f.contact], f.guard, jets[f.contact]);
       }

@@ -97,7 +97,12 @@ class Decider {
   [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
                                            Decision& decision, const std::vector<MotionJet>& jets,
                                            Mode& mode) const;
-  void follow_velocity(const Instant& instant, const Forcing& after, Mode& mode) const;
+  void follow_velocity(const Instant& instant, const Forcing& after, const std::vector<ContactMotion>& before,
+                       Mode& mode) const;
+  [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
+                                         const Instant& instant) const;
+  [[nodiscard]] double leaving_velocity(std::size_t contact, const MotionJet& free,
+                                        const Instant& instant) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, double t, const Vector& u,
                                               const Vector& v) const;
   [[nodiscard]] std::string describe(const std::vector<Failure>& failures) const;
@@ -105,6 +110,7 @@ class Decider {
   const Model& model_;
   Expander& expander_;
   int max_rounds_;
+  double capture_velocity_;
   Impacts impacts_;
 };
 

@@ -28,6 +28,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
                          double t_end)
     : model_(model),
       structure_(structure),
+      expander_(expander),
       taylor_(expander.taylor()),
       t_end_(t_end),
       norm_(model),
@@ -302,6 +303,8 @@ Step ExactEngine::advance() {
   turns_.find(contacts_, series_, x);
   evaluate_at(x, end_);  // sharper than at the rounded time
   t_ = end;
+  // Roundoff in g'' adds up twice over a long phase.
+  expander_.hold(*segment_.forcing, t_, segment_.decision->mode, end_.u, end_.v);
   return step_;
 }
 

@@ -54,6 +54,7 @@ class ExactEngine final : public Stepper {
 
   const Model& model_;
   const Structure& structure_;
+  const Expander& expander_;
   Taylor& taylor_;
   const double t_end_;
   FlowNorm norm_;

@@ -1,5 +1,7 @@
 #include "engine/forcing.hpp"
 
+#include "model/history_internal.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +45,10 @@ Forcing::Forcing(const Model& model, double t, Side side)
   loaded_ = !varying_.empty() || !constant_.isZero(0.0);
 }
 
+double Forcing::surface_rounding(std::size_t k, double t) const {
+  return moves_[k] ? roundoff_of_rate(*surface_[k], t) : 0.0;
+}
+
 void Forcing::add_load(double t, int order, double* P) const {
   if (order == 0)
     for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += constant_[i];
@@ -64,6 +70,8 @@ void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& o
   out.loads.resize(varying_.size() * count);
   out.pressing.assign(pressing_.size() * count, 0.0);
   out.surface.assign(surface_.size() * count, 0.0);
+  out.rounding.resize(surface_.size());
+  for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
   for (std::size_t i = 0; i < varying_.size(); ++i)
     varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
   for (std::size_t k = 0; k < pressing_.size(); ++k) {

@@ -16,6 +16,7 @@ enum class Side { before, after };
 struct ForcingSeries {
   std::size_t count = 0;
   std::vector<double> loads, pressing, surface;
+  std::vector<double> rounding;  ///< of each surface's velocity
 };
 
 class Forcing {
@@ -53,6 +54,8 @@ class Forcing {
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
     return order > 0 && !moves_[k] ? 0.0 : surface_[k]->value(t, order);
   }
+  /// Rounding of the surface velocity at t.
+  [[nodiscard]] double surface_rounding(std::size_t k, double t) const;
   /// True while the compression of slider k is zero over an interval.
   [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }
 

@@ -8,9 +8,10 @@
 namespace signorini {
 namespace {
 
-constexpr double at_the_limit =
-    1e-9;                        // of f Pn: an impulse below it sticks, whatever its velocity's rounding
-constexpr double stuck = 1e-12;  // of the velocities before: at the limit, slower than this sticks
+// Of the velocities before: slower than this an impulse leaves rest, or, where it is clearly inside its cone,
+// what the rounding of an elimination makes of rest.
+constexpr double at_rest = 1e-12, rounded_rest = 1e-9;
+constexpr double inside_cone = 1.0 - 1e-6;
 
 /// A velocity that the impact's solution makes zero, or what restitution says.
 struct Fixed {
@@ -127,7 +128,8 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     const JointItem& item = problem.items[static_cast<std::size_t>(i)];
     const double f =
         solution->kinetic[static_cast<std::size_t>(i)] ? item.kinetic_friction : item.static_friction;
-    if (std::abs(k) > f * n * (1.0 - at_the_limit) && std::abs(after[2 * i + 1]) > stuck * size) continue;
+    const double slip = std::abs(after[2 * i + 1]);
+    if (slip > at_rest * size && (slip > rounded_rest * size || std::abs(k) > inside_cone * f * n)) continue;
     after[2 * i + 1] = 0.0;
     fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
     impact.impulses[c].sticks = true;

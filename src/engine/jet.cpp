@@ -118,7 +118,7 @@ void Expander::motions(std::vector<MotionJet>& result) const {
       d.gap = noise(a.gap[k], b.gap[k], terms.gap);
       d.ut = noise(a.ut[k], b.ut[k], terms.ut);
       d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
-      d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt);
+      d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
       d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
       d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
       d.pressing = noise_factor * epsilon * terms.pressing;

@@ -62,9 +62,9 @@ std::string JointDecision::refusal(const JointProblem& problem, const std::vecto
 }
 
 std::string JointDecision::decide(const Instant& instant, const Forcing& forcing,
-                                  const std::vector<Participant>& participants, Mode& mode) const {
+                                  const std::vector<Participant>& participants, const Mode& old,
+                                  Mode& mode) const {
   std::vector<Entry> entries;
-  const Mode old = mode;
   for (const Participant& who : participants) {
     entries.push_back({who});
     mode[who.contact] = {State::open, 0.0};
@@ -104,8 +104,16 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
     problem.W = delassus(model_, expander_, contacts).W;
     const auto solution = solve(problem);
     if (!solution) return refusal(problem, contacts, false);
-    if (undecided.size() <= most_compared && may_have_many(problem) && all_solutions(problem).size() > 1)
-      return refusal(problem, contacts, true);
+    if (undecided.size() <= most_compared && may_have_many(problem)) {
+      // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
+      JointProblem settled = problem;
+      for (std::size_t i = 0; i < settled.items.size(); ++i) {
+        JointItem& item = settled.items[i];
+        (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
+            solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+      }
+      if (all_solutions(settled).size() > 1) return refusal(problem, contacts, true);
+    }
 
     // The noise of each entry in units that make the diagonal of W one; all are coupled.
     double level = 0.0;

@@ -35,9 +35,11 @@ class JointDecision {
  public:
   JointDecision(const Model& model, Expander& expander) : model_(model), expander_(expander) {}
 
-  /// Changes the states of the participants in `mode`. Returns an empty text, or why there are none.
+  /// Changes the states of the participants, open in `mode`; old: what they were. Returns an empty text, or
+  /// why there are none.
   [[nodiscard]] std::string decide(const Instant& instant, const Forcing& forcing,
-                                   const std::vector<Participant>& participants, Mode& mode) const;
+                                   const std::vector<Participant>& participants, const Mode& old,
+                                   Mode& mode) const;
 
  private:
   enum class Standing : unsigned char { apex, limit, decided };

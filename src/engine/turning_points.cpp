@@ -15,6 +15,9 @@ void TurningPoints::start(const Decision& decision) {
     const std::array<double, 4> now{m.N, m.T, m.gap, decision.slides_after[c].ut};
     for (std::size_t i = 0; i < now.size(); ++i) {
       Range& range = ranges_[watched.size() * c + i];
+      // Each landing has a peak of its own.
+      const bool lands = watched[i] == ContactSeries::N && began_ && decision.before[c].N == 0.0;
+      if (lands) range = {now[i], now[i]};
       range.least = began_ ? std::min(range.least, now[i]) : now[i];
       range.greatest = began_ ? std::max(range.greatest, now[i]) : now[i];
     }

@@ -101,6 +101,15 @@ double roundoff(const Piece& piece, double t) {
          (size + (std::abs(t) + std::abs(piece.origin)) * slope);
 }
 
+double roundoff_of_rate(const Piece& piece, double t) {
+  const double s = std::abs(t - piece.origin);
+  double size = 0.0, power = 1.0;
+  for (std::size_t j = 1; j < piece.coefficients.size(); ++j, power *= s)
+    size += static_cast<double>(j) * std::abs(piece.coefficients[j]) * power;
+  size += std::abs(piece.amplitude * piece.omega) * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
+  return 64.0 * std::numeric_limits<double>::epsilon() * size;
+}
+
 History::History(std::vector<double> starts, std::vector<Piece> pieces)
     : starts_(std::move(starts)), pieces_(std::move(pieces)) {
   if (pieces_.size() != starts_.size() + 1)

@@ -13,6 +13,8 @@ namespace signorini {
 
 /// Bound on the roundoff of evaluating the piece at t; units of f.
 [[nodiscard]] double roundoff(const Piece& piece, double t);
+/// The same of its first derivative.
+[[nodiscard]] double roundoff_of_rate(const Piece& piece, double t);
 
 /// An upper estimate of max |f| on [0, t_end]: exact for constants, lines, steps and pulses, sampled
 /// otherwise. Units of f.

@@ -80,6 +80,23 @@ double answer_to_loads(const Model& model, const DofMap& map, const Holding& hol
   return result;
 }
 
+/// How far the loads could throw the structure in the time of the run if nothing held it.
+double thrown(const Model& model, const DofMap& map, double t_end) {
+  SparseMatrix mass = model.mass;
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless) mass.coeffRef(i, i) = 1.0;
+  const SymmetricSolver solver(mass);
+  double acceleration = 0.0;
+  for (const Load& load : model.loads) {
+    Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
+    for (int i = 0; i < model.size(); ++i)
+      if (model.dofs[static_cast<std::size_t>(i)].massless) p[i] = 0.0;
+    acceleration += greatest_translation(solver.solve(p), map);
+  }
+  return greatest_translation(model.u0, map) + greatest_translation(model.v0, map) * t_end +
+         0.5 * acceleration * t_end * t_end;
+}
+
 /// What the force does to the softest spring that there is.
 double spring_answer(const Model& model, double force) {
   double softest = 0.0;
@@ -122,6 +139,9 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   double displacement = greatest_translation(model.u0, map);
   const double held = answer_to_loads(model, map, holding, t_end);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end));
+  // A free motion that is held by roundoff alone, or hardly, answers without bound.
+  if (const double farthest = thrown(model, map, t_end); usable(farthest))
+    displacement = std::min(displacement, farthest);
   if (!usable(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))

@@ -234,7 +234,8 @@ void Decider::follow_velocity(const Instant& instant, const Forcing& after,
 
 /// Impacts where there are any, then the states. Returns why it cannot, or nothing.
 std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
-                                    const std::vector<MotionJet>& jets, Mode& mode) const {
+                                    const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
+                                    Mode& mode) const {
   const auto fired = [&](std::size_t c, Guard guard) {
     return std::any_of(instant.fired.begin(), instant.fired.end(),
                        [&](const Fired& f) { return f.contact == c && f.guard == guard; });
@@ -244,15 +245,22 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   };
   const Mode old = mode;
   std::vector<std::size_t> touching;
-  bool impact = false;
+  bool impact = false, apart = false;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     if (model_.contacts[c].law != Law::rigid) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
-    if (mode[c].state == State::open && !fired(c, Guard::closing) && !is_zero(m.gap, noise.gap, m.vn))
+    // One whose gap has become negative touches, too: it fell with others, within the resolution of the
+    // clock.
+    const bool fell =
+        std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
+    if (mode[c].state == State::open && !fired(c, Guard::closing) && !fell &&
+        !is_zero(m.gap, noise.gap, m.vn))
       continue;
     touching.push_back(c);
+    apart = apart || m.gap != 0.0;
     impact = impact || (mode[c].state == State::open && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
   }
+  if (apart && !impact) instant.u = impacts_.close(mode, touching, instant.u);
   if (impact) {
     const Impact result = impacts_.solve(after, instant.t, mode, touching, instant.u, instant.v);
     if (!result.solved) return result.reason;
@@ -391,7 +399,8 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
       }
     }
     if (jointly) {
-      if (std::string why = decide_jointly(instant, after, joint, decision, jets, mode); !why.empty()) {
+      if (std::string why = decide_jointly(instant, after, joint, decision, jets, failed, mode);
+          !why.empty()) {
         decision.reason = failed.empty() ? why : fmt::format("{} (after {})", why, describe(failed));
         return decision;
       }

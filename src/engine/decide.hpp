@@ -96,7 +96,7 @@ class Decider {
   struct Joint;  // what is known of the contacts whose forces may jump
   [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
                                            Decision& decision, const std::vector<MotionJet>& jets,
-                                           Mode& mode) const;
+                                           const std::vector<Failure>& failed, Mode& mode) const;
   void follow_velocity(const Instant& instant, const Forcing& after, const std::vector<ContactMotion>& before,
                        Mode& mode) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,

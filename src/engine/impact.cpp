@@ -46,7 +46,6 @@ Mode released(const Model& model, Mode mode) {
 
 }  // namespace
 
-/// u with the gaps of all that touch closed, by the smallest change in the norm of M.
 Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const {
   const auto m = static_cast<Eigen::Index>(touching.size());
   const auto normals = Eigen::seqN(0, m, 2);
@@ -62,6 +61,11 @@ Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus&
     if (const Contact& contact = model_.contacts[c]; contact.normal.terms.size() == 1)
       u[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
   return u;
+}
+
+Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u) const {
+  if (!expander_.set(released(model_, mode))) return u;
+  return closed(touching, delassus(model_, expander_, touching), u);
 }
 
 Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,

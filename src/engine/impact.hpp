@@ -38,6 +38,9 @@ class Impacts {
   Impacts(const Model& model, Expander& expander, double capture_velocity)
       : model_(model), expander_(expander), capture_velocity_(capture_velocity) {}
 
+  /// u with the gaps of all that touch closed, by the smallest change in the norm of M; mode: of all others.
+  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching,
+                             const Vector& u) const;
   /// u, v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
   [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
                              const std::vector<std::size_t>& touching, const Vector& u,

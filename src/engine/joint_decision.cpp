@@ -70,7 +70,11 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
     mode[who.contact] = {State::open, 0.0};
   }
   std::vector<MotionJet> jets;
-  for (std::size_t order = 0; order < MotionJet::orders; ++order) {
+  // An order is solved again as long as it decides somebody: with the great forces in force the small ones
+  // stand out from the rounding.
+  bool again = false;
+  for (std::size_t order = 0; order < MotionJet::orders; order += again ? 0 : 1) {
+    again = false;
     std::vector<std::size_t> undecided, contacts;  // entries, and their contacts
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (entries[i].standing != Standing::decided) {
@@ -138,12 +142,14 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
         else if (is_zero_response(t))
           continue;  // still at its limit
         entry.standing = Standing::decided;
+        again = true;
         continue;
       }
       const bool presses = item.kind == Kind::pressed || solution->force[n] > zero_force(n);
       if (!presses) {
         if (!is_zero_response(n)) {
           entry.standing = Standing::decided;  // open
+          again = true;
         } else if (item.kind == Kind::frictional && !is_zero_response(t)) {
           entry.who.slipping = true;
           entry.who.sign = sign_of(rt);
@@ -151,6 +157,7 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
         continue;
       }
       entry.standing = Standing::decided;
+      again = true;
       if (item.kind == Kind::normal) {
         state.state = State::closed;
       } else if (item.kind == Kind::sliding) {

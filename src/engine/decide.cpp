@@ -232,6 +232,24 @@ void Decider::follow_velocity(const Instant& instant, const Forcing& after,
   }
 }
 
+/// What counts as zero becomes zero, for all contacts at once: setting one to zero moves the others.
+void Decider::settle_resting(Instant& instant, const Forcing& forcing,
+                             const std::vector<std::size_t>& touching,
+                             const std::vector<Participant>& participants) const {
+  std::vector<Fixed> fixed;
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    const Contact& contact = model_.contacts[touching[i]];
+    const auto who = std::find_if(participants.begin(), participants.end(),
+                                  [&](const Participant& p) { return p.contact == touching[i]; });
+    if (who == participants.end()) continue;
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    fixed.push_back({row, &contact.normal, 0.0});
+    if (contact.has_friction() && !who->slipping)
+      fixed.push_back({row + 1, &contact.tangent, forcing.surface(touching[i], instant.t, 1)});
+  }
+  settle(delassus(model_, expander_, touching), fixed, instant.v);
+}
+
 /// Impacts where there are any, then the states. Returns why it cannot, or nothing.
 std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
                                     const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
@@ -304,6 +322,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
+  settle_resting(instant, after, touching, participants);
   for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     if (contact.law != Law::slider || !contact.sticks_rigidly() || !decision.visited[c]) continue;

@@ -73,6 +73,8 @@ struct Decision {
 [[nodiscard]] Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u,
                               const Vector& v);
 
+struct Participant;  // engine/joint_decision.hpp
+
 class Decider {
  public:
   /// capture_velocity: of rigid contacts that have none of their own.
@@ -99,6 +101,8 @@ class Decider {
                                            const std::vector<Failure>& failed, Mode& mode) const;
   void follow_velocity(const Instant& instant, const Forcing& after, const std::vector<ContactMotion>& before,
                        Mode& mode) const;
+  void settle_resting(Instant& instant, const Forcing& forcing, const std::vector<std::size_t>& touching,
+                      const std::vector<Participant>& participants) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
                                          const Instant& instant) const;
   [[nodiscard]] double leaving_velocity(std::size_t contact, const MotionJet& free,

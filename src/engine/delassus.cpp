@@ -1,5 +1,7 @@
 #include "engine/delassus.hpp"
 
+#include <Eigen/QR>
+
 namespace signorini {
 
 Delassus delassus(const Model& model, const Expander& expander, const std::vector<std::size_t>& contacts) {
@@ -22,6 +24,23 @@ Delassus delassus(const Model& model, const Expander& expander, const std::vecto
     }
   }
   return d;
+}
+
+void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
+  if (fixed.empty()) return;
+  const auto count = static_cast<Eigen::Index>(fixed.size());
+  std::vector<Eigen::Index> rows;
+  for (const Fixed& f : fixed) rows.push_back(f.row);
+  const Eigen::MatrixXd W = d.W(rows, rows), effect = d.effect(Eigen::all, rows);
+  Eigen::VectorXd miss(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Fixed& f = fixed[static_cast<std::size_t>(i)];
+    miss[i] = f.value - f.form->dot(v);
+  }
+  if (miss.isZero(0.0)) return;
+  v += effect * W.completeOrthogonalDecomposition().solve(miss);
+  for (const Fixed& f : fixed)  // one degree of freedom: exact
+    if (f.form->terms.size() == 1) v[f.form->terms[0].first] = f.value / f.form->terms[0].second;
 }
 
 }  // namespace signorini

@@ -17,6 +17,16 @@ struct Delassus {
   Eigen::MatrixXd W;       ///< 2m x 2m
 };
 
+/// A velocity along n or t of one of the contacts that is known exactly. row: 2 i, 2 i + 1.
+struct Fixed {
+  Eigen::Index row;
+  const Combination* form;
+  double value;
+};
+/// v with these velocities to the last digit, by the smallest change in the norm of M: what computed v has
+/// them to the rounding of an elimination only.
+void settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
+
 /// In the mode that the expander has in force.
 [[nodiscard]] Delassus delassus(const Model& model, const Expander& expander,
                                 const std::vector<std::size_t>& contacts);

@@ -18,7 +18,8 @@ constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
 constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
-constexpr double most_cancelled = 0.9;  // greatest later term over the greatest first one
+constexpr double flights_a_step = 3.0;
+constexpr double most_cancelled = 0.9;            // greatest later term over the greatest first one
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr int most_touches = 5;                   // warnings about one and the same thing
 
@@ -81,7 +82,7 @@ void ExactEngine::start(const Segment& segment) {
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
-  last_ = 0.0;
+  last_ = first_step();
   polynomial_ = segment.forcing->greatest_degree();
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
@@ -98,6 +99,22 @@ void ExactEngine::start(const Segment& segment) {
   }
   turns_.start(decision);
   ++counters.restarts;
+}
+
+/// A first step of a few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
+/// gap grows with the whole step's motion, and must stay small beside the flight's height.
+double ExactEngine::first_step() const {
+  const Decision& decision = *segment_.decision;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < decision.mode.size(); ++c) {
+    const ContactMotion& m = decision.after[c];
+    if (model_.contacts[c].law != Law::rigid || decision.mode[c].state != State::open || !(m.an < 0.0))
+      continue;
+    const double height = std::max(m.gap, 0.0);
+    shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
+  }
+  if (!std::isfinite(shortest) || !(shortest > 0.0)) return 0.0;
+  return flights_a_step * shortest;
 }
 
 /// Weights of the degrees of freedom from their own motion, so that each keeps its digits.

@@ -43,6 +43,7 @@ class ExactEngine final : public Stepper {
   };
 
   [[nodiscard]] double growth_of(const Mode& mode);
+  [[nodiscard]] double first_step() const;
   void weigh();
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;

@@ -13,29 +13,6 @@ namespace {
 constexpr double at_rest = 1e-12, rounded_rest = 1e-9;
 constexpr double inside_cone = 1.0 - 1e-6;
 
-/// A velocity that the impact's solution makes zero, or what restitution says.
-struct Fixed {
-  Eigen::Index row;
-  const Combination* form;
-  double value;
-};
-
-/// v with these velocities to the last digit: the solution has them to the rounding of an elimination.
-void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
-  const auto count = static_cast<Eigen::Index>(fixed.size());
-  std::vector<Eigen::Index> rows;
-  for (const Fixed& f : fixed) rows.push_back(f.row);
-  const Eigen::MatrixXd W = d.W(rows, rows), effect = d.effect(Eigen::all, rows);
-  Eigen::VectorXd miss(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Fixed& f = fixed[static_cast<std::size_t>(i)];
-    miss[i] = f.value - f.form->dot(v);
-  }
-  v += effect * W.completeOrthogonalDecomposition().solve(miss);
-  for (const Fixed& f : fixed)  // one degree of freedom: exact
-    if (f.form->terms.size() == 1) v[f.form->terms[0].first] = f.value / f.form->terms[0].second;
-}
-
 /// All that could sticks rigidly let go: only then does the system's matrix say what an impulse does.
 Mode released(const Model& model, Mode mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +12,51 @@ namespace {
 using Kind = JointItem::Kind;
 
 constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
-constexpr double noise_of_solution = 4.0;  // over that of its right side, in units of the problem
+constexpr double noise_of_solution = 2.0;  // over that which its right side passes on
 
 State slip(int sign) { return sign > 0 ? State::slip_plus : State::slip_minus; }
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
+
+/// What noise in b makes of forces and responses, with the solution's own contacts in force.
+struct Noise {
+  Eigen::VectorXd force, response;
+};
+
+Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::VectorXd& noise) {
+  const Eigen::Index n = noise.size();
+  // Columns: forces that answer to a response of zero; a slipping contact's k goes with its l.
+  std::vector<Eigen::Index> rows;
+  Eigen::MatrixXd columns(n, 0);
+  const auto answer = [&](Eigen::Index row, const Eigen::VectorXd& column) {
+    rows.push_back(row);
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols(1) = column;
+  };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const JointItem& item = p.items[i];
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    const double l = s.force[row], k = s.force[row + 1];
+    const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
+    const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
+    const bool sticks = item.kind == Kind::limit     ? k != 0.0
+                        : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
+                                                     : item.kind == Kind::frictional && std::abs(k) < f * l;
+    if (presses) answer(row, p.W.col(row) + (sticks ? 0.0 : k / l) * p.W.col(row + 1));
+    if (sticks) answer(row + 1, p.W.col(row + 1));
+  }
+  // At least what a contact alone would make of it.
+  Noise result{Eigen::VectorXd::Zero(n), noise};
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (p.W(i, i) > 0.0) result.force[i] = noise[i] / p.W(i, i);
+  if (rows.empty()) return result;
+  const Eigen::MatrixXd inverse =
+      Eigen::MatrixXd(columns(rows, Eigen::all)).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd forces = inverse.cwiseAbs() * noise(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    result.force[rows[i]] = std::max(result.force[rows[i]], forces[static_cast<Eigen::Index>(i)]);
+  result.response += columns.cwiseAbs() * forces;
+  return result;
+}
 
 }  // namespace
 
@@ -119,17 +161,11 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
       if (all_solutions(settled).size() > 1) return refusal(problem, contacts, true);
     }
 
-    // The noise of each entry in units that make the diagonal of W one; all are coupled.
-    double level = 0.0;
-    for (Eigen::Index i = 0; i < size; ++i)
-      if (problem.W(i, i) > 0.0) level = std::max(level, noise[i] / std::sqrt(problem.W(i, i)));
-    level *= noise_of_solution;
+    const Noise passed = pass_on(problem, *solution, noise);
     const auto is_zero_response = [&](Eigen::Index i) {
-      return std::abs(solution->response[i]) <= level * std::sqrt(std::max(problem.W(i, i), 0.0));
+      return std::abs(solution->response[i]) <= noise_of_solution * passed.response[i];
     };
-    const auto zero_force = [&](Eigen::Index i) {
-      return problem.W(i, i) > 0.0 ? level / std::sqrt(problem.W(i, i)) : 0.0;
-    };
+    const auto zero_force = [&](Eigen::Index i) { return noise_of_solution * passed.force[i]; };
     for (std::size_t i = 0; i < undecided.size(); ++i) {
       Entry& entry = entries[undecided[i]];
       const JointItem& item = problem.items[i];

@@ -12,6 +12,7 @@
 namespace signorini {
 namespace {
 
+constexpr double unlucky = 16.0;      // times noise and resolution, where decisions go in circles
 constexpr double same_speed = 1e-12;  // of two pieces of a history where they meet smoothly
 
 struct Sign {
@@ -21,11 +22,11 @@ struct Sign {
 
 /// Sign of the first derivative of the form, from `first` on, that is not zero to working precision. A
 /// derivative also counts as zero when the next one would undo it within the resolution.
-Sign sign_after(const Form& form, const MotionJet& jet, double resolution, std::size_t first) {
+Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double d = k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
-    double zero = form.magnitude(jet.noise[k]);
-    if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
+    double zero = instant.blur * form.magnitude(jet.noise[k]);
+    if (k + 1 < jet.motion.size()) zero += instant.resolution * std::abs(form.rate(jet.motion[k + 1]));
     if (std::abs(d) > zero) return {d > 0.0 ? 1 : -1, static_cast<int>(k)};
   }
   return {0, static_cast<int>(jet.motion.size())};
@@ -38,8 +39,9 @@ Crossing crossing(const Form& form, const MotionJet& jet) {
   return result;
 }
 
-bool starts_at_zero(const Form& form, const MotionJet& jet, double resolution) {
-  const double zero = form.magnitude(jet.noise[0]) + resolution * std::abs(form.rate(jet.motion[1]));
+bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant) {
+  const double zero =
+      instant.blur * form.magnitude(jet.noise[0]) + instant.resolution * std::abs(form.rate(jet.motion[1]));
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
@@ -105,7 +107,7 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
                                [&](const Fired& f) { return f.contact == c && f.guard == guard.kind; });
       // What the integrator located is zero, also where the last rounding leaves it positive.
       const bool is_zero = fired && guard.form.value(jets[c].motion[0]) > 0.0;
-      const Sign sign = sign_after(guard.form, jets[c], instant.resolution, is_zero ? 1 : 0);
+      const Sign sign = sign_after(guard.form, jets[c], instant, is_zero ? 1 : 0);
       // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
       // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
       if (sign.sign >= 0 || sign.order >= order) continue;
@@ -117,8 +119,7 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
     // Friction limit and compression vanish together in a vertical lift-off: one separation.
     if (order > 0 && (failure.guard == Guard::slip_plus || failure.guard == Guard::slip_minus)) {
       const GuardForm separation = guards(model_.contacts[c], mode[c])[0];
-      if (separation.kind == Guard::separation &&
-          starts_at_zero(separation.form, jets[c], instant.resolution) &&
+      if (separation.kind == Guard::separation && starts_at_zero(separation.form, jets[c], instant) &&
           separation.form.rate(jets[c].motion[1]) < 0.0) {
         failure.guard = Guard::separation;
         failure.form = separation.form;
@@ -390,6 +391,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
     return decision;
   }
+  bool blurred = false;
   for (bool open = instant.start;; open = false) {
     const std::vector<Failure> failed = failures(jets, mode, instant, first);
     first = false;
@@ -411,7 +413,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         // It was left at its static limit, and that falls.
         if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;
         if (f.guard == Guard::sliding && joint.decided[f.contact] &&
-            starts_at_zero(f.form, jets[f.contact], instant.resolution))
+            starts_at_zero(f.form, jets[f.contact], instant))
           joint.rests[f.contact] = true;
       } else {
         mode[f.contact] = next_state(contact, mode[f.contact], f.guard, jets[f.contact]);
@@ -426,12 +428,19 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     }
     std::vector<Memory> now = states(mode);
     if (!open && std::find(seen.begin(), seen.end(), now) != seen.end() && decision.impulses.empty()) {
-      if (joint.sliders) {
+      if (!blurred) {  // what is zero was told by one sample of rounding, and by the clock: perhaps too
+                       // sharply
+        blurred = true;
+        instant.blur = unlucky;
+        instant.resolution *= unlucky;
+        seen.clear();
+      } else if (joint.sliders) {
         decision.reason =
             fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
         return decision;
+      } else {
+        joint.sliders = true;
       }
-      joint.sliders = true;
     }
     seen.push_back(std::move(now));
     if (!evaluate(instant, after, mode, decision, jets)) {
@@ -453,9 +462,9 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
-        start.at_zero = starts_at_zero(guard.form, jets[c], instant.resolution);
+        start.at_zero = starts_at_zero(guard.form, jets[c], instant);
         start.noise = guard.form.magnitude(jets[c].noise[0]);
-        const int order = sign_after(guard.form, jets[c], instant.resolution, 0).order;
+        const int order = sign_after(guard.form, jets[c], instant, 0).order;
         start.leading = order < static_cast<int>(jets[c].motion.size()) ? order : -1;
       }
       decision.guards.push_back(std::move(start));

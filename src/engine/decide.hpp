@@ -30,6 +30,7 @@ struct Instant {
   Mode mode;  ///< just before
   std::vector<Fired> fired;
   bool jump = false;   ///< the forcing is not smooth here
+  double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
   bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
 };
 

@@ -138,8 +138,8 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
       const bool last = order + 1 == MotionJet::orders;
       const double an = last ? 0.0 : jet.motion[order + 1].an, at = last ? 0.0 : jet.motion[order + 1].at;
       const auto n = static_cast<Eigen::Index>(2 * i);
-      noise[n] = zero.an + instant.resolution * std::abs(an);
-      noise[n + 1] = zero.at + instant.resolution * std::abs(at);
+      noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
+      noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
       if (std::abs(now.an) > noise[n]) problem.b[n] = now.an;
       if (std::abs(now.at) > noise[n + 1]) problem.b[n + 1] = now.at;
       problem.items.push_back(item_of(entries[undecided[i]], forcing, instant.t));

@@ -58,6 +58,7 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
 constexpr int watched_events = 10000;
 constexpr double least_progress = 1e-5;  // of the run, in so many events
 constexpr double much_energy = 1e-3;     // of what is exchanged, that the balance may miss without a word
+constexpr double least_energy = 1e-9;    // of the scene's scales
 constexpr int most_unordered = 5;        // warnings about one and the same thing
 
 class Run {
@@ -100,7 +101,9 @@ class Run {
     report_.warnings.insert(report_.warnings.end(), stepper_->warnings.begin(), stepper_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
     const Audit& audit = report_.audit;
-    if (audit.energy.value > much_energy * audit.energy_scale)
+    // At rest nothing is exchanged but rounding.
+    const double moving = least_energy * audit.force_scale * audit.length_scale;
+    if (audit.energy.value > much_energy * audit.energy_scale && audit.energy.value > moving)
       report_.warnings.push_back(
           fmt::format("the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use a "
                       "tighter rtol, an atol "

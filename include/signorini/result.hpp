@@ -120,6 +120,7 @@ struct Settings {
          atol_force = 0.0;
   int max_order = 5;
   std::string max_order_reason;
+  double dt = 0.0;  ///< newmark, friction-iteration; else 0
 };
 
 /// Everything about a run but its rows.

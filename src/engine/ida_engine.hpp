@@ -24,7 +24,8 @@ class IdaEngine final : public Stepper {
   void evaluate(double t, Point& point) override { bdf_.evaluate(t, point); }
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override { return bdf_.residual(); }
-  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion) const override;
+  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+                                   std::size_t contact) const override;
 
  private:
   struct Located {

@@ -14,6 +14,7 @@
 #include "engine/clock.hpp"
 #include "engine/exact_engine.hpp"
 #include "engine/ida_engine.hpp"
+#include "engine/newmark_engine.hpp"
 #include "engine/order.hpp"
 #include "engine/tolerance.hpp"
 
@@ -53,6 +54,16 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
   return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
 }
 
+/// Settings of the engines whose steps have a given length.
+void name_fixed_steps(const RunSpec& spec, const char* engine, Settings& settings) {
+  if (!spec.dt)
+    throw SceneError(spec.place, "run.dt", fmt::format("engine \"{}\" needs it: its step", engine));
+  settings.engine = engine;
+  settings.max_order = 2;
+  settings.max_order_reason = "average acceleration";
+  settings.dt = *spec.dt;
+}
+
 constexpr int most_unordered = 5;  // warnings about one and the same thing
 
 class Run {
@@ -74,6 +85,9 @@ class Run {
       report_.settings.max_order = most_levels;
       report_.settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
       stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
+    } else if (spec.engine == Engine::newmark) {
+      name_fixed_steps(spec, "newmark", report_.settings);
+      stepper_ = std::make_unique<NewmarkEngine>(model, structure_, expander_, spec, report_.settings);
     } else {
       report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
@@ -263,7 +277,7 @@ class Run {
     const Crossing& crossing = decision_.crossings[k];
     if (!crossing.failed) return;
     event.guard_rate = crossing.derivatives[0];
-    const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k]));
+    const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k], k));
     double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
     for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
       const auto order = static_cast<double>(m + 1);

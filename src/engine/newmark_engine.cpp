@@ -178,7 +178,7 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
     } else if (w.g1 <= zero) {
       consider(Candidate::Kind::fall, s, GuardPath{w.g0, w.g1}.linear());
     } else if (w.g1 > 0.0) {
-      if (const auto x = path_of(w, h).dip()) consider(Candidate::Kind::dip, s, *x);
+      if (const auto x = path_of(w, h).dip(); x && *x * h > resolution_at(t0_, h)) consider(Candidate::Kind::dip, s, *x);
     }
   }
   return first;
@@ -299,13 +299,16 @@ Step NewmarkEngine::advance() {
   bool event = false;
   for (Candidate c = earliest(h, false, 0); c.kind != Candidate::Kind::none; c = earliest(h, event, slot)) {
     const double longer = h;
+    const bool known = event;
     event = locate(c, h);
     slot = c.slot;
     counted_length_ = 0.0;
-    if (h == longer) continue;
-    t1_ = t0_ + h;
-    if (!take(h, t1_, false, end_)) return failed(singular);
-    weigh(end_, t1_);
+    if (h < longer) {
+      t1_ = t0_ + h;
+      if (!take(h, t1_, false, end_)) return failed(singular);
+      weigh(end_, t1_);
+    }
+    if (known && longer - h <= resolution_at(t1_, h)) break;  // the same instant
   }
   h_ = h;
   ++counters.steps;

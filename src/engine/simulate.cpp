@@ -13,6 +13,7 @@
 #include "engine/audit.hpp"
 #include "engine/clock.hpp"
 #include "engine/exact_engine.hpp"
+#include "engine/friction_iteration.hpp"
 #include "engine/ida_engine.hpp"
 #include "engine/newmark_engine.hpp"
 #include "engine/order.hpp"
@@ -88,6 +89,9 @@ class Run {
     } else if (spec.engine == Engine::newmark) {
       name_fixed_steps(spec, "newmark", report_.settings);
       stepper_ = std::make_unique<NewmarkEngine>(model, structure_, expander_, spec, report_.settings);
+    } else if (spec.engine == Engine::friction_iteration) {
+      name_fixed_steps(spec, "friction-iteration", report_.settings);
+      stepper_ = std::make_unique<FrictionIteration>(model, structure_, expander_, spec);
     } else {
       report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
@@ -163,7 +167,7 @@ class Run {
       }
       t_ = step.end;
       stepper_->evaluate(t_, point_);
-      if (step.kind == Step::Kind::event) return instant(std::move(step.fired));
+      if (step.kind == Step::Kind::event) return instant(std::move(step.fired), std::move(step.adopted));
       auditor_.observe(forcing_, t_, decision_.mode, point_);
       if (audit_due_) {
         auditor_.equilibrium(t_, stepper_->residual());
@@ -175,7 +179,7 @@ class Run {
   }
 
   /// Decides the states at t_, applies and records them.
-  bool instant(std::vector<Fired> fired) {
+  bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt) {
     Instant now;
     now.t = t_;
     now.resolution = resolution_;
@@ -184,7 +188,8 @@ class Run {
     now.mode = decision_.mode;
     now.fired = std::move(fired);
     bool jump = false;
-    while (next_breakpoint_ < breakpoints_.size() &&
+    // States that an engine found itself come first; a breakpoint at the same time is the next instant.
+    while (!adopted && next_breakpoint_ < breakpoints_.size() &&
            breakpoints_[next_breakpoint_].time - t_ <= resolution_) {
       now.jump = true;
       jump = jump || breakpoints_[next_breakpoint_].jump;
@@ -196,7 +201,8 @@ class Run {
     std::optional<Forcing> before;
     if (now.jump) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
-    Decision next = decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
+    Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
+                            : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);

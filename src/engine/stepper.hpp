@@ -6,6 +6,7 @@
 // which the first guard falls, and integrates works over what it has passed.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/decide.hpp"
@@ -26,6 +27,7 @@ struct Step {
   double begin = 0.0, end = 0.0;  ///< end: of the accepted step, or the instant of the event
   double resolution = 0.0;        ///< times closer than this are one instant
   std::vector<Fired> fired;       ///< Kind::event
+  std::optional<Mode> adopted;    ///< Kind::event: states that the engine found itself, instead of `fired`
   std::string reason;             ///< Kind::failed
 };
 

@@ -112,10 +112,17 @@ void NewmarkEngine::weigh(const Point& point, double t) {
   }
 }
 
-GuardPath NewmarkEngine::path_of(const Watched& w, double h) const {
+/// Where a guard that is positive at both ends may fall between them: by its rates there, or by its values
+/// alone, where modes far above the step make the rates useless.
+std::optional<double> NewmarkEngine::dip_of(const Watched& w, double h) const {
+  if (w.dismissed) return std::nullopt;
   GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
-  if (!w.has_rate) rates_from_values(path, h, w.before, h_before_);
-  return path;
+  std::optional<double> x = w.has_rate ? path.dip() : std::nullopt;
+  if (!x) {
+    rates_from_values(path, h, w.before, h_before_);
+    x = path.dip();
+  }
+  return x && *x * h > resolution_at(t0_, h) ? x : std::nullopt;
 }
 
 double NewmarkEngine::value_of(std::size_t slot, double t, const Point& point) const {
@@ -178,7 +185,7 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
     } else if (w.g1 <= zero) {
       consider(Candidate::Kind::fall, s, GuardPath{w.g0, w.g1}.linear());
     } else if (w.g1 > 0.0) {
-      if (const auto x = path_of(w, h).dip(); x && *x * h > resolution_at(t0_, h)) consider(Candidate::Kind::dip, s, *x);
+      if (const auto x = dip_of(w, h)) consider(Candidate::Kind::dip, s, *x);
     }
   }
   return first;
@@ -186,7 +193,7 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
 
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   const std::size_t slot = candidate.slot;
-  const Watched& w = watched_[slot];
+  Watched& w = watched_[slot];
   const double g1 = w.g1;
   switch (candidate.kind) {
     case Candidate::Kind::none:
@@ -200,7 +207,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       ++counters.rolled_back;
       const double g = value_after(slot, x);
       if (g > 0.0) {
-        h = x;
+        w.dismissed = true;
         return false;
       }
       h = linear_ ? x : fall_between(slot, 0.0, w.g0, x, g);
@@ -276,6 +283,7 @@ Step NewmarkEngine::advance() {
     w.before = w.g0;
     w.g0 = w.g1;
     w.rate0 = w.rate1;
+    w.dismissed = false;
   }
   const double remaining = segment_.end - t0_;
   double h = doubling_ ? doubled(remaining) : dt_;
@@ -299,8 +307,8 @@ Step NewmarkEngine::advance() {
   bool event = false;
   for (Candidate c = earliest(h, false, 0); c.kind != Candidate::Kind::none; c = earliest(h, event, slot)) {
     const double longer = h;
-    const bool known = event;
-    event = locate(c, h);
+    if (!locate(c, h)) continue;
+    const bool known = std::exchange(event, true);
     slot = c.slot;
     counted_length_ = 0.0;
     if (h < longer) {
@@ -323,13 +331,28 @@ Step NewmarkEngine::advance() {
   return step;
 }
 
-/// The solution inside the last step: the step redone to t.
+/// Does a guard that holds at both ends fail at t? Where a step is far longer than the periods of the
+/// highest modes, the step redone need not pass where the step itself went.
+bool NewmarkEngine::strays(double t, const Point& point) const {
+  for (std::size_t s = 0; s < watched_.size(); ++s)
+    if (watched_[s].active && value_of(s, t, point) < -watched_[s].level) return true;
+  return false;
+}
+
+/// The solution inside the last step: the step redone to t. Should that stray, the straight line between the
+/// ends, on which every law holds, since all are linear or cones.
 const Point& NewmarkEngine::inside(double t) {
   if (t == t1_) return end_;
   if (t == t0_) return begin_;
   if (t != inner_time_) {
-    (void)take(t - t0_, t, false, inner_);
     inner_time_ = t;
+    if (!take(t - t0_, t, false, inner_) || strays(t, inner_)) {
+      const double x = (t - t0_) / (t1_ - t0_);
+      inner_.u = (1.0 - x) * begin_.u + x * end_.u;
+      inner_.v = (1.0 - x) * begin_.v + x * end_.v;
+      inner_.a = (1.0 - x) * begin_.a + x * end_.a;
+      inner_.forces = (1.0 - x) * begin_.forces + x * end_.forces;
+    }
   }
   return inner_;
 }

@@ -37,6 +37,7 @@ class NewmarkEngine final : public Stepper {
   struct Watched {
     bool active = false, armed = false;
     bool has_rate = false;           // the equations yield its rate
+    bool dismissed = false;          // a dip in this step that the step redone did not confirm
     double noise = 0.0;              // rounding of its value at the start
     double level = 0.0;              // below this its sign at the end of the step is rounding
     double before = 0.0;             // its value at the beginning of the step before
@@ -51,15 +52,16 @@ class NewmarkEngine final : public Stepper {
   };
 
   [[nodiscard]] bool take(double h, double t, bool kept, Point& to);
+  [[nodiscard]] bool strays(double t, const Point& point) const;
   [[nodiscard]] const Point& inside(double t);
   void weigh(const Point& point, double t);
-  [[nodiscard]] GuardPath path_of(const Watched& w, double h) const;
+  [[nodiscard]] std::optional<double> dip_of(const Watched& w, double h) const;
   [[nodiscard]] double value_of(std::size_t slot, double t, const Point& point) const;
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
-  /// Narrows the step to the candidate. True: an event; false: a shorter step without one.
+  /// Narrows the step to the candidate. False: it is none.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool rates_known(std::size_t slot) const;
   [[nodiscard]] double doubled(double remaining);

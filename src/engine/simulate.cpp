@@ -336,9 +336,9 @@ class Run {
   void record_between(double begin, double end) {
     double from = begin;
     const auto integrate_to = [&](double t) {
-      Works works(model_.contacts.size());
-      stepper_->integrate(from, t, works);
-      auditor_.add(works);
+      works_.clear();
+      stepper_->integrate(from, t, works_);
+      auditor_.add(works_);
       from = t;
     };
     for (double t = next_record(); t < end; t = next_record()) {
@@ -368,6 +368,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   Decision decision_;
   Point point_;
+  Works works_{model_.contacts.size()};
   Report report_;
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;

@@ -7,6 +7,6 @@
 namespace signorini::tests {
 
 /// Engines with event localisation, by their names in scene files.
-inline const std::vector<std::string> engines{"ida", "exact"};
+inline const std::vector<std::string> engines{"ida", "exact", "newmark"};
 
 }  // namespace signorini::tests

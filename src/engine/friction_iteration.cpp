@@ -12,16 +12,16 @@ namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double unchanged = 1e-12;    // of the greatest contact force: a bound has stopped changing
-constexpr double rounding = 64.0;      // units of epsilon of the terms of a difference
-constexpr double same_length = 1e-9;   // of dt
-constexpr unsigned char slips = 100;   // key: T is given, whatever its direction
-constexpr unsigned char stops = 101;   // key: comes to rest within the step, without tangential stiffness
+constexpr double unchanged = 1e-12;   // of the greatest contact force: a bound has stopped changing
+constexpr double rounding = 64.0;     // units of epsilon of the terms of a difference
+constexpr double same_length = 1e-9;  // of dt
+constexpr unsigned char slips = 100;  // key: T is given, whatever its direction
+constexpr unsigned char stops = 101;  // key: comes to rest within the step, without tangential stiffness
 
 }  // namespace
 
-FrictionIteration::FrictionIteration(const Model& model, const Structure& structure,
-                                     const Expander& expander, const RunSpec& run)
+FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const Expander& expander,
+                                     const RunSpec& run)
     : model_(model),
       expander_(expander),
       dt_(run.dt.value()),
@@ -100,8 +100,7 @@ State FrictionIteration::state_of(std::size_t k) const {
     return s * (m.ut - m.T / *kt - side.anchor) < -rounding * epsilon * terms ? State::stick : side.state;
   }
   // What slips goes on slipping; what does not is held by static friction.
-  const double friction =
-      slip_sign(mode_[k].state) != 0 ? contact.kinetic_friction : contact.static_friction;
+  const double friction = slip_sign(mode_[k].state) != 0 ? contact.kinetic_friction : contact.static_friction;
   if (std::abs(m.T) <= friction * side.pressed) return State::stick;
   return m.T > 0.0 ? State::slip_plus : State::slip_minus;
 }
@@ -161,9 +160,10 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt or a "
       "relaxation below {} may help",
       most_,
-      switching ? "states still change"
-                : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
-                              change, force > 0.0 ? change / force : 0.0),
+      switching
+          ? "states still change"
+          : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
+                        change, force > 0.0 ? change / force : 0.0),
       what, relaxation_);
 }
 
@@ -208,8 +208,8 @@ Step FrictionIteration::advance() {
   return step;
 }
 
-/// On a straight line between the ends of the step, which keeps |T| <= -f N; forces of a state that is about to
-/// change stay with it.
+/// On a straight line between the ends of the step, which keeps |T| <= -f N; forces of a state that is about
+/// to change stay with it.
 void FrictionIteration::evaluate(double t, Point& point) {
   if (t == t1_ || !(t1_ > t0_)) {
     point = end_;

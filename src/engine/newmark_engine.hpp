@@ -7,9 +7,9 @@
 //   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if it did not fire
 //
 // After an event the next step has the full length again: its factorisation is kept by states and length, so
-// only the modes themselves cost one. Between the ends of a step the solution is the step redone to that time,
-// which satisfies equilibrium and the laws too.
-// Source: Lukashevich et al. 2021, (5) to (11), corrected as docs/theory.md says.
+// only the modes themselves cost one. Between the ends of a step the solution is the step redone to that
+// time, which satisfies equilibrium and the laws too. Source: Lukashevich et al. 2021, (5) to (11), corrected
+// as docs/theory.md says.
 #pragma once
 
 #include "engine/guard_path.hpp"
@@ -36,12 +36,12 @@ class NewmarkEngine final : public Stepper {
  private:
   struct Watched {
     bool active = false, armed = false;
-    bool has_rate = false;           // the equations yield its rate
-    bool dismissed = false;          // a dip in this step that the step redone did not confirm
-    double noise = 0.0;              // rounding of its value at the start
-    double level = 0.0;              // below this its sign at the end of the step is rounding
-    double before = 0.0;             // its value at the beginning of the step before
-    double g0 = 0.0, g1 = 0.0;       // at the ends of the step
+    bool has_rate = false;      // the equations yield its rate
+    bool dismissed = false;     // a dip in this step that the step redone did not confirm
+    double noise = 0.0;         // rounding of its value at the start
+    double level = 0.0;         // below this its sign at the end of the step is rounding
+    double before = 0.0;        // its value at the beginning of the step before
+    double g0 = 0.0, g1 = 0.0;  // at the ends of the step
     double rate0 = 0.0, rate1 = 0.0;
   };
   /// Where a guard falls in the step: not yet located.

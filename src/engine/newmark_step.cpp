@@ -74,9 +74,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < n; ++i) {  // what is known of the motion at t1
     const bool massive = kinds_[i] == Taylor::Kind::massive, damped = kinds_[i] == Taylor::Kind::damped;
-    u_.data()[i] = massive  ? u0[i] + h * (v0[i] + 0.25 * h * a0[i])
-                   : damped ? u0[i] + 0.5 * h * v0[i]
-                            : 0.0;
+    u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
     v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
   }
   // r = P - C v - K u

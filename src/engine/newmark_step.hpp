@@ -52,10 +52,10 @@ class NewmarkStep {
   std::vector<Rows> rows_;
   std::vector<Taylor::Kind> kinds_;
   std::vector<Factored> kept_;
-  Factored odd_;               // for lengths that will not come again
-  Factored* last_ = nullptr;   // what the last step used; null after a change of rows
+  Factored odd_;              // for lengths that will not come again
+  Factored* last_ = nullptr;  // what the last step used; null after a change of rows
   std::vector<Weights> weights_;
-  Vector u_, v_, none_, x_;    // known parts of the motion, the right-hand side and solution
+  Vector u_, v_, none_, x_;  // known parts of the motion, the right-hand side and solution
   long clock_ = 0, solves_ = 0;
 };
 

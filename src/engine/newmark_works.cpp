@@ -19,8 +19,7 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
     const double T0 = a.forces[tangent_force], T1 = b.forces[tangent_force], T = 0.5 * (T0 + T1);
     const double ds = forcing.surface(k, t1, 0) - forcing.surface(k, t0, 0);
     if (mode[k].state != State::open && contact.normal_damping > 0.0)
-      works.damping +=
-          factor * contact.normal_damping * contact.normal.dot(v_) * contact.normal.dot(du_);
+      works.damping += factor * contact.normal_damping * contact.normal.dot(v_) * contact.normal.dot(du_);
     if (mode[k].inside)
       works.damping += factor * inside_loss(contact, contact.gap + contact.normal.dot(a.u),
                                             contact.gap + contact.normal.dot(b.u));

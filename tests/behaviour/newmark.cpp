@@ -1,5 +1,5 @@
-// Engines `newmark` and `friction-iteration`: orders of accuracy against the exact flow, event lists at the steps
-// named here, laws and balances after every step.
+// Engines `newmark` and `friction-iteration`: orders of accuracy against the exact flow, event lists at the
+// steps named here, laws and balances after every step.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -38,15 +38,14 @@ double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
 struct Case {
   const char* name;
-  double dt;      // the list is exact from here on; the order is seen between dt/4 and dt/8
-  double slope;   // friction-iteration: error of displacements, relative, over the step
+  double dt;     // the list is exact from here on; the order is seen between dt/4 and dt/8
+  double slope;  // friction-iteration: error of displacements, relative, over the step
 };
 // 01b needs six steps in its shortest period, 6e-3 s, before its order shows.
-constexpr Case cases[] = {
-    {"01a_coulomb_decay_rigid", 0.08, 1.0}, {"01b_coulomb_decay_compliant", 0.01, 1.0},
-    {"02b_belt_fs_gt_fk", 0.08, 1.0},       {"03b_den_hartog_2stop", 0.08, 1.0},
-    {"05b_two_mass_symmetric", 0.08, 1.0},  {"06_point_compliant_kn1e+06", 4e-4, 100.0},
-    {"08b_lumped_singular_M", 0.01, 20.0}};
+constexpr Case cases[] = {{"01a_coulomb_decay_rigid", 0.08, 1.0}, {"01b_coulomb_decay_compliant", 0.01, 1.0},
+                          {"02b_belt_fs_gt_fk", 0.08, 1.0},       {"03b_den_hartog_2stop", 0.08, 1.0},
+                          {"05b_two_mass_symmetric", 0.08, 1.0},  {"06_point_compliant_kn1e+06", 4e-4, 100.0},
+                          {"08b_lumped_singular_M", 0.01, 20.0}};
 
 /// Outputs within their laws to rounding of the greatest force.
 void check_laws(const Result& result, double friction) {
@@ -70,8 +69,10 @@ TEST_CASE("order two without events") {
       "t_end = 10.0\noutput_dt = 1.0\ninitial = { u = [0.3, 0.1], v = [0.0, 0.4] }",
       "mass = [[1.0, 0.2], [0.2, 2.0]]\ndamping = [[0.1, 0.0], [0.0, 0.1]]\nstiffness = [[3.0, -1.0], [-1.0, "
       "2.0]]",
-      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9\ntangential_stiffness = 7.0",
-      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.0\nhistory = { type = \"harmonic\", omega = 1.3 }\n");
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9\ntangential_stiffness = "
+      "7.0",
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.0\nhistory = { type = \"harmonic\", omega = 1.3 "
+      "}\n");
   const Result exact = run_text(text, "exact");
   std::vector<double> errors;
   for (double dt : {0.04, 0.02, 0.01}) {
@@ -113,9 +114,9 @@ TEST_CASE("05g: 101 events of two masses on sliders with stiffness at dt = 5e-3"
 }
 
 TEST_CASE("asymptotic orders at small steps: at least 1.9 with localised events") {
-  for (const auto& [name, dt] : {std::pair{"01b_coulomb_decay_compliant", 1.25e-3},
-                                 std::pair{"06_point_compliant_kn1e+06", 1e-4},
-                                 std::pair{"03b_den_hartog_2stop", 0.02}}) {
+  for (const auto& [name, dt] :
+       {std::pair{"01b_coulomb_decay_compliant", 1.25e-3}, std::pair{"06_point_compliant_kn1e+06", 1e-4},
+        std::pair{"03b_den_hartog_2stop", 0.02}}) {
     CAPTURE(name);
     const Comparison a = run_case(name, with("newmark", dt)), b = run_case(name, with("newmark", 0.5 * dt));
     CHECK(order(a.displacement, b.displacement) > 1.9);
@@ -158,14 +159,16 @@ TEST_CASE("the pipeline at coarse steps: it never diverges, and begins as it sho
 
 TEST_CASE("two crossings inside one step are seen") {
   // T of a stuck slider follows its load, which exceeds the limit for 0.42 s around t = pi/2.
-  const std::string text = matrix_scene(
-      "t_end = 3.0\noutput_times = [3.0]\ninitial = { u = [0.0], v = [0.0] }",
-      "mass = [[1.0]]\nstiffness = [[100.0]]",
-      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9\ntangential_stiffness = 1e4",
-      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 9.3\nhistory = { type = \"harmonic\", omega = 1.0 }\n");
+  const std::string text =
+      matrix_scene("t_end = 3.0\noutput_times = [3.0]\ninitial = { u = [0.0], v = [0.0] }",
+                   "mass = [[1.0]]\nstiffness = [[100.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = "
+                   "0.9\ntangential_stiffness = 1e4",
+                   "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 9.3\nhistory = { type = \"harmonic\", "
+                   "omega = 1.0 }\n");
   const Result exact = run_text(text, "exact");
   REQUIRE(!exact.events.empty());
-  for (double dt : {0.9, 0.3}) {
+  for (double dt : {0.5, 0.3}) {
     CAPTURE(dt);
     const Scene scene = parse_scene(text, "test.toml", with("newmark", dt));
     const Result result = simulate(build_model(scene), scene.run);
@@ -178,8 +181,8 @@ TEST_CASE("two crossings inside one step are seen") {
 TEST_CASE("step doubling follows the tolerance") {
   std::vector<double> errors;
   for (const char* rtol : {"1e-4", "1e-6", "1e-8"}) {
-    const Comparison c =
-        run_case("03b_den_hartog_2stop", with("newmark", 0.08, {{"run.step", "doubling"}, {"run.rtol", rtol}}));
+    const Comparison c = run_case("03b_den_hartog_2stop",
+                                  with("newmark", 0.08, {{"run.step", "doubling"}, {"run.rtol", rtol}}));
     CHECK(c.agreeing == 32);
     CHECK(c.found == 32);
     errors.push_back(c.displacement);

@@ -36,7 +36,8 @@ void sort_instants(std::vector<Event>& events, double t_end) {
   for (std::size_t i = 0; i < events.size();) {
     std::size_t j = i + 1;
     while (j < events.size() && events[j].t - events[i].t < simultaneous * t_end) ++j;
-    std::sort(events.begin() + static_cast<std::ptrdiff_t>(i), events.begin() + static_cast<std::ptrdiff_t>(j),
+    std::sort(events.begin() + static_cast<std::ptrdiff_t>(i),
+              events.begin() + static_cast<std::ptrdiff_t>(j),
               [](const Event& a, const Event& b) { return a.contact < b.contact; });
     i = j;
   }
@@ -77,15 +78,18 @@ void table(const std::string& scene, const std::vector<Override>& changes, const
     }
     for (std::size_t j = 0; j < std::min(exact.rows.size(), result.rows.size()); ++j)
       row.u_error = std::max(row.u_error, (exact.rows[j].u - result.rows[j].u).cwiseAbs().maxCoeff() / scale);
-    const auto order = [&](double a, double b) { return before.dt > 0.0 && b > 0.0 ? std::log2(a / b) : 0.0; };
+    const auto order = [&](double a, double b) {
+      return before.dt > 0.0 && b > 0.0 ? std::log2(a / b) : 0.0;
+    };
     const Report& report = result.report;
     const auto steps = static_cast<double>(std::max(report.counters.steps, 1L));
-    fmt::print("{:10.3g} {:4}/{:3}/{:3} {:10.3g} {:6.2f} {:10.3g} {:6.2f} {:9.1e} {:9} {:7.2f} {:11.2f}  {}\n", dt,
-               agreeing, found.size(), expected.size(), row.time_error, order(before.time_error, row.time_error),
-               row.u_error, order(before.u_error, row.u_error),
-               report.audit.energy.value / report.audit.energy_scale, report.counters.steps,
-               1e6 * report.wall_time / steps, static_cast<double>(report.counters.solves) / steps,
-               report.outcome.reason);
+    fmt::print(
+        "{:10.3g} {:4}/{:3}/{:3} {:10.3g} {:6.2f} {:10.3g} {:6.2f} {:9.1e} {:9} {:7.2f} {:11.2f}  {}\n", dt,
+        agreeing, found.size(), expected.size(), row.time_error, order(before.time_error, row.time_error),
+        row.u_error, order(before.u_error, row.u_error),
+        report.audit.energy.value / report.audit.energy_scale, report.counters.steps,
+        1e6 * report.wall_time / steps, static_cast<double>(report.counters.solves) / steps,
+        report.outcome.reason);
     before = row;
   }
 }
@@ -104,11 +108,9 @@ int main(int argc, char** argv) {
   }
   const std::string cases = SIGNORINI_CASES "/";
   for (const char* refine : {"root", "linear"})
-    for (const auto& [name, dt, halvings] : {std::tuple{"01a_coulomb_decay_rigid", 0.08, 7},
-                                            std::tuple{"01b_coulomb_decay_compliant", 0.08, 7},
-                                            std::tuple{"02b_belt_fs_gt_fk", 0.08, 7},
-                                            std::tuple{"03b_den_hartog_2stop", 0.08, 7},
-                                            std::tuple{"05b_two_mass_symmetric", 0.08, 7},
-                                            std::tuple{"06_point_compliant_kn1e+06", 8e-4, 7}})
+    for (const auto& [name, dt, halvings] :
+         {std::tuple{"01a_coulomb_decay_rigid", 0.08, 7}, std::tuple{"01b_coulomb_decay_compliant", 0.08, 7},
+          std::tuple{"02b_belt_fs_gt_fk", 0.08, 7}, std::tuple{"03b_den_hartog_2stop", 0.08, 7},
+          std::tuple{"05b_two_mass_symmetric", 0.08, 7}, std::tuple{"06_point_compliant_kn1e+06", 8e-4, 7}})
       table(cases + name + ".toml", {{"run.refine", refine}}, "newmark", dt, halvings);
 }

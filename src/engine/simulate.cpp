@@ -283,7 +283,8 @@ class Run {
     const Crossing& crossing = decision_.crossings[k];
     if (!crossing.failed) return;
     event.guard_rate = crossing.derivatives[0];
-    const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k], k));
+    const double error =
+        std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k], k));
     double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
     for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
       const auto order = static_cast<double>(m + 1);

@@ -44,7 +44,7 @@ class Stepper {
   [[nodiscard]] virtual double residual() = 0;
   /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
   [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion,
-                                   std::size_t contact) const = 0;
+                                           std::size_t contact) const = 0;
 
   /// Times inside the last step where N, T, g or ut of a contact turns beyond all its values before.
   [[nodiscard]] virtual const std::vector<double>& turning_points() const {

@@ -90,10 +90,12 @@ void read_steps(Table& table, RunSpec& run) {
   run.refine = table.choice("refine") == "linear" ? Refine::linear : Refine::root;
   run.step = table.choice("step") == "doubling" ? StepControl::doubling : StepControl::fixed;
   if (run.step == StepControl::doubling && run.engine == Engine::friction_iteration)
-    table.fail("step", "found \"doubling\", which engine \"friction-iteration\" does not have; expected \"fixed\"");
+    table.fail("step",
+               "found \"doubling\", which engine \"friction-iteration\" does not have; expected \"fixed\"");
   run.relaxation = table.number("relaxation");
   if (run.relaxation > 1.0)
-    table.fail("relaxation", fmt::format("found the number {}, expected at most 1", shortest(run.relaxation)));
+    table.fail("relaxation",
+               fmt::format("found the number {}, expected at most 1", shortest(run.relaxation)));
   run.max_iterations = table.integer("max_iterations");
 }
 

@@ -206,7 +206,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       const double x = candidate.x * h;
       ++counters.rolled_back;
       const double g = value_after(slot, x);
-      if (g > 0.0) {
+      if (!(g <= 0.0)) {
         w.dismissed = true;
         return false;
       }
@@ -220,6 +220,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         const double lo = 0.5 * hi;
         if (!(lo > resolution_at(t0_, 0.0))) break;
         const double g = value_after(slot, lo);
+        if (!std::isfinite(g)) break;
         if (g > 0.0) {
           h = linear_ ? hi : fall_between(slot, lo, g, hi, g_hi);
           return true;

@@ -9,6 +9,10 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
+// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; where
+// it closes with g' < 0 it is hit (engine/impact.hpp). Stribeck friction: fk of the slip rate,
+// sliding_friction().
+//
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
 // A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
@@ -62,13 +66,20 @@ struct Contact {
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
   double static_friction = 0.0, kinetic_friction = 0.0;
-  History normal_force;    ///< slider: compression >= 0
-  History surface_motion;  ///< integral of the surface velocity from t = 0
+  std::optional<double> stribeck_velocity;  ///< friction falls from static to kinetic with the slip rate
+  double restitution = 0.0;                 ///< rigid: Newton's coefficient
+  std::optional<double> capture_velocity;   ///< rigid: rebounds slower than this rest; absent: the engine's
+  History normal_force;                     ///< slider: compression >= 0
+  History surface_motion;                   ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
   /// Along which the touching body moves; `tangent` unless there is a shear element.
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
   [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
+  /// Without a spring along the tangent: T may jump, and stick is a row on accelerations.
+  [[nodiscard]] bool sticks_rigidly() const {
+    return has_friction() && law != Law::compliant && !tangential_stiffness && !shear;
+  }
 };
 
 enum class State : unsigned char { open, closed, stick, slip_plus, slip_minus };

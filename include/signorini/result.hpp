@@ -113,11 +113,19 @@ struct Peak {
   double N = 0.0, T = 0.0;                  ///< greatest |N|, |T|
 };
 
+/// One stay of a contact on its ground; a hit that rebounds at once has start = end.
+struct Landing {
+  double start = 0.0, end = 0.0;
+  double impulse = 0.0;     ///< of hits and of -N over the stay, force * time
+  double peak_force = 0.0;  ///< greatest -N
+};
+
 struct Settings {
   std::string engine;
   double rtol = 0.0;
   double atol_displacement = 0.0, atol_rotation = 0.0, atol_velocity = 0.0, atol_angular_velocity = 0.0,
          atol_force = 0.0;
+  double capture_velocity = 0.0;  ///< of rigid contacts that have none of their own
   int max_order = 5;
   std::string max_order_reason;
   double dt = 0.0;  ///< newmark, friction-iteration; else 0
@@ -129,7 +137,8 @@ struct Report {
   Settings settings;
   Counters counters;
   Audit audit;
-  std::vector<Peak> peaks;  ///< one a contact
+  std::vector<Peak> peaks;                     ///< one a contact
+  std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
   std::map<std::string, long> events_by_type;
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration without reading and assembling

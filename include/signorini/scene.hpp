@@ -48,6 +48,8 @@ struct Direction {
   std::array<double, 2> vector{0.0, 0.0};
   std::vector<std::pair<std::string, double>> dofs;
   SourcePlace place;
+  /// Nodes whose displacements, times their weights, are subtracted: what the node touches.
+  std::vector<std::pair<std::string, double>> against = {};
 };
 
 enum class Engine { ida, newmark, friction_iteration, exact };
@@ -151,17 +153,19 @@ struct Support {
   SourcePlace place;
 };
 
-enum class Law { compliant, slider };
+enum class Law { compliant, rigid, slider };
 
 struct FrictionSpec {
   double static_ = 0.0;
   double kinetic = 0.0;
+  /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
+  std::optional<double> stribeck_velocity = {};
 };
 
 struct ContactSpec {
   std::string name;
   Law law = Law::compliant;
-  std::optional<Direction> normal;   ///< compliant; node scenes: unit vector
+  std::optional<Direction> normal;   ///< compliant, rigid; node scenes: unit vector
   std::optional<Direction> tangent;  ///< node scenes with a normal: (ny, -nx)
   double gap = 0.0;
   double normal_stiffness = 0.0;
@@ -172,6 +176,15 @@ struct ContactSpec {
   HistorySpec normal_force;      ///< slider: compression, positive
   HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
+  double restitution = 0.0;                ///< rigid: Newton's coefficient, 0 to 1
+  std::optional<double> capture_velocity;  ///< rigid: slower rebounds rest; absent: from the tolerances
+  SourcePlace place;
+};
+
+/// Ground acceleration along a direction; displacements are relative to the base. The load is -M r a(t).
+struct BaseMotionSpec {
+  Direction direction;  ///< r: of all nodes alike (its node is empty), or by degree of freedom
+  HistorySpec acceleration;
   SourcePlace place;
 };
 
@@ -214,6 +227,7 @@ struct Scene {
   std::vector<Support> supports;
   std::vector<ContactSpec> contacts;
   std::vector<LoadSpec> loads;
+  std::optional<BaseMotionSpec> base_motion;
   std::optional<MatricesSpec> matrices;
   std::string resolved;  ///< the same scene as TOML with every default filled in (run.toml)
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/table.hpp"
@@ -63,6 +64,9 @@ std::string audit_table(const Model& model, const Audit& a) {
   add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
   add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
   add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
+  if (std::any_of(model.contacts.begin(), model.contacts.end(),
+                  [](const Contact& c) { return c.law == Law::rigid; }))
+    add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
   add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
   add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
               energy + "/" + model.units.time);

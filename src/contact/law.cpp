@@ -1,5 +1,7 @@
 #include "contact/law.hpp"
 
+#include <cmath>
+
 namespace signorini {
 
 const char* to_string(State state) {
@@ -42,6 +44,8 @@ const char* to_string(Law law) {
   switch (law) {
     case Law::compliant:
       return "compliant";
+    case Law::rigid:
+      return "rigid";
     case Law::slider:
       return "slider";
   }
@@ -49,6 +53,17 @@ const char* to_string(Law law) {
 }
 
 int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
+
+double sliding_friction(const Contact& contact, double along) {
+  if (!contact.stribeck_velocity) return contact.kinetic_friction;
+  return contact.kinetic_friction +
+         (contact.static_friction - contact.kinetic_friction) * std::exp(-along / *contact.stribeck_velocity);
+}
+
+double sliding_friction_slope(const Contact& contact, double along) {
+  if (!contact.stribeck_velocity) return 0.0;
+  return (contact.kinetic_friction - sliding_friction(contact, along)) / *contact.stribeck_velocity;
+}
 
 Form slip_rate(const Contact& contact, int s) {
   Form form;
@@ -70,6 +85,9 @@ Rows rows(const Contact& contact, const ContactState& state) {
   result.tangent.T = 1.0;
   if (contact.law == Law::slider) {
     result.normal.pressing = 1.0;
+  } else if (state.state != State::open && contact.law == Law::rigid) {
+    result.normal.N = 0.0;
+    result.normal.an = 1.0;
   } else if (state.state != State::open) {
     result.normal.gap = -contact.normal_stiffness;
     result.normal.vn = -contact.normal_damping;

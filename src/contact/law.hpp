@@ -2,6 +2,7 @@
 //
 //   law        open            closed, stick, slip: normal   stick                        slip s
 //   compliant  N = 0, T = 0    N - kn g = 0                  T - kt (ut - p) = 0          T + s fk N = 0
+//   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
 //   with a shear element, whose sliding point has no mass:   p' = 0                       T + s fk N = 0
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
@@ -14,7 +15,8 @@
 //              slip s  -N, s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
-//              p' = ut'                         slider without kt, and the sliding point of a shear element
+//              p' = ut'                         rigid, slider without kt, and the sliding point of a shear
+//              element
 //
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.
@@ -48,6 +50,10 @@ struct Rows {
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
 [[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
                                                                const ContactState& state);
+/// Coefficient of friction at a slip rate along the slip, s p': f = fk + (fs - fk) exp(-s p' / v_s), fk
+/// without Stribeck's law; smooth past zero. And its derivative by the rate.
+[[nodiscard]] double sliding_friction(const Contact& contact, double along);
+[[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
 

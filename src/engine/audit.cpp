@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/law.hpp"
+
 namespace signorini {
 namespace {
 
@@ -24,9 +26,11 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       structure_(structure),
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
+      landings_(model),
       massless_(moves_at_once(model)) {}
 
 void Auditor::add(const Works& works) {
+  landings_.add(works);
   work_.loads += works.loads;
   work_.damping += works.damping;
   for (std::size_t k = 0; k < friction_.size(); ++k) {
@@ -36,11 +40,15 @@ void Auditor::add(const Works& works) {
   }
 }
 
-void Auditor::begin(const Decision& decision, const Forcing& forcing) {
+void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& forcing) {
   const Point point{decision.u, decision.v, decision.jet.forces.col(0)};
   for (std::size_t k = 0; k < peaks_.size(); ++k)
     at_start_.push_back({model_.contacts[k].normal.dot(point.u),
                          slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
+  landings_.begin(decision.jet.t, first);
+  landings_.instant(decision.jet.t, decision, first);
+  work_.impact += decision.impact_loss;
+  work_.surface += decision.impact_surface_work;
   audit_.initial = energy(decision.jet.t, decision.mode, point);
   begun_ = true;
 }
@@ -56,6 +64,7 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
     peak.vertical = std::max(peak.vertical, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
     peak.N = std::max(peak.N, std::abs(m.N));
     peak.T = std::max(peak.T, std::abs(m.T));
+    landings_.observe(k, m.N);
 
     raise(audit_.tension, m.N, t, index);
     if (contact.law == Law::compliant) {
@@ -68,8 +77,13 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
       raise(audit_.gap, -gap, t, index);
       raise(audit_.product, std::abs(gap * m.N), t, index);
     }
+    if (contact.law == Law::rigid) {
+      const bool closed = mode[k].state != State::open;
+      raise(audit_.penetration, closed ? std::abs(m.gap) : -m.gap, t, index);
+      raise(audit_.product, std::abs(m.gap * m.N), t, index);
+    }
     const int s = slip_sign(mode[k].state);
-    const double friction = s == 0 ? contact.static_friction : contact.kinetic_friction;
+    const double friction = s == 0 ? contact.static_friction : sliding_friction(contact, s * m.vt);
     if (mode[k].state != State::open) raise(audit_.friction, std::abs(m.T) + friction * m.N, t, index);
     if (s != 0) raise(audit_.direction, -m.T * slip_rate(contact, s).value(m), t, index);
   }
@@ -77,10 +91,16 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
-void Auditor::instant(const Decision& decision, const Mode& old_mode, const Point& before, bool load_jumps) {
+void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
+                      bool load_jumps) {
+  landings_.instant(t, decision, old_mode);
+  work_.impact += decision.impact_loss;
+  work_.surface += decision.impact_surface_work;
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
-  const double released =
-      massless_ ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() : 0.0;
+  const double released = massless_
+                              ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -
+                                    (decision.impact_loss - decision.impact_surface_work)
+                              : 0.0;
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
@@ -158,7 +178,8 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   return s;
 }
 
-void Auditor::finish(Report& report, const Energy& last) const {
+void Auditor::finish(Report& report, const Energy& last, double t, const Mode& mode) const {
+  report.landings = landings_.finish(t, mode);
   report.audit = audit_;
   report.audit.final = last;
   report.audit.friction_work = friction_;

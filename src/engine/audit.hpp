@@ -2,13 +2,13 @@
 //
 //   (6)  g >= 0, N <= 0, g N = 0          g - N/kn in place of g for contact elements
 //   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
-//   E_kin + E_el + E_contact + D_friction + D_damping - W_loads - W_surface = const
+//   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
 //
 // Contacts are observed after every step; works and dissipations are integrals of powers
 // (engine/powers.hpp) that the engine takes with its own accuracy.
 #pragma once
 
-#include "engine/stepper.hpp"
+#include "engine/landings.hpp"
 
 namespace signorini {
 
@@ -19,18 +19,20 @@ class Auditor {
   /// Adds what a stretch of the motion has brought and lost.
   void add(const Works& works);
 
-  void begin(const Decision& decision, const Forcing& forcing);
+  /// first: the states that were guessed before the decision.
+  void begin(const Decision& decision, const Mode& first, const Forcing& forcing);
   /// Contacts at the end of a step or after an event.
   void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
   void equilibrium(double t, double residual);
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
-  void instant(const Decision& decision, const Mode& old_mode, const Point& before, bool load_jumps);
+  void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
+               bool load_jumps);
   /// Energies now; also audits the balance.
   Energy energy(double t, const Mode& mode, const Point& point);
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
                                      const ContactState& state, const Point& point) const;
 
-  void finish(Report& report, const Energy& last) const;
+  void finish(Report& report, const Energy& last, double t, const Mode& mode) const;
 
  private:
   [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t,
@@ -51,6 +53,7 @@ class Auditor {
   };
   std::vector<Place> at_start_;
   std::vector<Peak> peaks_;
+  Landings landings_;
   bool massless_;  // there are degrees of freedom that move at once
   bool begun_ = false;
 };

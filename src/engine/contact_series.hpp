@@ -27,6 +27,13 @@ class ContactSeries {
   /// out[0 .. degree]: coefficients of the form.
   void combine(const Form& form, double* out) const;
   [[nodiscard]] double value(Field field, double x) const { return value_at(of(field), degree_, x); }
+  /// Integral from 0 to x.
+  [[nodiscard]] double integral(Field field, double x) const {
+    const double* a = of(field);
+    double sum = 0.0;
+    for (std::size_t k = degree_ + 1; k-- > 0;) sum = sum * x + a[k] / static_cast<double>(k + 1);
+    return sum * x;
+  }
 
  private:
   [[nodiscard]] double* row(Field field) { return values_.data() + field * (degree_ + 1); }

@@ -7,11 +7,12 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/joint_decision.hpp"
+
 namespace signorini {
 namespace {
 
-constexpr double same_speed = 1e-12;        // of two pieces of a history where they meet smoothly
-constexpr std::size_t most_enumerated = 6;  // 3^6 modes of contacts without tangential stiffness
+constexpr double same_speed = 1e-12;  // of two pieces of a history where they meet smoothly
 
 struct Sign {
   int sign = 0;   // -1, 0, +1
@@ -62,8 +63,10 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
     const Contact& contact = model.contacts[c];
     ContactState s;
     const double ut = contact.tangent.dot(u) - forcing.surface(c, t, 0);
-    const bool carries =
-        contact.law == Law::slider ? !forcing.lifted(c) : contact.gap + contact.normal.dot(u) < 0.0;
+    // A rigid contact that touches is decided together with the others.
+    const bool carries = contact.law == Law::slider      ? !forcing.lifted(c)
+                         : contact.law == Law::compliant ? contact.gap + contact.normal.dot(u) < 0.0
+                                                         : false;
     if (carries) {
       s.state = at_rest(contact);
       if (contact.tangential_stiffness) {
@@ -80,6 +83,12 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
   }
   return mode;
 }
+
+Decider::Decider(const Model& model, Expander& expander, int max_rounds, double capture_velocity)
+    : model_(model),
+      expander_(expander),
+      max_rounds_(max_rounds),
+      impacts_(model, expander, capture_velocity) {}
 
 std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
                                                 const Instant& instant, bool first) const {
@@ -131,7 +140,7 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
     // motion before has left, elastic first, then slip in the direction in which the limit is exceeded.
     if (massless && slip_sign(s.state) != 0 && contact.tangential_stiffness)
       s = {State::stick, motion[c].ut - motion[c].T / *contact.tangential_stiffness};
-    if (contact.law != Law::slider) continue;
+    if (contact.law == Law::compliant || (contact.law == Law::rigid && s.state == State::open)) continue;
     const double ut = contact.tangent.dot(instant.u) - after.surface(c, t, 0);
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, t, 1);
     if (after.lifted(c)) {
@@ -166,7 +175,7 @@ bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode&
   if (!expander_.set(mode)) return false;
   decision.u = instant.u;
   decision.v = instant.v;
-  expander_.hold(after, instant.t, mode, decision.v);
+  expander_.hold(after, instant.t, mode, decision.u, decision.v);
   decision.jet = expander_.expand(after, instant.t, decision.u, decision.v, jets);
   decision.u = decision.jet.u.col(0);
   decision.v = decision.jet.u.col(1);
@@ -174,28 +183,105 @@ bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode&
   return true;
 }
 
-bool Decider::enumerate(const Instant& instant, const Forcing& after, Decision& decision,
-                        std::vector<MotionJet>& jets) const {
-  std::vector<std::size_t> free;
-  for (std::size_t c = 0; c < decision.mode.size(); ++c)
-    if (decision.visited[c] && model_.contacts[c].law == Law::slider &&
-        !model_.contacts[c].tangential_stiffness)
-      free.push_back(c);
-  if (free.empty() || free.size() > most_enumerated) return false;
-  static constexpr State choices[] = {State::stick, State::slip_plus, State::slip_minus};
-  std::size_t combinations = 1;
-  for (std::size_t i = 0; i < free.size(); ++i) combinations *= 3;
-  Mode mode = decision.mode;
-  for (std::size_t code = 0; code < combinations; ++code) {
-    std::size_t rest = code;
-    for (std::size_t c : free) {
-      mode[c].state = choices[rest % 3];
-      rest /= 3;
-    }
-    if (evaluate(instant, after, mode, decision, jets) && failures(jets, mode, instant, false).empty())
-      return true;
+/// What is known at an instant of the contacts whose forces may jump.
+struct Decider::Joint {
+  bool sliders = false;                ///< sliders that stick rigidly take part
+  std::vector<bool> decided, kinetic;  ///< one a contact
+};
+
+/// Sliders that stick rigidly slip as soon as their slip rate is not zero, after an impact for example.
+void Decider::follow_velocity(const Instant& instant, const Forcing& after, Mode& mode) const {
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.law != Law::slider || !contact.sticks_rigidly() || mode[c].state == State::open) continue;
+    double size = std::abs(after.surface(c, instant.t, 1));
+    for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * instant.v[dof]);
+    const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
+    if (std::abs(vt) > 64.0 * std::numeric_limits<double>::epsilon() * size)
+      mode[c].state = vt > 0.0 ? State::slip_plus : State::slip_minus;
   }
-  return false;
+}
+
+/// Impacts where there are any, then the states. Returns why it cannot, or nothing.
+std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
+                                    const std::vector<MotionJet>& jets, Mode& mode) const {
+  const auto fired = [&](std::size_t c, Guard guard) {
+    return std::any_of(instant.fired.begin(), instant.fired.end(),
+                       [&](const Fired& f) { return f.contact == c && f.guard == guard; });
+  };
+  const auto is_zero = [&](double value, double noise, double rate) {
+    return std::abs(value) <= noise + instant.resolution * std::abs(rate);
+  };
+  std::vector<std::size_t> touching;
+  bool impact = false;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    if (model_.contacts[c].law != Law::rigid) continue;
+    const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
+    if (mode[c].state == State::open && !fired(c, Guard::closing) && !is_zero(m.gap, noise.gap, m.vn))
+      continue;
+    touching.push_back(c);
+    impact = impact || (mode[c].state == State::open && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
+  }
+  if (impact) {
+    const Impact result = impacts_.solve(after, instant.t, mode, touching, instant.u, instant.v);
+    if (!result.solved) return result.reason;
+    instant.u = result.u;
+    instant.v = result.v;
+    decision.impact_loss += result.loss;
+    decision.impact_surface_work += result.surface_work;
+    decision.impact_gains = decision.impact_gains || result.gains;
+    if (decision.impulses.empty()) decision.impulses.resize(mode.size());
+    for (const std::size_t c : touching) {
+      Impulse& sum = decision.impulses[c];
+      sum.hit = sum.hit || result.impulses[c].hit;
+      sum.normal += result.impulses[c].normal;
+      sum.tangent += result.impulses[c].tangent;
+    }
+    follow_velocity(instant, after, mode);
+  }
+  std::vector<Participant> participants;
+  for (const std::size_t c : touching) {
+    const Contact& contact = model_.contacts[c];
+    const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
+    const double vn = contact.normal.dot(instant.v);
+    double size = 0.0;  // of the velocities whose difference it is
+    for (const auto& [dof, factor] : contact.normal.terms) size += std::abs(factor * instant.v[dof]);
+    const bool struck = impact && decision.impulses[c].normal > 0.0;
+    const double zero = noise.vn + 64.0 * std::numeric_limits<double>::epsilon() * size +
+                        (struck ? 0.0 : instant.resolution * std::abs(m.an));
+    if (vn > zero) {
+      mode[c] = {State::open, 0.0};
+      continue;
+    }
+    Participant who{c};
+    const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
+    double tangent_size = std::abs(after.surface(c, instant.t, 1));
+    for (const auto& [dof, factor] : contact.tangent.terms) tangent_size += std::abs(factor * instant.v[dof]);
+    const bool rests = (!impact && fired(c, Guard::sliding)) ||
+                       std::abs(vt) <= noise.vt +
+                                           64.0 * std::numeric_limits<double>::epsilon() * tangent_size +
+                                           instant.resolution * std::abs(m.at);
+    who.slipping = contact.has_friction() && !rests;
+    who.sign = vt > 0.0 ? 1 : -1;
+    who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(vt));
+    who.kinetic = joint.kinetic[c];
+    participants.push_back(who);
+  }
+  for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.law != Law::slider || !contact.sticks_rigidly() || !decision.visited[c]) continue;
+    Participant who{c};
+    who.sliding_friction = sliding_friction(contact, 0.0);
+    who.kinetic = joint.kinetic[c];
+    participants.push_back(who);
+  }
+  const Mode old = mode;
+  std::string reason = JointDecision(model_, expander_).decide(instant, after, participants, mode);
+  for (const Participant& who : participants) {
+    joint.decided[who.contact] = true;
+    if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
+  }
+  return reason;
 }
 
 std::string Decider::describe(const std::vector<Failure>& failures) const {
@@ -221,6 +307,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   decision.jumped.assign(count, false);
   decision.crossings.resize(count);
   std::vector<MotionJet> jets;
+  Joint joint{false, std::vector<bool>(count, false), std::vector<bool>(count, false)};
 
   // The motion just before, in the old mode under the old forcing.
   if (!evaluate(instant, before, instant.mode, decision, jets)) {
@@ -234,7 +321,9 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     noise.push_back(jet.noise[0]);
   }
   decision.slides_before = slides(before, instant.t, decision.u, decision.v);
-  // What sticks rigidly moves with its surface: an integrator's drift must not decide what comes next.
+  // What sticks rigidly moves with its surface, what touches rigidly has no gap: an integrator's drift must
+  // not decide what comes next.
+  instant.u = decision.u;
   instant.v = decision.v;
 
   Mode mode = instant.mode;
@@ -246,37 +335,47 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
     return decision;
   }
-  for (;;) {
+  for (bool open = instant.start;; open = false) {
     const std::vector<Failure> failed = failures(jets, mode, instant, first);
     first = false;
-    if (failed.empty()) break;
+    if (failed.empty() && !open) break;
     if (++decision.rounds > max_rounds_) {
       decision.reason =
           fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
                       max_rounds_, describe(failed));
       return decision;
     }
+    bool jointly = joint.sliders || open;
     for (const Failure& f : failed) {
+      const Contact& contact = model_.contacts[f.contact];
       if (!decision.visited[f.contact]) decision.crossings[f.contact] = crossing(f.form, jets[f.contact]);
-      mode[f.contact] = next_state(model_.contacts[f.contact], mode[f.contact], f.guard, jets[f.contact]);
       decision.visited[f.contact] = true;
+      const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+      if (contact.law == Law::rigid || (joint.sliders && contact.sticks_rigidly())) {
+        jointly = true;
+        // It was left at its static limit, and that falls.
+        if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;
+      } else {
+        mode[f.contact] = next_state(contact, mode[f.contact], f.guard, jets[f.contact]);
+      }
+    }
+    if (jointly) {
+      if (std::string why = decide_jointly(instant, after, joint, decision, jets, mode); !why.empty()) {
+        decision.reason = failed.empty() ? why : fmt::format("{} (after {})", why, describe(failed));
+        return decision;
+      }
     }
     std::vector<Memory> now = states(mode);
-    const bool repeated = std::find(seen.begin(), seen.end(), now) != seen.end();
-    seen.push_back(std::move(now));
-    bool solved = true;
-    if (repeated) {
-      decision.mode = mode;
-      if (enumerate(instant, after, decision, jets)) {
-        mode = decision.mode;
-        break;
+    if (!open && std::find(seen.begin(), seen.end(), now) != seen.end() && decision.impulses.empty()) {
+      if (joint.sliders) {
+        decision.reason =
+            fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
+        return decision;
       }
-      decision.reason =
-          fmt::format("no combination of states is consistent; guards that fail: {}", describe(failed));
-      return decision;
+      joint.sliders = true;
     }
-    solved = evaluate(instant, after, mode, decision, jets);
-    if (!solved) {
+    seen.push_back(std::move(now));
+    if (!evaluate(instant, after, mode, decision, jets)) {
       decision.reason = fmt::format(
           "the rows of the contacts that stick are linearly dependent, so their forces are not unique "
           "(after {}); law = \"compliant\" or a tangential_stiffness makes them so",

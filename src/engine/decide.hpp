@@ -4,12 +4,15 @@
 //
 // Never a flipped flag: the next states are those whose guards hold on the solution to their right.
 // Contacts whose guard fails take their next state (contact/transition.hpp), the jet is expanded again
-// in the new mode, until all guards hold; if the states repeat, the contacts without tangential
-// stiffness that changed are tried in all combinations. If none is consistent the decision says so.
+// in the new mode, until all guards hold. Rigid contacts are decided together: velocities first where one
+// closes with g' < 0 (engine/impact.hpp), then accelerations and their derivatives
+// (engine/joint_decision.hpp). Sliders without tangential stiffness join them if their own states repeat.
+// If no mode is consistent the decision says so.
 #pragma once
 
 #include <string>
 
+#include "engine/impact.hpp"
 #include "engine/jet.hpp"
 
 namespace signorini {
@@ -26,7 +29,8 @@ struct Instant {
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
-  bool jump = false;  ///< the forcing is not smooth here
+  bool jump = false;   ///< the forcing is not smooth here
+  bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
 };
 
 /// One guard in force after the decision.
@@ -54,10 +58,14 @@ struct Decision {
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;   ///< guards_per_contact a contact
-  std::vector<Crossing> crossings;  ///< of the contacts visited
-  std::vector<bool> visited;        ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;         ///< contacts whose N or T jumps
+  std::vector<GuardStart> guards;    ///< guards_per_contact a contact
+  std::vector<Crossing> crossings;   ///< of the contacts visited
+  std::vector<bool> visited;         ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;          ///< contacts whose N or T jumps
+  std::vector<Impulse> impulses;     ///< one a contact, where rigid contacts were hit; else empty
+  double impact_loss = 0.0;          ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;  ///< that moving surfaces do in them
+  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
   int rounds = 0;
 };
 
@@ -67,8 +75,8 @@ struct Decision {
 
 class Decider {
  public:
-  Decider(const Model& model, Expander& expander, int max_rounds)
-      : model_(model), expander_(expander), max_rounds_(max_rounds) {}
+  /// capture_velocity: of rigid contacts that have none of their own.
+  Decider(const Model& model, Expander& expander, int max_rounds, double capture_velocity);
 
   /// `before` and `after`: the forcing on both sides of the instant.
   [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after) const;
@@ -88,8 +96,11 @@ class Decider {
                       const std::vector<ContactMotion>& motion, Mode& mode) const;
   bool evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,
                 std::vector<MotionJet>& jets) const;
-  bool enumerate(const Instant& instant, const Forcing& after, Decision& decision,
-                 std::vector<MotionJet>& jets) const;
+  struct Joint;  // what is known of the contacts whose forces may jump
+  [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
+                                           Decision& decision, const std::vector<MotionJet>& jets,
+                                           Mode& mode) const;
+  void follow_velocity(const Instant& instant, const Forcing& after, Mode& mode) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, double t, const Vector& u,
                                               const Vector& v) const;
   [[nodiscard]] std::string describe(const std::vector<Failure>& failures) const;
@@ -97,6 +108,7 @@ class Decider {
   const Model& model_;
   Expander& expander_;
   int max_rounds_;
+  Impacts impacts_;
 };
 
 }  // namespace signorini

@@ -183,9 +183,9 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const Contact& contact = model_.contacts[c];
   const double rate = static_cast<double>(degree_ + 3) / (series_.scale * x);
   const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
-  const double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap;
-  double T = 0.0;
+  double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
   const State state = segment_.decision->mode[c].state;
+  if (contact.law == Law::rigid && state != State::open) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
     T = contact.kinetic_friction * N;
   else if (contact.tangential_stiffness)

@@ -41,7 +41,8 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
     }
     const double newton = value / slope, step = std::abs(newton);
     // Newton's steps shrink quadratically until rounding makes them wander.
-    if (step <= std::numeric_limits<double>::epsilon() * x || (last < 1e-6 && step > 0.25 * last)) return x;
+    if (step <= std::numeric_limits<double>::epsilon() * x || (last < 1e-6 * x && step > 0.25 * last))
+      return x;
     (value > 0.0 ? lo : hi) = x;
     if (x - newton > lo && x - newton < hi) {
       x -= newton;

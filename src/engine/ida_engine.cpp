@@ -1,6 +1,7 @@
 #include "engine/ida_engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/clock.hpp"
 #include "engine/locate.hpp"
@@ -9,14 +10,17 @@
 namespace signorini {
 
 IdaEngine::IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
-                     const Settings& settings)
+                     const Settings& settings, double t_end)
     : model_(model),
       expander_(expander),
       settings_(settings),
       powers_(model, structure),
       bdf_(model, structure, settings),
       history_(guards_per_contact * model.contacts.size() + powers_.count()),
+      flights_(model, structure, expander, t_end),
       integrals_(powers_.count()) {
+  lowest_flight_ = std::max(std::sqrt(settings.atol_displacement * model.scales.displacement),
+                            2.0 * re_arm_tolerances * settings.atol_displacement);
   for (const Contact& contact : model.contacts)
     accelerations_ = accelerations_ || contact.normal_damping > 0.0;
 }
@@ -35,6 +39,8 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
 void IdaEngine::start(const Segment& segment) {
   segment_ = segment;
   const Decision& decision = *segment.decision;
+  flight_ = flights_.take(segment, lowest_flight_);
+  if (flight_) return;
   std::vector<double> levels;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot)
     levels.push_back(decision.guards[slot].noise +
@@ -46,7 +52,21 @@ void IdaEngine::start(const Segment& segment) {
   fill(decision.jet.t, point, history_.restart(decision.jet.t));
 }
 
+void IdaEngine::evaluate(double t, Point& point) {
+  if (flight_)
+    flights_.motion().evaluate(t, point);
+  else
+    bdf_.evaluate(t, point);
+}
+
+double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
+
 Step IdaEngine::advance() {
+  if (flight_) {
+    ++counters.restarts;
+    ++counters.steps;
+    return *flight_;
+  }
   BdfStep bdf = bdf_.advance();
   counters = bdf_.counters;
   Step step;
@@ -103,6 +123,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
 }
 
 void IdaEngine::integrate(double from, double to, Works& works) {
+  if (flight_) return flights_.motion().integrate(from, to, works);
   const double h = history_.end() - history_.begin();
   const double a = (from - history_.begin()) / h, b = (to - history_.begin()) / h;
   const std::size_t offset = segment_.decision->guards.size();

@@ -55,9 +55,13 @@ void IdaLinearSolver::solve(const double* b, double* x) {
   };
   std::vector<Held> held;
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (rows_[k].tangent.at != 0.0 && model_.contacts[k].tangent.terms.size() == 1) {
-      const auto& [dof, factor] = model_.contacts[k].tangent.terms[0];
-      held.push_back({dof, rhs_[n + 2 * k + 1] / (cj_ * factor)});
+    for (const bool tangent : {false, true}) {
+      const Combination& form = tangent ? model_.contacts[k].tangent : model_.contacts[k].normal;
+      const Form& row = tangent ? rows_[k].tangent : rows_[k].normal;
+      const bool prescribes = tangent ? row.at != 0.0 : row.an != 0.0 && row.N == 0.0;
+      if (!prescribes || form.terms.size() != 1) continue;
+      const auto& [dof, factor] = form.terms[0];
+      held.push_back({dof, rhs_[n + 2 * k + (tangent ? 1 : 0)] / (cj_ * factor)});
     }
   matrix_.solve(rhs_.data());
   for (const Held& h : held) rhs_[static_cast<std::size_t>(h.dof)] = h.value;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/law.hpp"
+
 namespace signorini {
 namespace {
 
@@ -54,6 +56,23 @@ void IdaProblem::start(const Segment& segment, const Watch& watch) {
   segment_ = segment;
   watch_ = &watch;
   linear_.set_mode(segment.decision->mode);
+  stribeck_.clear();
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    if (model_.contacts[k].stribeck_velocity && slip_sign(segment.decision->mode[k].state) != 0)
+      stribeck_.push_back(k);
+}
+
+/// T + s f(s vt) N = 0 has the tangent dT + s f dN + f' N dvt.
+void IdaProblem::linearise(double t, const double* y, const double* yp) {
+  for (const std::size_t k : stribeck_) {
+    const ContactMotion m = motion(k, t, y, yp);
+    const int s = slip_sign(segment_.decision->mode[k].state);
+    Form tangent;
+    tangent.T = 1.0;
+    tangent.N = s * sliding_friction(model_.contacts[k], s * m.vt);
+    tangent.vt = sliding_friction_slope(model_.contacts[k], s * m.vt) * m.N;
+    linear_.linearise(k, tangent);
+  }
 }
 
 ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const double* yp) const {
@@ -81,6 +100,7 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   m.vn = velocity(contact.normal);
   m.vt = velocity(contact.tangent) - segment_.forcing->surface(k, t, 1);
   const Rows& rows = linear_.rows()[k];
+  if (rows.normal.an != 0.0) m.an = acceleration(contact.normal);
   if (rows.tangent.at != 0.0) m.at = acceleration(contact.tangent) - segment_.forcing->surface(k, t, 2);
   if (contact.law == Law::slider) {
     m.pressing = segment_.forcing->pressing(k, t, 0);
@@ -116,6 +136,11 @@ void IdaProblem::residual(double t, const double* y, const double* yp, double* r
     const auto f = layout_.force(k);
     r[f] = linear_.rows()[k].normal.value(m);
     r[f + 1] = linear_.rows()[k].tangent.value(m);
+  }
+  for (const std::size_t k : stribeck_) {
+    const ContactMotion m = motion(k, t, y, yp);
+    const int s = slip_sign(segment_.decision->mode[k].state);
+    r[layout_.force(k) + 1] = m.T + s * sliding_friction(model_.contacts[k], s * m.vt) * m.N;
   }
 }
 

@@ -15,6 +15,8 @@ class IdaProblem {
 
   /// r = F(t, y, y')
   void residual(double t, const double* y, const double* yp, double* r);
+  /// Puts the tangents of rows that are not linear (Stribeck's friction) into the linear solver.
+  void linearise(double t, const double* y, const double* yp);
   /// Error weights; see below.
   void weights(const double* y, double* w) const;
   /// Scaled guards, one a slot; masked ones are +1.
@@ -42,6 +44,7 @@ class IdaProblem {
   // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
   // structure does not dilute the few contacts.
   std::vector<double> factor_, atol_;
+  std::vector<std::size_t> stribeck_;  // contacts that slip by Stribeck's law in this segment
   std::vector<double> v_, a_;
 };
 

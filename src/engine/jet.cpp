@@ -1,5 +1,6 @@
 #include "engine/jet.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -131,26 +132,38 @@ void Expander::consistent(const Forcing& forcing, double t, Point& point) const 
   point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
 }
 
-void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const {
-  const Eigen::Index n = v.size();
-  Vector x = Vector::Zero(n + 2 * static_cast<Eigen::Index>(mode.size()));
-  bool any = false;
+/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows.
+void Expander::correct(const std::vector<double>& misses, Vector& x) const {
+  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return;
+  const Eigen::Index n = x.size();
+  Vector change = Vector::Zero(n + static_cast<Eigen::Index>(misses.size()));
+  for (std::size_t i = 0; i < misses.size(); ++i) change[n + static_cast<Eigen::Index>(i)] = misses[i];
+  taylor_.solve(change.data());
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (taylor_.kinds()[static_cast<std::size_t>(i)] == Taylor::Kind::massive) x[i] += change[i];
+}
+
+void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& u, Vector& v) const {
+  std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    if (mode[c].state != State::stick || contact.tangential_stiffness || contact.shear) continue;
-    const double miss = forcing.surface(c, t, 1) - contact.tangent.dot(v);
-    if (miss == 0.0) continue;
-    x[n + 2 * static_cast<Eigen::Index>(c) + 1] = miss;
-    any = true;
+    if (contact.law == Law::rigid && mode[c].state != State::open) {
+      places[2 * c] = -(contact.gap + contact.normal.dot(u));
+      rates[2 * c] = -contact.normal.dot(v);
+    }
+    if (mode[c].state == State::stick && contact.sticks_rigidly())
+      rates[2 * c + 1] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
   }
-  if (!any) return;
-  taylor_.solve(x.data());
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (taylor_.kinds()[static_cast<std::size_t>(i)] == Taylor::Kind::massive) v[i] += x[i];
+  correct(places, u);
+  correct(rates, v);
   for (std::size_t c = 0; c < mode.size(); ++c) {  // one degree of freedom: exact, not to roundoff
     const Contact& contact = model_.contacts[c];
-    if (mode[c].state == State::stick && !contact.tangential_stiffness && !contact.shear &&
-        contact.tangent.terms.size() == 1) {
+    if (contact.law == Law::rigid && mode[c].state != State::open && contact.normal.terms.size() == 1) {
+      const auto& [dof, factor] = contact.normal.terms[0];
+      u[dof] = (0.0 - contact.gap) / factor;
+      v[dof] = 0.0;
+    }
+    if (mode[c].state == State::stick && contact.sticks_rigidly() && contact.tangent.terms.size() == 1) {
       const auto& [dof, factor] = contact.tangent.terms[0];
       v[dof] = forcing.surface(c, t, 1) / factor;
     }

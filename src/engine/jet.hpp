@@ -40,12 +40,13 @@ class Expander {
                            std::vector<MotionJet>& motions) const;
   /// Level 0 alone: makes forces, accelerations and v of massless degrees of freedom consistent with u, v.
   void consistent(const Forcing& forcing, double t, Point& point) const;
-  /// v += the smallest impulsive change that makes t.v equal the surface velocity at contacts that
-  /// stick without tangential stiffness.
-  void hold(const Forcing& forcing, double t, const Mode& mode, Vector& v) const;
+  /// v += the smallest impulsive change that makes t.v equal the surface velocity at contacts that stick
+  /// without tangential stiffness, and n.v = 0 at closed rigid ones; u likewise, g = 0 at closed rigid ones.
+  void hold(const Forcing& forcing, double t, const Mode& mode, Vector& u, Vector& v) const;
 
  private:
   void motions(std::vector<MotionJet>& result) const;
+  void correct(const std::vector<double>& misses, Vector& x) const;
 
   const Model& model_;
   mutable Taylor taylor_;

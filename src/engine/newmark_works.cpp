@@ -29,6 +29,8 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
       works.friction[k] += factor * T * dp;
     }
     works.surface[k] -= factor * T * ds;
+    if (contact.law != Law::slider)
+      works.pressing[k] -= 0.5 * factor * h * (a.forces[tangent_force - 1] + b.forces[tangent_force - 1]);
   }
 }
 

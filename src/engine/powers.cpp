@@ -11,8 +11,9 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     const int s = slip_sign(mode[k].state);
     if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
-    out[2 + 2 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
-    out[3 + 2 * k] = -m.T * forcing.surface(k, t, 1);
+    out[2 + 3 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
+    out[3 + 3 * k] = -m.T * forcing.surface(k, t, 1);
+    out[4 + 3 * k] = -m.N;
   }
 }
 
@@ -20,8 +21,9 @@ void Powers::add(const double* powers, double factor, Works& works) const {
   works.loads += factor * powers[0];
   works.damping += factor * powers[1];
   for (std::size_t k = 0; k < works.friction.size(); ++k) {
-    works.friction[k] += factor * powers[2 + 2 * k];
-    works.surface[k] += factor * powers[3 + 2 * k];
+    works.friction[k] += factor * powers[2 + 3 * k];
+    works.surface[k] += factor * powers[3 + 3 * k];
+    works.pressing[k] += factor * powers[4 + 3 * k];
   }
 }
 

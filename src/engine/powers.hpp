@@ -16,16 +16,18 @@
 
 namespace signorini {
 
-/// Integrals of the powers. friction, surface: one a contact.
+/// Integrals of the powers. friction, surface: one a contact; pressing: of -N, unit force * time.
 struct Works {
-  explicit Works(std::size_t contacts = 0) : friction(contacts, 0.0), surface(contacts, 0.0) {}
+  explicit Works(std::size_t contacts = 0)
+      : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
   double loads = 0.0, damping = 0.0;
-  std::vector<double> friction, surface;
+  std::vector<double> friction, surface, pressing;
 
   void clear() {
     loads = damping = 0.0;
     std::fill(friction.begin(), friction.end(), 0.0);
     std::fill(surface.begin(), surface.end(), 0.0);
+    std::fill(pressing.begin(), pressing.end(), 0.0);
   }
 };
 
@@ -38,8 +40,8 @@ class Powers {
  public:
   Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
 
-  /// Numbers at one time: loads, damping, then friction and surface of each contact.
-  [[nodiscard]] std::size_t count() const { return 2 + 2 * model_.contacts.size(); }
+  /// Numbers at one time: loads, damping, then friction, surface and -N of each contact.
+  [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
   /// out[0 .. count())
   void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
   /// works += factor * powers

@@ -79,6 +79,12 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
       works.damping += inside_loss(contact, gap(from), gap(to));
     }
     if (state.state == State::open) continue;
+    if (contact.law != Law::slider) {
+      const auto pressed = [&](double time) {
+        return contacts[c].integral(ContactSeries::N, (time - series.t) / series.scale);
+      };
+      works.pressing[c] -= series.scale * (pressed(to) - pressed(from));
+    }
     const int s = slip_sign(state.state);
     const bool moved = forcing.moves(c);
     if (s == 0 && !moved && contact.normal_damping == 0.0) continue;

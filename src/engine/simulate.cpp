@@ -75,7 +75,7 @@ class Run {
         recorder_(recorder),
         structure_(model),
         expander_(model, structure_),
-        decider_(model, expander_, spec.max_events_at_once),
+        decider_(model, expander_, spec.max_events_at_once, settings_for(model, spec).capture_velocity),
         auditor_(model, structure_),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
@@ -95,7 +95,7 @@ class Run {
     } else {
       report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
-      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings);
+      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings, spec.t_end);
     }
   }
 
@@ -111,7 +111,7 @@ class Run {
       report_.warnings.push_back(
           fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_unordered));
     report_.warnings.insert(report_.warnings.end(), stepper_->warnings.begin(), stepper_->warnings.end());
-    auditor_.finish(report_, last_energy_);
+    auditor_.finish(report_, last_energy_, t_, decision_.mode);
     report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return report_;
   }
@@ -128,11 +128,16 @@ class Run {
     instant.u = model_.u0;
     instant.v = model_.v0;
     instant.resolution = resolution_at(0.0, 0.0);
+    instant.start = true;
     instant.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
+    const Mode first = instant.mode;
     decision_ = decider_.decide(std::move(instant), forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.reason);
     warn_of_cut_shear();
-    auditor_.begin(decision_, forcing_);
+    warn_of_gain();
+    auditor_.begin(decision_, first, forcing_);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      if (hit(k)) log_contact(k, EventType::impact, first[k].state);
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     last_energy_ = auditor_.energy(0.0, decision_.mode, point_);
     auditor_.observe(forcing_, 0.0, decision_.mode, point_);
@@ -149,6 +154,14 @@ class Run {
           "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
           model_.contacts[k].name, asked, found));
     }
+  }
+
+  void warn_of_gain() {
+    if (!decision_.impact_gains || ++gains_ > most_unordered) return;
+    report_.warnings.push_back(
+        fmt::format("the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
+                    "does that at times",
+                    t_, -decision_.impact_loss));
   }
 
   /// From a restart to the next event or discontinuity. False: the run ends.
@@ -207,8 +220,9 @@ class Run {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);
     }
-    auditor_.instant(next, old_mode, point_, jump);
+    auditor_.instant(t_, next, old_mode, point_, jump);
     decision_ = std::move(next);
+    warn_of_gain();
     log(old_mode, jump);
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
@@ -246,30 +260,43 @@ class Run {
     }
     for (std::size_t k = 0; k < old_mode.size(); ++k) {
       const State from = old_mode[k].state, to = decision_.mode[k].state;
-      const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k];
-      auto type = classify(from, to, dropped);
+      const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k] &&
+                           model_.contacts[k].law != Law::rigid;
+      auto type = hit(k) ? std::optional(EventType::impact) : classify(from, to, dropped);
       if (!type && jump && decision_.jumped[k]) type = EventType::time;
-      if (!type) continue;
-      if (*type != EventType::time) ++report_.events_by_type[to_string(*type)];
-      const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
-      Event event;
-      event.t = t_;
-      event.contact = static_cast<int>(k);
-      event.type = *type;
-      event.from = from;
-      event.to = to;
-      event.gap = after.gap;
-      event.N = before.N;
-      event.T = before.T;
-      event.N_after = after.N;
-      event.T_after = after.T;
-      event.vn = before.vn;
-      event.vn_after = after.vn;
-      event.vt = decision_.slides_before[k].vt;
-      event.vt_after = decision_.slides_after[k].vt;
-      add_conditioning(k, event);
-      recorder_.event(event);
+      if (type) log_contact(k, *type, from);
     }
+  }
+
+  [[nodiscard]] bool hit(std::size_t k) const {
+    return !decision_.impulses.empty() && decision_.impulses[k].hit;
+  }
+
+  /// A row of one contact, from what the decision knows.
+  void log_contact(std::size_t k, EventType type, State from) {
+    if (type != EventType::time) ++report_.events_by_type[to_string(type)];
+    const ContactMotion &before = decision_.before[k], &after = decision_.after[k];
+    Event event;
+    event.t = t_;
+    event.contact = static_cast<int>(k);
+    event.type = type;
+    event.from = from;
+    event.to = decision_.mode[k].state;
+    if (hit(k)) {
+      event.impulse_n = decision_.impulses[k].normal;
+      event.impulse_t = decision_.impulses[k].tangent;
+    }
+    event.gap = after.gap;
+    event.N = before.N;
+    event.T = before.T;
+    event.N_after = after.N;
+    event.T_after = after.T;
+    event.vn = before.vn;
+    event.vn_after = after.vn;
+    event.vt = decision_.slides_before[k].vt;
+    event.vt_after = decision_.slides_after[k].vt;
+    add_conditioning(k, event);
+    recorder_.event(event);
   }
 
   void warn_of_order(const std::string& which) {
@@ -374,7 +401,7 @@ class Run {
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
   Event last_;  // with a contact whose guard fell
-  int unordered_ = 0;
+  int unordered_ = 0, gains_ = 0;
   int instants_ = 0;
   std::size_t next_breakpoint_ = 0, next_output_ = 0, next_frame_ = 0;
   bool audit_due_ = false;
@@ -396,13 +423,38 @@ void check_exact(const Model& model, const RunSpec& run) {
   };
   for (const Load& load : model.loads) check(load.history, load.name);
   for (const Contact& contact : model.contacts) {
+    if (contact.stribeck_velocity)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"exact\" needs laws that are linear, and the friction of contact "
+                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
+                                   contact.name));
     check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
     check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
   }
 }
 
+/// Steps of given length solve linear laws; what iterates on friction takes no impulses.
+void check_fixed_steps(const Model& model, const RunSpec& run) {
+  const bool iterates = run.engine == Engine::friction_iteration;
+  const char* engine = iterates ? "friction-iteration" : "newmark";
+  for (const Contact& contact : model.contacts) {
+    if (contact.stribeck_velocity)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"{}\" needs laws that are linear, and the friction of contact "
+                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
+                                   engine, contact.name));
+    if (iterates && contact.law == Law::rigid)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"{}\" needs contact elements, and contact '{}' is rigid; use "
+                                   "\"newmark\" or law = \"compliant\"",
+                                   engine, contact.name));
+  }
+}
+
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
   if (settings.engine == Engine::exact) check_exact(model, settings);
+  if (settings.engine == Engine::newmark || settings.engine == Engine::friction_iteration)
+    check_fixed_steps(model, settings);
   return Run(model, settings, recorder).go();
 }
 

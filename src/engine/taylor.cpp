@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/law.hpp"
+
 namespace signorini {
 namespace {
 
@@ -37,6 +39,72 @@ Taylor::Taylor(const Model& model, const Structure& structure)
   magnitude_.resize(n);
 }
 
+void Taylor::pin(const Mode& mode) {
+  pinned_.clear();
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (rows_[c].normal.an != 0.0 && rows_[c].normal.N == 0.0 && contact.normal.terms.size() == 1)
+      pinned_.push_back({static_cast<std::size_t>(contact.normal.terms[0].first), c,
+                         contact.normal.terms[0].second, false});
+    if (rows_[c].tangent.at != 0.0 && contact.tangent.terms.size() == 1)
+      pinned_.push_back({static_cast<std::size_t>(contact.tangent.terms[0].first), c,
+                         contact.tangent.terms[0].second, true});
+  }
+}
+
+namespace {
+
+/// Coefficient j of the slip rate.
+double rate_coefficient(const Contact& contact, std::size_t c, const Series& series, Eigen::Index j) {
+  const ForcingSeries& f = series.forcing;
+  const double* u = series.u.col(j + 1).data();
+  const double surface = f.surface[c * f.count + static_cast<std::size_t>(j) + 1];
+  return static_cast<double>(j + 1) / series.scale * (contact.tangent.dot(u) - surface);
+}
+
+}  // namespace
+
+/// Friction at the beginning of a series is a coefficient of its matrix.
+void Taylor::start_friction(const Series& series) {
+  for (Stribeck& friction : stribeck_) {
+    const Contact& contact = model_.contacts[friction.contact];
+    const double along = friction.s * rate_coefficient(contact, friction.contact, series, 0);
+    friction.f.assign(1, sliding_friction(contact, along));
+    friction.exponent.assign(1, -along / *contact.stribeck_velocity);
+    rows_[friction.contact].tangent.N = friction.s * friction.f[0];
+  }
+  if (!stribeck_.empty()) matrix_.set(rows_, weights_, true);
+}
+
+/// s sum_(j = 1..k) f_j N_(k-j); with E = exp(g): k E_k = sum_j j g_j E_(k-j), f_k = (fs - fk) E_k.
+double Taylor::known_friction(Stribeck& friction, int order, const Series& series) const {
+  const auto k = static_cast<std::size_t>(order);
+  if (k == 0) return 0.0;
+  const Contact& contact = model_.contacts[friction.contact];
+  const double rate = rate_coefficient(contact, friction.contact, series, order);
+  friction.exponent.resize(k + 1);
+  friction.f.resize(k + 1);
+  friction.exponent[k] = -friction.s * rate / *contact.stribeck_velocity;
+  double sum = 0.0;  // f and E differ by a factor, but for f_0
+  for (std::size_t j = 1; j <= k; ++j) {
+    const double f = j == k ? friction.f[0] - contact.kinetic_friction : friction.f[k - j];
+    sum += static_cast<double>(j) * friction.exponent[j] * f;
+  }
+  friction.f[k] = sum / static_cast<double>(k);
+  double known = 0.0;
+  for (std::size_t j = 1; j <= k; ++j)
+    known += friction.f[j] *
+             series.forces(static_cast<Eigen::Index>(2 * friction.contact), static_cast<Eigen::Index>(k - j));
+  return friction.s * known;
+}
+
+double Taylor::pinned_value(const Pinned& p, int order, const Series& series) const {
+  if (!p.tangent) return 0.0;
+  const ForcingSeries& f = series.forcing;
+  const double second = static_cast<double>((order + 1) * (order + 2)) / (series.scale * series.scale);
+  return second * f.surface[p.contact * f.count + static_cast<std::size_t>(order) + 2] / p.factor;
+}
+
 bool Taylor::set(const Mode& mode) {
   rows_.resize(mode.size());
   for (std::size_t k = 0; k < mode.size(); ++k) rows_[k] = signorini::rows(model_.contacts[k], mode[k]);
@@ -52,8 +120,13 @@ bool Taylor::set(const Mode& mode) {
     weights_[i] = kinds_[i] == Kind::massive  ? Weights{1.0, 0.0, 0.0}
                   : kinds_[i] == Kind::damped ? Weights{0.0, 1.0, 0.0}
                                               : Weights{0.0, 0.0, 1.0};
+  pin(mode);
+  stribeck_.clear();
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (model_.contacts[c].stribeck_velocity && slip_sign(mode[c].state) != 0)
+      stribeck_.push_back({c, slip_sign(mode[c].state), {}, {}});
   small_ = nullptr;
-  if (matrix_.size() > small) return matrix_.set(rows_, weights_, true);
+  if (matrix_.size() > small || !stribeck_.empty()) return matrix_.set(rows_, weights_, true);
   const std::vector<State> states = states_of(mode);
   const auto known = smalls_.find(states);
   if (known != smalls_.end()) {
@@ -164,6 +237,7 @@ void Taylor::level_small(const Forcing& forcing, int order, Series& series) {
       for (std::size_t i = 0; i < size; ++i) y[i] += column[i] * xj;
     }
   }
+  for (const Pinned& p : pinned_) y[p.dof] = pinned_value(p, order, series);
   const double to_u = 1.0 / to_acceleration;
   for (std::size_t i = 0; i < n; ++i) u_k2[i] = y[i] * to_u;
   double* forces = series.forces.data() + static_cast<std::size_t>(order) * (size - n);
@@ -247,7 +321,13 @@ void Taylor::level(const Forcing& forcing, int order, Series& series, const Dist
     x_[n + 2 * c + 1] += Disturbance::sign(c + 17 * k + 3) * q_terms;
   }
 
+  for (Stribeck& friction : stribeck_)
+    x_[n + 2 * friction.contact + 1] -= known_friction(friction, order, series);
+
   solve(x_.data());
+  if (disturbance == nullptr)
+    for (const Pinned& p : pinned_)
+      if (kinds_[p.dof] == Kind::massive) x_[p.dof] = pinned_value(p, order, series);
   for (std::size_t i = 0; i < n; ++i) {
     if (kinds_[i] == Kind::massive)
       u_k2[i] = x_[i] / to_acceleration;
@@ -283,6 +363,7 @@ void Taylor::begin(const Forcing& forcing, double t, const Vector& u, const Vect
       out.u(i, 0) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 7);
       out.u(i, 1) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 13);
     }
+  start_friction(out);
 }
 
 void Taylor::extend(const Forcing& forcing, int levels, Series& out) {

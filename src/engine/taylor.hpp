@@ -54,6 +54,23 @@ class Taylor {
   [[nodiscard]] bool massless() const { return massless_; }
 
  private:
+  /// A degree of freedom whose acceleration a contact alone prescribes: exact, not to an elimination's
+  /// roundoff.
+  struct Pinned {
+    std::size_t dof, contact;
+    double factor;
+    bool tangent;
+  };
+  void pin(const Mode& mode);
+  /// Stribeck's friction: T_k + s sum_j f_j N_(k-j) = 0, f_j from the series of the slip rate.
+  struct Stribeck {
+    std::size_t contact;
+    int s;
+    std::vector<double> exponent, f;  // of the exponential; coefficients of the coefficient of friction
+  };
+  void start_friction(const Series& series);
+  double known_friction(Stribeck& friction, int k, const Series& series) const;
+  [[nodiscard]] double pinned_value(const Pinned& pinned, int k, const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
 
@@ -73,6 +90,8 @@ class Taylor {
 
   std::map<std::vector<State>, Small> smalls_;  // by states; anchors are constants of rows
   const Small* small_ = nullptr;
+  std::vector<Pinned> pinned_;
+  std::vector<Stribeck> stribeck_;
   std::vector<double> x_, y_, known_u_, known_v_, magnitude_;
 };
 

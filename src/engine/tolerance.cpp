@@ -11,6 +11,7 @@ Settings settings_for(const Model& model, const RunSpec& run) {
   s.atol_displacement = run.atol.displacement.value_or(run.rtol * scale.displacement);
   s.atol_velocity = run.atol.velocity.value_or(run.rtol * scale.velocity);
   s.atol_force = run.atol.force.value_or(run.rtol * scale.force);
+  s.capture_velocity = s.atol_velocity;
   // A scene gives one tolerance for lengths; the ratio of the scales turns it into one for angles.
   s.atol_rotation = s.atol_displacement * scale.rotation / scale.displacement;
   s.atol_angular_velocity = s.atol_velocity * scale.angular_velocity / scale.velocity;

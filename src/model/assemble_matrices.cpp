@@ -40,13 +40,19 @@ SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& ke
 
 }  // namespace
 
-Assembly assemble_matrices(const MatricesSpec& matrices) {
+Assembly assemble_matrices(const Scene& scene, const DofMap& map) {
+  const MatricesSpec& matrices = *scene.matrices;
   const auto n = static_cast<int>(matrices.dofs.size());
   Assembly a;
   a.mass = read_symmetric(matrices.mass, n, "matrices.mass");
   a.dampers = read(matrices.damping, n, "matrices.damping");
   a.stiffness = read_symmetric(matrices.stiffness, n, "matrices.stiffness");
   a.weight = Vector::Zero(n);
+  if (scene.base_motion) {
+    Vector r = Vector::Zero(n);
+    combination(map, scene.base_motion->direction, "base_motion.direction", false).add_to(r, 1.0);
+    a.base = a.mass * r;
+  }
   return a;
 }
 

@@ -15,7 +15,8 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight;
+  Vector weight, base;
+  std::array<double, 2> ground;  // direction of the base's motion
 
   /// Adds an element matrix with the numbers of its unknowns, negative ones left out.
   template <std::size_t n, class Matrix>
@@ -41,11 +42,18 @@ struct Builder {
     add(stiffness, bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI),
         numbers);
     add(mass, m, numbers);
-    Eigen::Matrix<double, 6, 1> g;
-    g << scene.gravity[0], scene.gravity[1], 0.0, scene.gravity[0], scene.gravity[1], 0.0;
-    const Eigen::Matrix<double, 6, 1> p = m * g;
+    add_inertia(m, scene.gravity, numbers, weight);
+    add_inertia(m, ground, numbers, base);
+  }
+
+  /// target += M r a, with r a the acceleration of all translations.
+  static void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
+                          const std::array<int, 6>& numbers, Vector& target) {
+    Eigen::Matrix<double, 6, 1> a;
+    a << acceleration[0], acceleration[1], 0.0, acceleration[0], acceleration[1], 0.0;
+    const Eigen::Matrix<double, 6, 1> p = m * a;
     for (std::size_t i = 0; i < 6; ++i)
-      if (numbers[i] >= 0) weight[numbers[i]] += p[static_cast<int>(i)];
+      if (numbers[i] >= 0) target[numbers[i]] += p[static_cast<int>(i)];
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
@@ -55,7 +63,9 @@ struct Builder {
     for (std::size_t c = 0; c < 3; ++c) {
       if (numbers[c] < 0 || values[c] == 0.0) continue;
       mass.emplace_back(numbers[c], numbers[c], values[c]);
-      if (c < 2) weight[numbers[c]] += m.mass * scene.gravity[c];
+      if (c == 2) continue;
+      weight[numbers[c]] += m.mass * scene.gravity[c];
+      base[numbers[c]] += m.mass * ground[c];
     }
   }
 
@@ -83,7 +93,8 @@ struct Builder {
 
 Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
   const int n = map.size();
-  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n)};
+  const auto ground = scene.base_motion ? scene.base_motion->direction.vector : std::array<double, 2>{};
+  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n), Vector::Zero(n), ground};
   for (const MeshElement& e : map.mesh.elements) builder.add_element(e);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
     builder.add_mass(scene.masses[i], fmt::format("masses.{}", i + 1));
@@ -94,7 +105,8 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
     a.setFromTriplets(entries.begin(), entries.end());
     return a;
   };
-  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight};
+  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight,
+          builder.base};
 }
 
 }  // namespace signorini

@@ -11,6 +11,7 @@
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
 #include "model/modes.hpp"
+#include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
 #include "model/shear.hpp"
 #include "model/statics.hpp"
@@ -77,7 +78,7 @@ Model build_model(const Scene& scene) {
   const DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
   const SourcePlace place = scene.matrices ? scene.matrices->mass.place : SourcePlace{scene.file, 0, 0};
   if (map.size() == 0) throw SceneError(place, "", "the scene has no degree of freedom that could move");
-  Assembly assembly = scene.matrices ? assemble_matrices(*scene.matrices) : assemble_nodes(scene, map);
+  Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
 
   Model model;
   model.title = scene.title;
@@ -86,7 +87,7 @@ Model build_model(const Scene& scene) {
   model.columns = map.columns;
   mark_massless(assembly, model.dofs, place);
   model.contacts = make_contacts(scene, map);
-  model.loads = make_loads(scene, map, assembly.weight);
+  model.loads = make_loads(scene, map, assembly);
   model.mass = std::move(assembly.mass);
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
@@ -98,6 +99,7 @@ Model build_model(const Scene& scene) {
   set_damping(scene.damping, assembly.dampers, model);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
+  check_rigid_contacts(scene, model);
   add_shear_elements(scene, model);
   return model;
 }

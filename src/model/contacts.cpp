@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "contact/law.hpp"
 #include "model/history_from_spec.hpp"
 #include "model/history_internal.hpp"
 
@@ -13,18 +14,26 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::
   if (spec.tangent)
     direction = *spec.tangent;
   else if (spec.normal && !map.matrices())
-    direction = {spec.normal->node, sliding_direction(spec), {}, spec.normal->place};
+    direction = {spec.normal->node, sliding_direction(spec), {}, spec.normal->place, spec.normal->against};
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only = spec.law == Law::compliant && spec.friction.static_ == 0.0;
+  const bool measures_only = spec.law != Law::slider && spec.friction.static_ == 0.0;
   return combination(map, direction, key + ".tangent", true, measures_only);
 }
 
-void check_compliant(const ContactSpec& spec, const Contact& contact, const std::string& key) {
-  if (!spec.normal) throw SceneError(spec.place, key + ".normal", "a compliant contact needs a normal");
+void check_gap(const ContactSpec& spec, const Contact& contact, const std::string& key) {
+  if (!spec.normal)
+    throw SceneError(spec.place, key + ".normal",
+                     fmt::format("a {} contact needs a normal", to_string(spec.law)));
   if (contact.normal.terms.empty())
     throw SceneError(spec.place, key + ".normal", "a support fixes all motion along the normal");
+  if (contact.has_friction() && contact.tangent.terms.empty())
+    throw SceneError(spec.place, key + ".tangent",
+                     "a contact with friction needs a tangent that no support fixes");
+}
+
+void check_compliant(const ContactSpec& spec, const Contact& contact, const std::string& key) {
   if (!(spec.normal_stiffness > 0.0))
     throw SceneError(spec.place, key + ".normal_stiffness",
                      fmt::format("found {}, expected a number > 0", spec.normal_stiffness));
@@ -32,9 +41,6 @@ void check_compliant(const ContactSpec& spec, const Contact& contact, const std:
   if (!(spec.tangential_stiffness.value_or(0.0) > 0.0))
     throw SceneError(spec.place, key + ".tangential_stiffness",
                      "a compliant contact with friction needs a tangential stiffness > 0");
-  if (contact.tangent.terms.empty())
-    throw SceneError(spec.place, key + ".tangent",
-                     "a contact with friction needs a tangent that no support fixes");
 }
 
 void check_slider(const ContactSpec& spec, const Contact& contact, double t_end, const std::string& key) {
@@ -63,11 +69,15 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.normal_damping = spec.normal_damping;
     c.static_friction = spec.friction.static_;
     c.kinetic_friction = spec.friction.kinetic;
+    c.stribeck_velocity = spec.friction.stribeck_velocity;
     c.initial_shear = spec.initial_shear;
+    c.restitution = spec.restitution;
+    c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map, key);
-    if (spec.law == Law::compliant) {
+    if (spec.law != Law::slider) {
       if (spec.normal) c.normal = combination(map, *spec.normal, key + ".normal", true);
-      check_compliant(spec, c, key);
+      check_gap(spec, c, key);
+      if (spec.law == Law::compliant) check_compliant(spec, c, key);
     } else {
       c.normal_force = make_history(spec.normal_force, key + ".normal_force");
       check_slider(spec, c, scene.run.t_end, key);
@@ -78,8 +88,9 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
   return contacts;
 }
 
-std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Vector& weight) {
+std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {
   std::vector<Load> loads;
+  const Vector& weight = assembly.weight;
   Load gravity{"gravity", {}, History::constant(1.0), true};
   for (int i = 0; i < weight.size(); ++i)
     if (weight[i] != 0.0) gravity.direction.terms.emplace_back(i, weight[i]);
@@ -93,6 +104,13 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Vector
     load.history = make_history(spec.history, key + ".history").scaled(spec.amplitude);
     load.is_static = spec.history.type == HistoryType::constant && load.history.is_constant();
     loads.push_back(std::move(load));
+  }
+  if (scene.base_motion) {
+    const History acceleration = make_history(scene.base_motion->acceleration, "base_motion.acceleration");
+    Load load{"base motion", {}, acceleration.scaled(-1.0), false};
+    for (int i = 0; i < assembly.base.size(); ++i)
+      if (assembly.base[i] != 0.0) load.direction.terms.emplace_back(i, assembly.base[i]);
+    if (!load.direction.terms.empty()) loads.push_back(std::move(load));
   }
   return loads;
 }

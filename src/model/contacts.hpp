@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "model/dofs.hpp"
+#include "model/assembly.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -14,8 +14,8 @@ namespace signorini {
 /// `compliant`, and for a compression that is known to become negative before t_end.
 [[nodiscard]] std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map);
 
-/// Gravity first (when it acts), then the loads in the order of the file.
-[[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Vector& weight);
+/// Gravity first (when it acts), then the loads in the order of the file, then the motion of the base.
+[[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
 /// Sum of the static loads; n.
 [[nodiscard]] Vector static_load(const std::vector<Load>& loads, int n);

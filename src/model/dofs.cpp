@@ -41,13 +41,16 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
   }
   for (const ContactSpec& c : scene.contacts) {
     const std::string key = fmt::format("contacts.{}", c.name);
-    if (c.normal && c.law == Law::compliant)
-      need(numbers, find_node(mesh, c.normal->node, c.place, key + ".node"),
-           clean_direction(c.normal->vector));
+    const auto need_all = [&](const Direction& at, const std::array<double, 2>& direction) {
+      need(numbers, find_node(mesh, at.node, c.place, key + ".node"), direction);
+      for (const auto& [node, weight] : at.against)
+        if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, key + ".against"), direction);
+    };
+    if (c.normal && c.law != Law::slider) need_all(*c.normal, clean_direction(c.normal->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
     if (c.law == Law::slider || c.friction.static_ > 0.0) {
-      const std::string& node = c.tangent ? c.tangent->node : c.normal ? c.normal->node : std::string{};
-      if (!node.empty()) need(numbers, find_node(mesh, node, c.place, key + ".node"), sliding_direction(c));
+      const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
+      if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
     }
   }
 }
@@ -126,18 +129,23 @@ Combination combination(const DofMap& map, const Direction& direction, const std
     }
     return result;
   }
-  const int node = find_node(map.mesh, direction.node, direction.place, key);
   auto vector = clean_direction(direction.vector);
   const double length = std::hypot(vector[0], vector[1]);
-  for (std::size_t c = 0; c < 2; ++c) {
-    if (vector[c] == 0.0) continue;
-    const int d = map.number[static_cast<std::size_t>(node)][c];
-    if (d >= 0) result.terms.emplace_back(d, unit ? vector[c] / length : vector[c]);
-    if (d == DofMap::absent && !skip_absent)
-      throw SceneError(direction.place, key,
-                       fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there",
-                                   direction.node, c == 0 ? "x" : "y"));
-  }
+  const auto add = [&](const std::string& name, double weight) {
+    const int node = find_node(map.mesh, name, direction.place, key);
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (vector[c] == 0.0 || weight == 0.0) continue;
+      const int d = map.number[static_cast<std::size_t>(node)][c];
+      if (d >= 0) result.terms.emplace_back(d, weight * (unit ? vector[c] / length : vector[c]));
+      if (d == DofMap::absent && !skip_absent)
+        throw SceneError(
+            direction.place, key,
+            fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there", name,
+                        c == 0 ? "x" : "y"));
+    }
+  };
+  add(direction.node, 1.0);
+  for (const auto& [node, weight] : direction.against) add(node, -weight);
   return result;
 }
 

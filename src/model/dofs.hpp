@@ -42,8 +42,9 @@ struct DofMap {
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
-/// A direction as a form on the numbered degrees of freedom. Fixed ones drop out; one that does not
-/// exist is an error that names it, unless `skip_absent`. `unit`: normalise the plane vector.
+/// A direction as a form on the numbered degrees of freedom, less what it is against. Fixed ones drop out;
+/// one that does not exist is an error that names it, unless `skip_absent`. `unit`: normalise the plane
+/// vector.
 [[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
                                       bool unit, bool skip_absent = false);
 

@@ -163,8 +163,10 @@ Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& dam
 
 Holding close_contacts(const std::vector<Contact>& contacts) {
   Holding holding;
-  for (const Contact& c : contacts)
+  for (const Contact& c : contacts) {
     if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.law == Law::rigid) holding.fixed.push_back(c.normal);
+  }
   return holding;
 }
 

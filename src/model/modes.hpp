@@ -22,7 +22,7 @@ struct Holding {
 };
 
 /// Contacts with closed[k] held in both directions: compliant ones by kn and kt, sliders by kt, or fixed
-/// along their tangent without one.
+/// along their tangent without one; rigid ones fixed along both.
 [[nodiscard]] Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed);
 
 /// rad per time; 0 when some motion has no stiffness, or when nothing with mass can move.

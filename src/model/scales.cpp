@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/held.hpp"
 #include "model/history_internal.hpp"
 #include "model/modes.hpp"
 #include "model/motion_names.hpp"
@@ -42,12 +43,12 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
       force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap + c.normal.dot(model.u0)));
   }
   for (const Load& load : model.loads) {
-    if (load.name == "gravity") {
-      if (model.static_start) continue;
+    if (load.name == "gravity" || load.name == "base motion") {
+      if (load.is_static && model.static_start) continue;
       double weight = 0.0;
       for (const auto& [i, p] : load.direction.terms)
         if (!map.dofs[static_cast<std::size_t>(i)].rotation) weight += std::abs(p);
-      force = std::max(force, weight);
+      force = std::max(force, weight * magnitude(load.history, t_end));
     } else {
       force = std::max(force, force_factor(load.direction, map) * magnitude(load.history, t_end));
     }
@@ -65,12 +66,16 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
 /// Greatest static displacement under the amplitude of any one load; 0 when the matrix is singular.
 double answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
   const SparseMatrix k = with_springs(model.stiffness, holding.springs);
-  if (null_motions(k).cols() > 0) return 0.0;
-  const SymmetricSolver solver(k);
+  const SparseMatrix gripped = with_grips(k, holding.fixed);
+  if (null_motions(gripped).cols() > 0) return 0.0;
+  const HeldStructure structure(k, holding.fixed);
+  const SymmetricSolver loose(gripped);
   double result = 0.0;
   for (const Load& load : model.loads) {
     const Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
-    result = std::max(result, greatest_translation(solver.solve(p), map));
+    const double answer = greatest_translation(structure.solve(p), map);
+    // Where all that could move is fixed, only roundoff answers.
+    if (answer > 1e-10 * greatest_translation(loose.solve(p), map)) result = std::max(result, answer);
   }
   return result;
 }

@@ -1,5 +1,7 @@
 #include "model/static_system.hpp"
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,15 +50,14 @@ double own_stiffness(const SparseMatrix& k, const Combination& form) {
 SparseMatrix StaticProblem::matrix(const std::vector<bool>& closed) const {
   std::vector<LineSpring> springs;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (is_support(k) && closed[k]) springs.push_back({contacts[k].normal, contacts[k].normal_stiffness});
+    if (is_support(k) && closed[k]) springs.push_back({contacts[k].normal, normal_stiffness(k)});
   return with_springs(stiffness, springs);
 }
 
 Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
   Vector p = load;
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    if (is_support(k) && closed[k])
-      contacts[k].normal.add_to(p, -contacts[k].normal_stiffness * contacts[k].gap);
+    if (is_support(k) && closed[k]) contacts[k].normal.add_to(p, -normal_stiffness(k) * contacts[k].gap);
   return p;
 }
 
@@ -100,8 +101,8 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   return result;
 }
 
-Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                  const std::vector<FreeMotion>& held) {
+HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                     const std::vector<FreeMotion>& held) {
   SparseMatrix k = problem.matrix(closed);
   std::vector<LineSpring> springs;
   bool loose = false;
@@ -126,8 +127,34 @@ Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
   }
   const SymmetricSolver solver(k);
   const Vector p = problem.right_side(closed);
-  Vector u = solver.solve(p);
-  return u + solver.solve(p - k * u);  // one refinement: contact springs may be much stiffer than the rest
+  const auto refined = [&](const Vector& load) {
+    const Vector u = solver.solve(load);
+    return Vector(u + solver.solve(load - k * u));  // contact springs may be much stiffer than the rest
+  };
+  HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
+  std::vector<std::size_t> rigid;
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c)
+    if (closed[c] && problem.contacts[c].law == Law::rigid) rigid.push_back(c);
+  if (!rigid.empty()) {  // n . (u + K^-1 n r) = -g0 at all of them, r = -N
+    const auto m = static_cast<Eigen::Index>(rigid.size());
+    Eigen::MatrixXd answer(problem.size(), m), give(m, m);
+    Eigen::VectorXd miss(m);
+    for (Eigen::Index j = 0; j < m; ++j)
+      answer.col(j) =
+          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const std::size_t c = rigid[static_cast<std::size_t>(i)];
+      miss[i] = -problem.gap(c, state.u);
+      for (Eigen::Index j = 0; j < m; ++j) give(i, j) = problem.contacts[c].normal.dot(answer.col(j));
+    }
+    const Eigen::VectorXd r = give.completeOrthogonalDecomposition().solve(miss);
+    state.u += answer * r;
+    for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
+  }
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c)
+    if (closed[c] && problem.contacts[c].law == Law::compliant)
+      state.reactions[c] = std::max(0.0, -problem.normal_stiffness(c) * problem.gap(c, state.u));
+  return state;
 }
 
 double driving_work(const StaticProblem& problem, const std::vector<bool>& closed, const Vector& motion,

@@ -1,6 +1,8 @@
 // static_system.hpp: the equilibrium of a structure whose closed contacts are known.
 //
 //   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at the holders h
+//   rigid ones: n . u = -g0 by a multiplier N, P - n N; kn is then a stiffness of the structure's own size,
+//   which changes nothing
 #pragma once
 
 #include <vector>
@@ -20,7 +22,11 @@ struct StaticProblem {
   const DofMap& map;
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
-  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].law == Law::compliant; }
+  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].law != Law::slider; }
+  [[nodiscard]] double normal_stiffness(std::size_t k) const {
+    return contacts[k].law == Law::rigid ? own_stiffness(stiffness, contacts[k].normal)
+                                         : contacts[k].normal_stiffness;
+  }
   [[nodiscard]] double gap(std::size_t k, const Vector& u) const {
     return contacts[k].gap + contacts[k].normal.dot(u);
   }
@@ -43,9 +49,14 @@ struct FreeMotion {
                                                    const std::vector<bool>& closed,
                                                    bool pressed_only = false);
 
-/// The displacement with the free motions held.
-[[nodiscard]] Vector solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
-                                const std::vector<FreeMotion>& held);
+/// The displacement with the free motions held, and -N of every contact: of closed rigid ones as the
+/// structure needs it, whatever its sign.
+struct HeldState {
+  Vector u;
+  std::vector<double> reactions;
+};
+[[nodiscard]] HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                                   const std::vector<FreeMotion>& held);
 
 /// Work of the loads on a free motion, at the displacement u that solve_held gave: zero in equilibrium.
 /// What is below roundoff, or below 1e-9 of the greatest load on the greatest displacement, counts as zero.

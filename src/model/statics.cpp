@@ -21,6 +21,7 @@ const std::string key = "run.initial";
 struct Trial {
   std::vector<FreeMotion> held;
   Vector u;
+  std::vector<double> reactions = {};
   int driven = -1;     ///< index into held, -1: none
   double force = 0.0;  ///< that drives it
 
@@ -30,7 +31,9 @@ struct Trial {
 Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   Trial trial;
   trial.held = hold_motions(problem, null_motions(problem.matrix(closed)), closed);
-  trial.u = solve_held(problem, closed, trial.held);
+  HeldState state = solve_held(problem, closed, trial.held);
+  trial.u = std::move(state.u);
+  trial.reactions = std::move(state.reactions);
   // Those that nothing holds first: they say more than one that friction could hold.
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -100,10 +103,12 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   }
   std::string pulls;
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
-    if (!problem.is_support(k) || !(problem.gap(k, gripped.u) > 0.0)) continue;
     const Contact& c = problem.contacts[k];
+    const double pull =
+        c.law == Law::rigid ? -gripped.reactions[k] : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
+    if (!problem.is_support(k) || !(pull > 0.0)) continue;
     pulls += fmt::format("{}contact '{}' would have to pull with {:.4g} {}", pulls.empty() ? "" : ", ",
-                         c.name, c.normal_stiffness * problem.gap(k, gripped.u), unit);
+                         c.name, pull, unit);
   }
   throw SceneError(place, key,
                    fmt::format("no static equilibrium: {}; without it the static loads drive the {}",
@@ -140,13 +145,16 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
       // A contact that only just touches may count either way.
-      if (std::abs(g) > 1e-13 * (size + std::abs(contacts[k].gap))) next[k] = g < 0.0;
+      const bool rigid = contacts[k].law == Law::rigid;
+      if (rigid && closed[k])
+        next[k] = trial.reactions[k] >= 0.0;
+      else if (std::abs(g) > 1e-13 * (size + std::abs(contacts[k].gap)))
+        next[k] = g < 0.0;
     }
     if (next == closed || round == 20) {
       Equilibrium result{trial.u, {}};
       for (std::size_t k = 0; k < contacts.size(); ++k)
-        result.start.reactions.push_back(
-            closed[k] ? std::max(0.0, -contacts[k].normal_stiffness * problem.gap(k, trial.u)) : 0.0);
+        result.start.reactions.push_back(std::max(0.0, trial.reactions[k]));
       for (const FreeMotion& f : trial.held) result.start.free_motions.push_back(motion_name(problem, f));
       return result;
     }

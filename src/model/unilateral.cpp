@@ -20,8 +20,7 @@ double slope(const StaticProblem& problem, const SparseMatrix& k0, const Vector&
   double s = d.dot(k0 * u - problem.load);
   for (std::size_t k = 0; k < problem.contacts.size(); ++k)
     if (problem.is_support(k))
-      s += problem.contacts[k].normal_stiffness * std::min(problem.gap(k, u), 0.0) *
-           problem.contacts[k].normal.dot(d);
+      s += problem.normal_stiffness(k) * std::min(problem.gap(k, u), 0.0) * problem.contacts[k].normal.dot(d);
   return s;
 }
 

@@ -79,8 +79,14 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
                {"kinetic_friction", contact.kinetic_friction}};
   if (contact.law != Law::slider) {
     json["gap"] = contact.gap;
-    json["normal_stiffness"] = contact.normal_stiffness;
+    if (contact.law == Law::rigid)
+      json["restitution"] = contact.restitution;
+    else
+      json["normal_stiffness"] = contact.normal_stiffness;
   }
+  if (contact.stribeck_velocity) json["stribeck_velocity"] = *contact.stribeck_velocity;
+  if (contact.law == Law::rigid && report != nullptr)
+    json["capture_velocity"] = contact.capture_velocity.value_or(report->settings.capture_velocity);
   if (contact.shear) {
     json["tangential_stiffness"] = contact.shear->stiffness;
     json["tangential_damping"] = contact.shear->damping;
@@ -95,6 +101,14 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
     const Peak& peak = report->peaks[k];
     json["peaks"] = {
         {"tangential", peak.horizontal}, {"normal", peak.vertical}, {"N", peak.N}, {"T", peak.T}};
+  }
+  if (k < report->landings.size() && contact.law != Law::slider) {
+    json["landings"] = Json::array();
+    for (const Landing& l : report->landings[k])
+      json["landings"].push_back({{"start", l.start},
+                                  {"duration", l.end - l.start},
+                                  {"peak_force", l.peak_force},
+                                  {"impulse", l.impulse}});
   }
   return json;
 }

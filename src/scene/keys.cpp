@@ -25,7 +25,7 @@ constexpr Key table_of_keys[] = {
     {"", "matrices", table, "", "", "", "Mass, damping and stiffness matrices, instead of nodes and members."},
     {"", "contacts", tables, "", "", "", "Unilateral or frictional contacts."},
     {"", "loads", tables, "", "", "", "Loads that vary with time."},
-    {"", "base_motion", table, "", "", "", "Ground acceleration.", true},
+    {"", "base_motion", table, "", "", "", "Ground acceleration; displacements and velocities are then relative to the base."},
 
     {"units", "force", choice, "", "required", "N kN MN", "Unit of force; must be mass * length / time^2."},
     {"units", "mass", choice, "", "required", "kg t", "Unit of mass."},
@@ -101,8 +101,8 @@ constexpr Key table_of_keys[] = {
 
     {"contacts[]", "name", name, "", "", "", "Name in results and in --set; contact1, contact2, ... where absent."},
     {"contacts[]", "node", name, "", "", "", "Node that touches; required with [nodes]."},
-    {"contacts[]", "against", name, "", "", "", "Node or segment that is touched, instead of the ground.", true},
-    {"contacts[]", "law", choice, "", "required", "compliant slider ~rigid", "\"compliant\": springs that open and slip; \"slider\": friction under a given compression."},
+    {"contacts[]", "against", KeyType::against, "", "", "", "What is touched instead of the ground: a node, or two nodes [B, C] with a straight segment between them, touched where the undeformed contact's node projects on it; its displacement is interpolated linearly between B and C."},
+    {"contacts[]", "law", choice, "", "required", "compliant rigid slider", "\"compliant\": springs that open and slip; \"rigid\": g >= 0 exactly, with impacts; \"slider\": friction under a given compression."},
     {"contacts[]", "normal", direction, "", "", "", "Direction in which the contact opens; it is made a unit vector with [nodes], taken as given with [matrices]. The tangent is (ny, -nx)."},
     {"contacts[]", "tangent", direction, "", "", "", "Direction of sliding of a slider; with [matrices] of any contact with friction."},
     {"contacts[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state."},
@@ -112,14 +112,17 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }."},
     {"contacts[]", "surface_velocity", standing_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
-    {"contacts[]", "restitution", number, "", "", "", "Newton's coefficient of restitution.", true},
-    {"contacts[]", "capture_velocity", number, "length/time", "", "", "Slowest rebound.", true},
+    {"contacts[]", "restitution", fraction, "", "0.0", "", "Newton's coefficient of restitution of a rigid contact, 0 to 1."},
+    {"contacts[]", "capture_velocity", non_negative, "length/time", "", "", "Rebounds of a rigid contact slower than this come to rest; rtol times the scale of velocities (or run.atol.velocity) where absent."},
     {"contacts[]", "normal_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the normal stiffness of a compliant contact, which still opens at N = 0 and never pulls."},
     {"contacts[]", "tangential_damping", non_negative, "force*time/length", "0.0", "", "Dashpot beside the tangential stiffness, which it needs; the two stand in series with the friction."},
 
     {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
-    {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Decay of friction with slip rate.", true},
+    {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Stribeck's law while the contact slips, f = kinetic + (static - kinetic) exp(-|slip rate| / stribeck_velocity); contacts without tangential_stiffness, engine \"ida\"."},
+
+    {"base_motion", "direction", direction, "", "required", "", "Direction of the ground motion; it is made a unit vector with [nodes], taken as given with [matrices]."},
+    {"base_motion", "acceleration", standing_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
 
     {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes]."},
     {"loads[]", "direction", direction, "", "required", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices]."},
@@ -217,6 +220,10 @@ std::string describe_type(const Key& key) {
       return "an integer >= 1, or an array of them, one a piece";
     case KeyType::initial:
       return "\"static\" or a table";
+    case fraction:
+      return "a number from 0 to 1";
+    case KeyType::against:
+      return "the name of a node, or an array of two";
     case KeyType::friction:
       return "a number >= 0 or a table { static, kinetic }";
     case direction:

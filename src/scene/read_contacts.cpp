@@ -5,6 +5,7 @@
 #include "model/history_from_spec.hpp"
 #include "model/history_internal.hpp"
 #include "scene/readers.hpp"
+#include "scene/touched_segment.hpp"
 
 namespace signorini {
 
@@ -17,13 +18,14 @@ FrictionSpec read_friction(Table& contact) {
     Table table = contact.child("friction");
     friction.static_ = table.number("static");
     friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
+    friction.stribeck_velocity = table.optional_number("stribeck_velocity");
     if (friction.kinetic > friction.static_) {
       table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
                                         shortest(friction.kinetic), shortest(friction.static_)));
     }
     table.finish();
   } else {
-    const std::string expected = "a number >= 0 or a table { static, kinetic }";
+    const std::string expected = describe_type(*find_key("contacts[]", "friction"));
     const double value = node ? finite_number(*node, contact.path("friction"), expected) : 0.0;
     if (value < 0.0) contact.wrong("friction", expected);
     friction = {value, value};
@@ -31,6 +33,7 @@ FrictionSpec read_friction(Table& contact) {
   Record record;
   record.set("static", toml_number(friction.static_));
   record.set("kinetic", toml_number(friction.kinetic));
+  if (friction.stribeck_velocity) record.set("stribeck_velocity", toml_number(*friction.stribeck_velocity));
   contact.record("friction", record.inline_table());
   return friction;
 }
@@ -51,8 +54,9 @@ Direction tangent_of(const Direction& normal) {
   return tangent;
 }
 
-void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
-  table.require("normal", " (compliant)");
+/// Normal, tangent and gap of a contact that opens.
+void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
+  table.require("normal", " (" + law + ")");
   contact.normal = read_direction(table, "normal", space);
   if (space.matrices) {
     const bool needed = contact.friction.static_ > 0.0;
@@ -65,10 +69,44 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
     contact.tangent = tangent_of(*contact.normal);
   }
   contact.gap = table.number("gap");
+}
+
+void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
+  read_gap(table, contact, space, "rigid");
+  contact.restitution = table.number("restitution");
+  contact.capture_velocity = table.optional_number("capture_velocity");
+}
+
+void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
+  read_gap(table, contact, space, "compliant");
   table.require("normal_stiffness", " (compliant)");
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
   if (contact.friction.static_ > 0.0) table.require("tangential_stiffness", " (compliant with friction)");
+}
+
+/// What lies between the contact's node and the ground, or takes the ground's place.
+void read_against(Table& table, ContactSpec& contact, const Scene& scene, const Space& space,
+                  const std::string& node) {
+  const auto touched = read_touched(table, scene, space, node);
+  if (contact.normal) contact.normal->against = touched;
+  if (contact.tangent) contact.tangent->against = touched;
+}
+
+void read_elements(Table& table, ContactSpec& contact) {
+  contact.tangential_stiffness = table.optional_number("tangential_stiffness");
+  if (contact.tangential_stiffness) {
+    contact.initial_shear = table.number("initial_shear");
+    contact.tangential_damping = table.number("tangential_damping");
+  } else {
+    for (const char* key : {"initial_shear", "tangential_damping"})
+      if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
+  }
+  // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
+  if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
+    table.fail("friction",
+               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
+               "point has no mass, so friction that falls with its rate leaves its motion undecided");
 }
 
 void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {
@@ -103,26 +141,26 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
     if (!space.matrices) table.require("node", "");
     const std::string node = space.matrices ? "" : read_node(table, "node", space);
     const std::string law = table.choice("law");
-    contact.law = law == "slider" ? Law::slider : Law::compliant;
+    contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
     contact.friction = read_friction(table);
     contact.normal_force = constant_history(0.0);
-    if (contact.law == Law::compliant) {
-      read_compliant(table, contact, space);
-    } else {
-      read_slider(table, contact, space, scene);
+    switch (contact.law) {
+      case Law::compliant:
+        read_compliant(table, contact, space);
+        break;
+      case Law::rigid:
+        read_rigid(table, contact, space);
+        break;
+      case Law::slider:
+        read_slider(table, contact, space, scene);
+        break;
     }
-    contact.tangential_stiffness = table.optional_number("tangential_stiffness");
+    if (contact.law != Law::rigid) read_elements(table, contact);
     contact.surface_velocity = read_standing_history(table, "surface_velocity", directory_of(scene));
-    if (contact.tangential_stiffness) {
-      contact.initial_shear = table.number("initial_shear");
-      contact.tangential_damping = table.number("tangential_damping");
-    } else {
-      for (const char* key : {"initial_shear", "tangential_damping"})
-        if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
-    }
+    if (!space.matrices && table.has("against")) read_against(table, contact, scene, space, node);
     if (contact.normal) contact.normal->node = node;
     if (contact.tangent) contact.tangent->node = node;
-    const bool stray_node = space.matrices && table.has("node");
+    const bool stray_node = space.matrices && (table.has("node") || table.has("against"));
     table.finish(stray_node ? "has no meaning with [matrices]"
                             : fmt::format("has no meaning for a contact with law = \"{}\"", law));
     scene.contacts.push_back(std::move(contact));

@@ -19,4 +19,17 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
+void read_base_motion(Table& top, Scene& scene, RecordedScene& record) {
+  if (!top.has("base_motion")) return;
+  Table table = top.child("base_motion");
+  BaseMotionSpec motion;
+  motion.place = table.place();
+  motion.direction = read_direction(table, "direction", space_of(scene));
+  table.require("acceleration", "");
+  motion.acceleration = read_standing_history(table, "acceleration", directory_of(scene));
+  table.finish();
+  scene.base_motion = std::move(motion);
+  record.add("base_motion", "[base_motion]", table.record());
+}
+
 }  // namespace signorini

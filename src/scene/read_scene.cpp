@@ -94,6 +94,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   read_run(top, scene, record);
   read_contacts(top, scene, record);  // compressions are checked up to t_end
   read_loads(top, scene, record);
+  read_base_motion(top, scene, record);
   top.finish();
 
   std::vector<std::string> order;

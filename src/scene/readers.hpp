@@ -39,6 +39,7 @@ void read_supports(Table& top, Scene& scene, RecordedScene& record);
 void read_matrices(Table& top, Scene& scene, RecordedScene& record);
 void read_contacts(Table& top, Scene& scene, RecordedScene& record);
 void read_loads(Table& top, Scene& scene, RecordedScene& record);
+void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 
 /// A vector [x, y] made a unit vector.
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);

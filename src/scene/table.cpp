@@ -19,6 +19,8 @@ bool in_range(KeyType type, double value) {
   switch (type) {
     case KeyType::positive:
       return value > 0.0;
+    case KeyType::fraction:
+      return value >= 0.0 && value <= 1.0;
     case KeyType::non_negative:
       return value >= 0.0;
     case KeyType::relative_tolerance:

@@ -106,6 +106,23 @@ TEST_CASE("exact event lists, order two in displacements and event times, energy
     }
 }
 
+TEST_CASE("rigid contacts: impacts, landings with restitution, and a ball past its accumulation point") {
+  for (const auto& [name, dt] :
+       {std::pair{"04c_impact_oscillator_e0", 0.02}, std::pair{"06_point_rigid_e0.5", 1e-3},
+        std::pair{"04a_bouncing_ball", 0.02}}) {
+    CAPTURE(name);
+    const Comparison a = run_case(name, with("newmark", dt)), b = run_case(name, with("newmark", 0.5 * dt));
+    for (const Comparison* c : {&a, &b}) {
+      INFO(c->first_difference);
+      CHECK(c->agreeing == c->expected);
+      CHECK(c->found == c->expected);
+    }
+    if (a.event_time < 1e-12) continue;  // a flight under gravity is exact
+    CHECK(order(a.displacement, b.displacement) > 1.9);
+    CHECK(order(a.event_time, b.event_time) > 1.9);
+  }
+}
+
 TEST_CASE("05g: 101 events of two masses on sliders with stiffness at dt = 5e-3") {
   const Comparison c = run_case("05g_two_mass_compliant", with("newmark", 5e-3));
   INFO(c.first_difference);
@@ -233,6 +250,13 @@ TEST_CASE("forces keep to their laws at every output, and events stand at ends o
   }
   const Result newmark = pipeline("newmark", dt, "0.3", {{"run.output_dt", "0.00037"}});
   CHECK(difference(result, newmark) < 2e-4);
+}
+
+TEST_CASE("rigid contacts are refused by name") {
+  const Scene scene =
+      read_scene(SIGNORINI_TEST_DATA "/cases/04a_bouncing_ball.toml", with("friction-iteration", 0.01));
+  CHECK_THROWS_WITH_AS((void)simulate(build_model(scene), scene.run), doctest::Contains("is rigid"),
+                       SceneError);
 }
 
 TEST_CASE("an iteration that does not end stops the run, and says where and why") {

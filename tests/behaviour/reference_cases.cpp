@@ -47,6 +47,15 @@ TEST_CASE("05g: two masses on sliders with stiffness") { check({"05g_two_mass_co
 TEST_CASE("06: point mass that slips, lifts off and lands") {
   check({"06_point_compliant_kn1e+06", 1e-9, 1e-7});
 }
+TEST_CASE("04a: bouncing ball past its accumulation point") { check({"04a_bouncing_ball", 1e-8, 1e-7}); }
+TEST_CASE("04c: impact oscillator that sticks to its stop") {
+  check({"04c_impact_oscillator_e0", 1e-8, 1e-7});
+}
+TEST_CASE("04e: a graze that hits with 1e-6") { check({"04e_graze_hit_1e-6", 1e-5, 1e-5}); }
+TEST_CASE("06: rigid point mass with restitution") { check({"06_point_rigid_e0.5", 1e-8, 1e-7}); }
+TEST_CASE("11: rigid rod, regular side of the Painleve limit") {
+  check({"11_painleve_regular_rigid", 1e-8, 1e-7});
+}
 TEST_CASE("07: plane frame, four elements") { check({"07_frame_4el_kn1e6_f0.3", 1e-8, 1e-6}); }
 TEST_CASE("08b: massless degrees of freedom") { check({"08b_lumped_singular_M", 1e-6, 1e-6}); }
 

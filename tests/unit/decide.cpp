@@ -52,7 +52,7 @@ Decision start(const Model& model) {
   instant.u = model.u0;
   instant.v = model.v0;
   instant.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
-  return Decider(model, expander, 100).decide(instant, forcing, forcing);
+  return Decider(model, expander, 100, 1e-9).decide(instant, forcing, forcing);
 }
 
 }  // namespace

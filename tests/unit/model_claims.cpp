@@ -43,8 +43,8 @@ struct Computed {
 
 TEST_SUITE("unit/models") {
   TEST_CASE("every model has its claims below") {
-    const std::set<std::string> known = {"belt",     "chain",    "coulomb-pad", "den-hartog",
-                                         "lift-off", "matrices", "oscillator",  "pipeline"};
+    const std::set<std::string> known = {"belt",     "chain",      "coulomb-pad", "den-hartog", "lift-off",
+                                         "matrices", "oscillator", "pipeline",    "rigid-frame"};
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(SIGNORINI_MODELS))
       found.insert(entry.path().stem().string());

@@ -74,15 +74,10 @@ TEST_CASE("good scenes are read, and run.toml is the same scene") {
   }
 }
 
-TEST_CASE("reference cases are read, except rigid ones") {
+TEST_CASE("reference cases are read") {
   for (const fs::path& file : scenes_in(SIGNORINI_TEST_DATA "/cases")) {
     INFO(file.string());
-    if (content(file).find("law = \"rigid\"") != std::string::npos) {
-      CHECK_THROWS_WITH_AS((void)read_scene(file.string()), doctest::Contains("not supported yet"),
-                           SceneError);
-    } else {
-      check_round_trip(read_scene(file.string()));
-    }
+    check_round_trip(read_scene(file.string()));
   }
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("wrong overrides name themselves") {
   check_refused({"run..t_end", "1"}, "expected path=value");
   check_refused({"", "1"}, "expected path=value");
   check_refused({"contacts.first.law", "rigid"},
-                "--set contacts.first.law=rigid: contacts.first.law: \"rigid\" is not supported yet");
+                "contacts.first.normal_stiffness: has no meaning for a contact with law = \"rigid\"");
   check_refused({"schema", "2"}, "schema: found the number 2, expected 1");
   check_refused({"contacts", "3"}, "contacts: found the number 3, expected tables");
 }

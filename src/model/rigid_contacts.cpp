@@ -1,0 +1,118 @@
+#include "model/rigid_contacts.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+
+#include "model/springs.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double roundings = 64.0;   // of the terms of a gap, up to which it counts as zero
+constexpr double dependent = 1e-12;  // what is left of a unit normal when all others are taken out of it
+
+[[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
+  const ContactSpec& spec = scene.contacts[k];
+  throw SceneError(spec.place, "contacts." + spec.name + key, why);
+}
+
+void check_mass(const Scene& scene, const Model& model, std::size_t k) {
+  const Contact& contact = model.contacts[k];
+  for (const Combination* form : {&contact.normal, &contact.tangent}) {
+    if (form == &contact.tangent && !contact.has_friction()) continue;
+    for (const auto& [dof, factor] : form->terms)
+      if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
+        refuse(
+            scene, k, ".law",
+            fmt::format("a rigid contact needs mass where it acts, and {} has none; give it a mass, or the "
+                        "contact law = \"compliant\"",
+                        d.displacement));
+  }
+}
+
+void close_gap(const Scene& scene, Model& model, std::size_t k) {
+  const Contact& contact = model.contacts[k];
+  double terms = std::abs(contact.gap);
+  for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * model.u0[dof]);
+  const double gap = contact.gap + contact.normal.dot(model.u0);
+  const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
+  if (carries || std::abs(gap) <= roundings * epsilon * terms) {
+    double square = 0.0;
+    for (const auto& term : contact.normal.terms) square += term.second * term.second;
+    for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;
+    if (contact.normal.terms.size() == 1)
+      model.u0[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
+  } else if (gap < 0.0) {
+    refuse(
+        scene, k, ".gap",
+        fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
+                    "penetrated",
+                    gap, model.units.length));
+  }
+}
+
+/// Contacts that may close at one displacement: those whose normals are independent of the first one's and
+/// of each other's. A dependent one is redundant if its gap closes with them, else it never meets them.
+void check_redundance(const Scene& scene, const Model& model, const std::vector<std::size_t>& rigid,
+                      std::size_t first) {
+  const auto n = static_cast<Eigen::Index>(model.size());
+  Eigen::MatrixXd normals(n, 0);
+  std::vector<std::size_t> members;
+  const auto consider = [&](std::size_t k) {
+    const Contact& contact = model.contacts[k];
+    const Vector normal = full(contact.normal, model.size());
+    if (!members.empty()) {
+      const Eigen::VectorXd x = normals.colPivHouseholderQr().solve(normal);
+      if ((normal - normals * x).norm() <= dependent * normal.norm()) {
+        double gap = contact.gap, size = std::abs(contact.gap);
+        std::string names;
+        for (std::size_t j = 0; j < members.size(); ++j) {
+          const double part = x[static_cast<Eigen::Index>(j)];
+          const Contact& other = model.contacts[members[j]];
+          gap -= part * other.gap;
+          size += std::abs(part * other.gap);
+          if (std::abs(part) > 1e-9) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", other.name);
+        }
+        if (std::abs(gap) <= 1e-9 * size)
+          refuse(scene, k, ".law",
+                 fmt::format("it closes exactly when {} does, so nobody can say which of the rigid contacts "
+                             "carries the force; leave it out, or give them law = \"compliant\"",
+                             names));
+        return;
+      }
+    }
+    normals.conservativeResize(Eigen::NoChange, normals.cols() + 1);
+    normals.rightCols(1) = normal;
+    members.push_back(k);
+  };
+  consider(first);
+  for (const std::size_t k : rigid)
+    if (k != first) consider(k);
+}
+
+}  // namespace
+
+void check_rigid_contacts(const Scene& scene, Model& model) {
+  std::vector<std::size_t> rigid;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& contact = model.contacts[k];
+    if (contact.stribeck_velocity)
+      for (const auto& term : contact.tangent.terms)
+        if (const Dof& d = model.dofs[static_cast<std::size_t>(term.first)]; d.massless)
+          refuse(
+              scene, k, ".friction",
+              fmt::format("friction that falls with the slip rate needs mass where it acts, and {} has none",
+                          d.displacement));
+    if (contact.law != Law::rigid) continue;
+    check_mass(scene, model, k);
+    close_gap(scene, model, k);
+    rigid.push_back(k);
+  }
+  for (const std::size_t first : rigid) check_redundance(scene, model, rigid, first);
+}
+
+}  // namespace signorini

@@ -1,0 +1,17 @@
+// rigid_contacts.hpp: what rigid contacts need of a structure.
+//
+//   n . M^-1 n > 0 (and t . M^-1 t > 0 with friction): where they act there is mass
+//   g(u0) >= 0: nothing starts inside
+//   no c, not zero, with sum_i c_i n_i = 0 and sum_i c_i g0_i = 0 over contacts that may close together: such
+//   contacts share one motion, and nobody can say which of them carries the force
+#pragma once
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// Errors: SceneError with the contact's place; it proposes law = "compliant". Gaps of u0 that are zero but
+/// for roundoff become zero.
+void check_rigid_contacts(const Scene& scene, Model& model);
+
+}  // namespace signorini

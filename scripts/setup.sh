@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev libeigen3-dev libgsl-dev
           doctest-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspectra-dev
-          clang-format)
+          clang-format parallel)
 
 installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 

@@ -154,6 +154,9 @@ tangent is t = (ny, -nx), [1, 0] for a floor; tangential motion is `t . u` less 
 
 - `compliant`: N = kn g while closed, T = kt (ut - p) while it sticks, T = -f N along the slip while it slips;
   p, the anchor, moves with slip. States: `open`, `stick`, `slip+`, `slip-`; `open` and `closed` without friction.
+- `rigid`: g >= 0 exactly. A contact that closes with g' < 0 is hit: all rigid contacts that touch share the
+  impact, with `restitution` along n and Coulomb's law for the impulse along t. Rebounds slower than `capture_velocity`
+  rest, so bouncing ends. Stick and slip as above, without springs.
 - `slider`: the compression is given, `normal_force`, and there is no gap. Without `tangential_stiffness` it is
   rigid in stick. While `normal_force` is 0 over an interval it is `open`. With `[nodes]` a normal may stand for the
   tangent that belongs to it.
@@ -161,7 +164,22 @@ tangent is t = (ny, -nx), [1, 0] for a floor; tangential motion is `t . u` less 
 A dashpot acts beside its spring: N = kn g + cn g' while closed, T = kt (ut - p) + ct ut' in stick. The contact
 opens at N = 0, so it never pulls.
 
-N <= 0 is compression. How stiff is stiff enough? `signorini check` compares each contact with the structure.)"},
+N <= 0 is compression. How stiff is stiff enough? `signorini check` compares each contact with the structure.
+
+A contact joins its node to the ground, or to what is named by `against`: the gap is then that between the two, and n
+points from the touched body to the node.
+
+```toml
+[[contacts]]
+name = "landing"
+node = "ball"
+against = ["B", "C"]            # a point on the segment; one name: node to node
+law = "rigid"
+normal = [0.0, 1.0]
+gap = 0.2
+restitution = 0.5
+friction = 0.3
+```)"},
     {"contacts[].friction", "### `contacts.friction`",
      R"(```toml
 [[contacts]]
@@ -172,6 +190,15 @@ tangent = [1.0, 0.0]
 normal_force = { type = "harmonic", offset = 10.0, amplitude = 4.0, omega = 3.0 }
 friction = { static = 0.4, kinetic = 0.3 }
 surface_velocity = 0.2
+```)"},
+    {"base_motion", "## `[base_motion]`",
+     R"(The ground shakes: displacements and velocities are then relative to it, and the load is -M r a(t), with r the
+direction on all translations, fixed ones included.
+
+```toml
+[base_motion]
+direction = [1.0, 0.0]
+acceleration = { type = "table", times = [0.0, 0.1, 0.2], values = [0.0, 3.0, 0.0] }
 ```)"},
     {"loads[]", "## `[[loads]]`",
      R"(A force amplitude * f(t) along a direction. Several may act on one node.

@@ -36,10 +36,12 @@ int main_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early,\n"
-      "6 a file could not be read or written, 130 interrupted.");
+      "5 a limit of compare was exceeded, 6 a file could not be read or written, 130 interrupted.");
   Program program{app, std::vector<std::string>(argv, argv + argc), {}};
   add_run(program);
   add_check(program);
+  add_compare(program);
+  add_sweep(program);
   add_plot(program);
   add_keys(program);
   std::vector<std::string> names;

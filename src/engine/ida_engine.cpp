@@ -42,10 +42,14 @@ void IdaEngine::start(const Segment& segment) {
   flight_ = flights_.take(segment, lowest_flight_);
   if (flight_) return;
   std::vector<double> levels;
-  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot)
-    levels.push_back(decision.guards[slot].noise +
-                     re_arm_tolerances * tolerance(decision.guards[slot].form,
-                                                   decision.after[slot / guards_per_contact], settings_));
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    const ContactMotion& motion = decision.after[slot / guards_per_contact];
+    double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, settings_);
+    // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
+    if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
+    levels.push_back(level);
+  }
   watch_.start(decision.guards, std::move(levels));
   bdf_.start(segment, watch_);
   const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};

@@ -113,11 +113,15 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const double force = force_of(model, map, t_end);
   const double v0 = greatest_translation(model.v0, map);
   const Holding holding = hold_contacts(model.contacts, closed);
-  const double omega = model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, {});
+  Holding rested;  // without friction on what is rigid and closed
+  for (std::size_t k = 0; k < closed.size(); ++k)
+    if (closed[k] && model.contacts[k].law == Law::rigid) rested.fixed.push_back(model.contacts[k].normal);
+  const double omega =
+      model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
 
   double displacement = greatest_translation(model.u0, map);
   const double held = answer_to_loads(model, map, holding, t_end);
-  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, {}, t_end));
+  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end));
   if (!usable(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))

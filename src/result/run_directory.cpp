@@ -21,16 +21,6 @@ constexpr std::array<std::string_view, 8> run_files = {"events.csv",   "history.
                                                        "energy.csv",   "frames.csv",  "frame_contacts.csv",
                                                        "summary.json", "run.toml"};
 
-void remove_old_run(const fs::path& path) {
-  std::error_code error;
-  for (const std::string_view name : run_files) {
-    fs::remove(path / name, error);
-    if (error) throw FileError((path / name).string(), "cannot be removed: " + error.message());
-    fs::remove(path / (std::string(name) + ".part"), error);
-  }
-  remove_plots(path);
-}
-
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
   std::error_code missing;
@@ -66,6 +56,16 @@ void remove_path(const fs::path& path, const fs::path& first) {
 }
 
 }  // namespace
+
+void remove_run(const fs::path& path) {
+  std::error_code error;
+  for (const std::string_view name : run_files) {
+    fs::remove(path / name, error);
+    if (error) throw FileError((path / name).string(), "cannot be removed: " + error.message());
+    fs::remove(path / (std::string(name) + ".part"), error);
+  }
+  remove_plots(path);
+}
 
 void check_run_directory(const fs::path& path, bool force) {
   std::error_code error;
@@ -114,7 +114,7 @@ RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
   check_run_directory(path_, options_.force);  // again: it may have appeared since
   const fs::path created = create_path(path_);
-  if (options_.force) remove_old_run(path_);
+  if (options_.force) remove_run(path_);
   try {
     write_file(path_ / "run.toml", scene_.resolved);
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));

@@ -364,6 +364,40 @@ TEST_CASE("a mass between two rigid walls is not redundant, and keeps its energy
   }
 }
 
+TEST_CASE("a Z-shaped frame is thrown up, lands and chatters to rest") {
+  // Times from an independent program with matrix exponentials: the first two events of A and its first hit,
+  // and where A rests.
+  Result by_exact;
+  for (const std::string engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    const Scene scene = read_scene(SIGNORINI_MODELS "/rigid-frame.toml", {{"run.engine", engine}});
+    const Model model = build_model(scene);
+    Result r = simulate(model, scene.run);
+    check_sound(r);
+    std::vector<double> first;  // of A: slip, lift-off, hit
+    for (const Event& e : r.events)
+      if (e.contact == 0 && first.size() < 3) first.push_back(e.t);
+    REQUIRE(first.size() == 3);
+    const double tolerance = engine == "exact" ? 1e-10 : 1e-7;
+    CHECK(std::abs(first[0] - 0.00390145740137) < tolerance);
+    CHECK(std::abs(first[1] - 0.011638888955) < tolerance);
+    CHECK(std::abs(first[2] - 0.209377022949) < tolerance);
+    CHECK(r.events.back().t < 0.604);
+    for (const ContactSample& c : r.rows.back().contacts) CHECK(c.state == State::stick);
+    CHECK(std::abs(r.rows.back().u[0] - 1.695854e-4) < (engine == "exact" ? 1e-9 : 1e-7));
+    if (engine == "exact") {
+      by_exact = std::move(r);
+      continue;
+    }
+    REQUIRE(r.events.size() == by_exact.events.size());
+    for (std::size_t i = 0; i < r.events.size(); ++i) {
+      CHECK(r.events[i].contact == by_exact.events[i].contact);
+      CHECK(r.events[i].to == by_exact.events[i].to);
+      CHECK(std::abs(r.events[i].t - by_exact.events[i].t) < 1e-7);
+    }
+  }
+}
+
 TEST_CASE("a ramp under 30 degrees: no drift into it, exact sliding, over a long run") {
   const double angle = std::numbers::pi / 6.0, s = std::sin(angle), c = std::cos(angle);
   const std::string text = matrix_scene(

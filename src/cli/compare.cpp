@@ -1,0 +1,330 @@
+// signorini compare: engines on one scene, or runs that are there, side by side.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/suggest.hpp"
+#include "cli/command.hpp"
+#include "cli/compare_text.hpp"
+#include "cli/gnuplot.hpp"
+#include "cli/live.hpp"
+#include "cli/settings.hpp"
+#include "cli/terminal.hpp"
+#include "result/csv.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+#include "study/comparison_plots.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareOptions {
+  std::vector<std::string> sources, engines, settings, limits;
+  std::optional<std::string> directory;
+  double instant = 0.0;
+  bool force = false, quiet = false, json = false, no_plots = false;
+};
+
+/// What this command puts into its directory, beside one folder a run.
+constexpr const char* own_files[] = {"runs.csv", "differences.csv", "columns.csv", "events.csv",
+                                     "compare.json"};
+
+bool is_engine(const CompareOptions& options, const std::string& name) {
+  return std::find(options.engines.begin(), options.engines.end(), name) != options.engines.end();
+}
+
+/// "exact:run.rtol=1e-12" is for one engine: no key of a scene has a colon before its first dot.
+std::optional<std::string> engine_of(const CompareOptions& options, const Override& change) {
+  const std::size_t colon = change.path.find(':');
+  if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
+  const std::string name = change.path.substr(0, colon);
+  if (!is_engine(options, name))
+    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the engines compared{}", change.path,
+                                 change.value, name, suggestion(name, options.engines)));
+  return name;
+}
+
+std::vector<Override> changes_for(const CompareOptions& options, const std::string& engine) {
+  std::vector<Override> changes = {{"run.engine", engine}};
+  for (const Override& change : overrides_of(options.settings)) {
+    const std::optional<std::string> only = engine_of(options, change);
+    const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
+    if (path == "run.engine")
+      throw UsageError("--set " + change.path + "=" + change.value + ": --engines says which engines run");
+    if (!only || *only == engine) changes.push_back({path, change.value});
+  }
+  return changes;
+}
+
+Scene scene_for(const CompareOptions& options, const std::string& engine) {
+  try {
+    return read_scene(options.sources.front(), changes_for(options, engine));
+  } catch (const UsageError& error) {  // the reader knows the engines; it was told with a --set
+    const std::string told = "--set run.engine=" + engine, message = error.what();
+    if (message.rfind(told, 0) != 0) throw;
+    throw UsageError("--engines " + engine + message.substr(told.size()));
+  }
+}
+
+void check_directory(const fs::path& path, bool force) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return;
+  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
+  if (fs::is_empty(path, error)) return;
+  if (!force)
+    throw FileError(path.string(), "is there already and not empty; --force replaces the comparison in it");
+  if (!fs::exists(path / "compare.json", error))
+    throw FileError(path.string(),
+                    "is not empty and holds no comparison (no compare.json) that --force could replace");
+}
+
+void remove_old(const fs::path& path) {
+  std::error_code error;
+  for (const char* name : own_files) fs::remove(path / name, error);
+  for (const auto& entry : fs::directory_iterator(path / "plots", error)) {
+    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
+    const bool picture = type == ".gp" || type == ".svg" || type == ".png";
+    const bool ours = picture
+                          ? stem == "differences" || stem.starts_with("contact-")
+                          : type == ".csv" && (stem.starts_with("motion-") || stem.starts_with("forces-"));
+    if (ours) fs::remove(entry.path(), error);
+  }
+}
+
+void create(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
+}
+
+/// Says first that the directory is one of ours, so that --force can replace what is left by a kill.
+void begin(const fs::path& path, bool force) {
+  check_directory(path, force);
+  create(path / "plots");
+  remove_old(path);
+  write_file(path / "compare.json", "{}\n");
+}
+
+/// Takes back what begin() made; what else is there stays.
+void leave(const fs::path& path) {
+  std::error_code ignored;
+  for (const fs::path& made : {path / "compare.json", path / "plots", path}) fs::remove(made, ignored);
+}
+
+struct Outcomes {
+  ComparisonReport report;
+  bool interrupted = false, stopped = false;
+};
+
+void run_engine(const CompareOptions& options, const fs::path& path, const Scene& scene,
+                const std::vector<std::string>& command_line, Outcomes& outcomes) {
+  const std::string& engine = options.engines[outcomes.report.runs.size() + outcomes.report.refused.size()];
+  const Model model = build_model(scene);
+  RunDirectory directory(path / engine, scene, model, {options.force, command_line});
+  Report report;
+  double reached = 0.0;
+  try {
+    Live live(directory, model, scene.run.t_end, !options.quiet);
+    try {
+      report = simulate(model, scene.run, live);
+    } catch (const FileError&) {
+      reached = live.reached();
+      throw;
+    }
+  } catch (const SceneError& error) {
+    if (options.force) remove_run(path / engine);  // an earlier one's would be taken for this one's
+    outcomes.report.refused.emplace_back(engine, error.what());
+    return;
+  } catch (const FileError& error) {
+    directory.abandon(reached, error.what());
+    throw;
+  }
+  directory.finish(report);
+  for (const std::string& warning : report.warnings) print_warning(engine + ": " + warning);
+  outcomes.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
+  outcomes.stopped = outcomes.stopped || report.outcome.kind == Outcome::Kind::stopped;
+  outcomes.report.runs.push_back(read_compared_run(path / engine, engine));
+}
+
+Outcomes run_engines(const CompareOptions& options, const fs::path& path,
+                     const std::vector<std::string>& command_line) {
+  std::vector<Scene> scenes;
+  for (const std::string& engine : options.engines) scenes.push_back(scene_for(options, engine));
+  (void)build_model(scenes.front());  // what no engine can run is refused before anything is written
+  begin(path, options.force);
+  Outcomes outcomes;
+  for (const Scene& scene : scenes) {
+    run_engine(options, path, scene, command_line, outcomes);
+    if (outcomes.interrupted) return outcomes;
+    if (outcomes.report.runs.empty()) {  // nothing to compare the others with
+      leave(path);
+      throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
+                                       ", refuses the scene: " + outcomes.report.refused.front().second);
+    }
+  }
+  return outcomes;
+}
+
+std::vector<std::string> names_of(const std::vector<std::string>& directories) {
+  std::vector<std::string> names;
+  for (std::string name : directories) {
+    while (name.size() > 1 && name.back() == '/') name.pop_back();
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      throw UsageError("compare: " + name + " stands twice");
+    names.push_back(name);
+  }
+  return names;
+}
+
+void check_units(const ComparisonReport& report) {
+  const Units& first = report.runs.front().figures.facts.units;
+  for (const ComparedRun& run : report.runs) {
+    const Units& units = run.figures.facts.units;
+    if (units.force == first.force && units.length == first.length && units.time == first.time) continue;
+    throw FileError(
+        run.figures.directory.string(),
+        fmt::format("has the units {}, {}, {}, expected those of the reference, {}, {}, {}", units.force,
+                    units.length, units.time, first.force, first.length, first.time));
+  }
+}
+
+Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
+  Outcomes outcomes;
+  for (const std::string& name : names_of(options.sources))
+    outcomes.report.runs.push_back(read_compared_run(name, name));
+  check_units(outcomes.report);
+  begin(path, options.force);
+  return outcomes;
+}
+
+bool by_engine(const CompareOptions& options) { return !options.engines.empty(); }
+
+void check_sources(const CompareOptions& options) {
+  if (!(options.instant >= 0.0))
+    throw UsageError(fmt::format("--instant: found {}, expected a time >= 0", options.instant));
+  const auto& sources = options.sources;
+  std::error_code error;
+  if (by_engine(options)) {
+    if (sources.size() != 1)
+      throw UsageError(fmt::format("--engines: found {} scenes, expected one", sources.size()));
+    for (std::size_t i = 0; i < options.engines.size(); ++i)
+      if (std::count(options.engines.begin(), options.engines.end(), options.engines[i]) > 1)
+        throw UsageError("--engines: " + options.engines[i] +
+                         " stands twice; run it twice and compare the two directories");
+    if (options.engines.size() < 2)
+      throw UsageError("--engines: found one engine, expected two or more, such as ida,exact");
+    return;
+  }
+  if (!options.settings.empty()) throw UsageError("--set: runs that are there cannot be changed");
+  if (sources.size() >= 2) return;
+  if (fs::is_directory(sources.front(), error))
+    throw UsageError("compare: found one directory, expected two or more");
+  throw UsageError("compare: found one scene, expected --engines with two or more, such as ida,exact");
+}
+
+fs::path output_directory(const CompareOptions& options) {
+  if (options.directory) {
+    if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
+    return *options.directory;
+  }
+  fs::path first = options.sources.front();
+  if (!first.has_filename()) first = first.parent_path();
+  return (by_engine(options) ? first.stem() : first.filename()).string() + "-compare";
+}
+
+std::string draw_pictures(const fs::path& path, const ComparisonReport& report) {
+  const std::vector<fs::path> scripts = write_comparison_plots(path, report);
+  if (scripts.empty()) return "";
+  const std::string folder = (path / "plots").string();
+  const Drawing drawing = draw(scripts);
+  if (drawing.kind == Drawing::Kind::no_gnuplot)
+    return "pictures: no gnuplot on PATH; its scripts are in " + folder + "\n";
+  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
+  print_note("gnuplot failed: " + drawing.message);
+  return "";
+}
+
+ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
+  const std::vector<Limit> limits = parse_limits(options.limits);
+  check_sources(options);
+  const fs::path path = output_directory(options);
+  check_directory(path, options.force);
+  Outcomes outcomes =
+      by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
+  if (outcomes.interrupted) {
+    print_error("interrupted; the runs are kept in " + path.string());
+    return ExitCode::interrupted;
+  }
+  ComparisonReport& report = outcomes.report;
+  report.limits = limits;
+  for (std::size_t i = 1; i < report.runs.size(); ++i) {
+    const ComparedRun& run = report.runs[i];
+    const ComparisonSettings settings{options.instant, path / "plots", run_slug(run.figures.name, i)};
+    report.comparisons.push_back(compare_runs(report.runs.front(), run, settings));
+    for (std::string& sentence :
+         exceeded(limits, report.runs.front().figures, run.figures, report.comparisons.back()))
+      report.exceeded.push_back(std::move(sentence));
+  }
+  if (!limits.empty())
+    for (const auto& [name, reason] : report.refused)
+      report.exceeded.push_back(name + ": refused the scene, so no limit is kept");
+  write_comparison(path, report);
+  if (options.json) print(comparison_json(report));
+  if (!options.quiet && !options.json) {
+    print(compare_text(report));
+    print("\nresults: " + path.string() +
+          "/ (compare.json, runs.csv, differences.csv, columns.csv, events.csv)\n");
+  }
+  const std::string drawn = options.no_plots ? "" : draw_pictures(path, report);
+  if (!options.quiet && !options.json) print(drawn);
+  for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
+  if (!report.exceeded.empty()) return ExitCode::limit;
+  if (!outcomes.stopped) return ExitCode::done;
+  print_error("a computation stopped early; what was computed is kept in " + path.string());
+  return ExitCode::stopped;
+}
+
+}  // namespace
+
+void add_compare(Program& program) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command = program.app.add_subcommand(
+      "compare", "set engines, or runs that are there, side by side, event by event");
+  command
+      ->add_option("SOURCE", options->sources, "a scene with --engines, or two or more directories of runs")
+      ->required();
+  command
+      ->add_option("--engines", options->engines,
+                   "engines to run on the scene, the first is the reference: ida,exact")
+      ->option_text("NAME,NAME...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--output", options->directory, "directory of the comparison (default: SOURCE-compare)")
+      ->option_text("DIR");
+  add_settings(*command, options->settings);
+  command
+      ->add_option("--limit", options->limits,
+                   "end with exit code 5 where a difference is greater: event_time=1e-4 (may be repeated)")
+      ->option_text("NAME=NUMBER")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--instant", options->instant,
+                   "events of different contacts that lie no further apart have no order")
+      ->option_text("T");
+  command->add_flag("--force", options->force, "replace an earlier comparison in the directory");
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->add_flag("--json", options->json, "print compare.json instead of tables");
+  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  command->callback([&program, options] {
+    program.action = [options, line = program.command_line] { return compare(*options, line); };
+  });
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,301 @@
+// signorini sweep: one run a value of one or more keys, in one table.
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/number.hpp"
+#include "cli/command.hpp"
+#include "cli/gnuplot.hpp"
+#include "cli/settings.hpp"
+#include "cli/sweep_text.hpp"
+#include "cli/terminal.hpp"
+#include "cli/workers.hpp"
+#include "result/csv.hpp"
+#include "study/sweep_plots.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  std::string scene;
+  std::vector<std::string> varied, settings, merge;
+  std::optional<std::string> directory;
+  std::optional<std::string> share;
+  std::optional<long> jobs;
+  bool keep = false, force = false, quiet = false, json = false, no_plots = false;
+};
+
+std::optional<std::string> environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+/// The reader was told the values with --set, the user said --vary.
+std::string as_given(const std::string& message, const std::vector<Vary>& varied) {
+  const std::string set = "--set ";
+  for (const Vary& vary : varied)
+    if (message.rfind(set + vary.path + "=", 0) == 0) return "--vary " + message.substr(set.size());
+  return message;
+}
+
+/// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
+/// a wrong command line, a value that only some rows cannot take is a row.
+SweepSpec specify(const SweepOptions& options) {
+  SweepSpec spec;
+  spec.scene = options.scene;
+  spec.settings = options.settings;
+  for (const std::string& text : options.varied) spec.vary.push_back(parse_vary(text));
+  if (options.share) spec.share = parse_share(*options.share, environment);
+  constexpr std::size_t most_tried = 200;  // of as many, one should have been right
+  std::optional<Error> first;
+  std::size_t tried = 0;
+  for (const auto& point : points(spec.vary)) {
+    if (tried++ == most_tried) break;
+    std::vector<Override> changes = overrides_of(options.settings);
+    changes.insert(changes.end(), point.begin(), point.end());
+    try {
+      const Scene scene = read_scene(options.scene, changes);
+      spec.fingerprint = fingerprint_of(scene.resolved);
+      spec.title = scene.title;
+      spec.units = scene.units;
+      return spec;
+    } catch (const FileError&) {
+      throw;
+    } catch (const Error& error) {
+      if (!first) first = error;
+    }
+  }
+  throw Error(first->code(), as_given(first->what(), spec.vary));
+}
+
+std::size_t jobs_of(const SweepOptions& options) {
+  if (!options.jobs) return ranks(environment) > 1 ? 1 : processors();  // a launcher has filled the machine
+  if (*options.jobs < 1) throw UsageError(fmt::format("--jobs {}: expected at least 1", *options.jobs));
+  return static_cast<std::size_t>(*options.jobs);
+}
+
+fs::path output_directory(const SweepOptions& options, const Share& share) {
+  if (options.directory) {
+    if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
+    return *options.directory;
+  }
+  const std::string stem = fs::path(options.scene).stem().string() + "-sweep";
+  return share.all() ? stem : fmt::format("{}-{}-of-{}", stem, share.number, share.count);
+}
+
+/// The table on disk, renewed at most twice a second: a long table must not cost more than its runs.
+class Progress {
+ public:
+  Progress(const SweepDirectory& directory, std::size_t all, bool line)
+      : directory_(directory), all_(all), line_(line && stderr_is_terminal()) {}
+  ~Progress() {
+    if (line_) progress_line("");
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void idle(std::size_t running) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(500);
+    if (directory_.rows().size() != written_) {
+      written_ = directory_.rows().size();
+      directory_.write_table();
+    }
+    if (line_)
+      progress_line(
+          fmt::format("{} of {}, {} running", directory_.rows().size(), count_of(all_, "run"), running));
+  }
+
+ private:
+  const SweepDirectory& directory_;
+  std::size_t all_, written_ = 0;
+  bool line_;
+  std::chrono::steady_clock::time_point next_;
+};
+
+std::vector<std::string> values_of(const std::vector<Override>& point) {
+  std::vector<std::string> values;
+  for (const Override& change : point) values.push_back(change.value);
+  return values;
+}
+
+/// Ends with a row for every task, unless interrupted. False: interrupted.
+bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std::vector<std::size_t>& tasks,
+              const std::vector<std::string>& command_line) {
+  const auto work = [&](std::size_t index) {
+    RowTask task{
+        options.scene, overrides_of(options.settings), index, values_of(directory.points()[index]), {},
+        command_line};
+    const auto& point = directory.points()[index];
+    task.changes.insert(task.changes.end(), point.begin(), point.end());
+    if (options.keep) task.keep = directory.run_directory(index);
+    write_file(directory.row_file(index), row_json(compute_row(task)));
+  };
+  int file_error = 0;
+  const auto ended = [&](const WorkerEnd& end) {
+    if (end.code == 0 && end.signal == 0) {
+      directory.take(end.task);
+      return true;
+    }
+    if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
+      ++file_error;  // it has said why
+      return false;
+    }
+    SweepRow row;
+    row.index = end.task;
+    row.values = values_of(directory.points()[end.task]);
+    row.outcome = "crashed";
+    row.reason = end.signal != 0 ? fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal))
+                                 : fmt::format("exit code {}", end.code);
+    directory.add(row);
+    return true;
+  };
+  Progress progress(directory, directory.rows().size() + tasks.size(), !options.quiet);
+  const bool whole =
+      run_workers(tasks, jobs_of(options), work, ended, [&](std::size_t running) { progress.idle(running); });
+  if (file_error > 0)
+    throw Error(ExitCode::file,
+                fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
+                            count_of(directory.rows().size(), "row"), directory.path().string()));
+  return whole;
+}
+
+std::string draw_pictures(const SweepDirectory& directory) {
+  const std::vector<fs::path> scripts =
+      write_sweep_plots(directory.path(), directory.spec(), directory.rows());
+  if (scripts.empty()) return "";
+  const std::string folder = (directory.path() / "plots").string();
+  const Drawing drawing = draw(scripts);
+  if (drawing.kind == Drawing::Kind::no_gnuplot)
+    return "pictures: no gnuplot on PATH; its scripts are in " + folder + "\n";
+  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
+  print_note("gnuplot failed: " + drawing.message);
+  return "";
+}
+
+void conclude(const SweepOptions& options, const SweepDirectory& directory) {
+  directory.write_results();
+  if (options.json) print(sweep_json(directory.spec(), directory.rows()));
+  const bool tables = !options.quiet && !options.json;
+  if (tables) {
+    if (!directory.spec().title.empty()) print(directory.spec().title + "\n\n");
+    print(sweep_text(directory.spec(), directory.rows()));
+    print("\nresults: " + directory.path().string() + "/ (sweep.csv, results.json" +
+          (options.keep ? ", runs/)\n" : ")\n"));
+  }
+  const std::string drawn = options.no_plots ? "" : draw_pictures(directory);
+  if (tables) print(drawn);
+  std::size_t failed = 0;
+  for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
+  if (failed > 0 && !options.quiet)
+    print_note(fmt::format("{} of {} did not reach the end; the column reason of {} says why", failed,
+                           count_of(directory.rows().size(), "run"),
+                           (directory.path() / "sweep.csv").string()));
+}
+
+ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
+  const SweepSpec spec = specify(options);
+  (void)jobs_of(options);  // wrong ones are told before anything is written
+  SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
+  std::vector<std::size_t> tasks;
+  for (std::size_t index = 0; index < directory.points().size(); ++index)
+    if (spec.share.holds(index) && !directory.rows().contains(index)) tasks.push_back(index);
+  const std::size_t kept = directory.rows().size();
+  if (kept > 0 && !options.quiet)
+    print_note(fmt::format("{} of {} there already, {} to go", count_of(kept, "row"), kept + tasks.size(),
+                           tasks.size()));
+  if (!run_rows(directory, options, tasks, command_line)) {
+    directory.write_table();
+    print_error(fmt::format("interrupted; {} of {} kept in {}, the same command goes on",
+                            directory.rows().size(), count_of(kept + tasks.size(), "row"),
+                            directory.path().string()));
+    return ExitCode::interrupted;
+  }
+  conclude(options, directory);
+  return ExitCode::done;
+}
+
+ExitCode merge(const SweepOptions& options) {
+  if (!options.directory || options.directory->empty())
+    throw UsageError("--merge: expected -o DIR, where the joined sweep goes");
+  if (!options.scene.empty() || !options.varied.empty() || !options.settings.empty() || options.share)
+    throw UsageError(
+        "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --set, --share");
+  std::vector<fs::path> from(options.merge.begin(), options.merge.end());
+  SweepSpec spec = read_sweep_spec(from.front());
+  spec.share = {};
+  for (const fs::path& path : from) {
+    const std::string differs = difference(spec, read_sweep_spec(path));
+    if (!differs.empty()) throw FileError(path.string(), "is no share of the same sweep: " + differs);
+    std::error_code error;
+    if (fs::equivalent(path, *options.directory, error))
+      throw UsageError("--merge: " + path.string() + " is the directory to write, too");
+  }
+  SweepDirectory directory(*options.directory, spec, options.force);
+  const std::vector<std::size_t> missing = merge_sweeps(from, directory);
+  conclude(options, directory);
+  if (missing.empty()) return ExitCode::done;
+  constexpr std::size_t most_named = 10;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(missing.size(), most_named); ++i)
+    list += (i > 0 ? ", " : "") + std::to_string(missing[i] + 1);
+  if (missing.size() > most_named) list += ", ...";
+  print_error(fmt::format("{} of {} missing ({}); the sweep itself with -o {} computes them", missing.size(),
+                          count_of(directory.points().size(), "row"), list, directory.path().string()));
+  return ExitCode::stopped;
+}
+
+ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
+  if (!options.merge.empty()) return merge(options);
+  if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
+  if (options.varied.empty())
+    throw UsageError("sweep: expected --vary, such as --vary 'contacts.*.friction=0:1.3:0.1'");
+  return sweep(options, command_line);
+}
+
+}  // namespace
+
+void add_sweep(Program& program) {
+  auto options = std::make_shared<SweepOptions>();
+  CLI::App* command =
+      program.app.add_subcommand("sweep", "run a scene over ranges of its keys, into one table");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)");
+  command
+      ->add_option(
+          "--vary", options->varied,
+          "start:stop:step, stop included, or value,value,...; several make a product (may be repeated)")
+      ->option_text("PATH=VALUES")
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")
+      ->option_text("DIR");
+  add_settings(*command, options->settings);
+  command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")->option_text("N");
+  command
+      ->add_option(
+          "--share", options->share,
+          "compute only every Nth row from the Kth on; auto: K and N from MPI's or Slurm's environment")
+      ->option_text("K/N|auto");
+  command->add_option("--merge", options->merge, "join the shares in these directories into the one of -o")
+      ->option_text("DIR...");
+  command->add_flag("--keep", options->keep, "keep the directory of every run, in DIR/runs");
+  command->add_flag("--force", options->force, "begin anew where there is an earlier sweep");
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->add_flag("--json", options->json, "print results.json instead of a table");
+  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  command->callback([&program, options] {
+    program.action = [options, line = program.command_line] { return sweep_or_merge(*options, line); };
+  });
+}
+
+}  // namespace signorini::cli

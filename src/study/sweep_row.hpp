@@ -1,0 +1,57 @@
+// sweep_row.hpp: one run of a sweep, as a row of its table.
+//
+//   SweepRow row = compute_row({.scene = "belt.toml", .changes = {{"run.rtol", "1e-9"}}, .index = 0, .values
+//   = {"1e-9"}});
+//
+// A run that cannot start, or stops early, is a row as well: its outcome and reason say so.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+struct SweepRow {
+  std::size_t index = 0;            ///< from 0, in the whole sweep
+  std::vector<std::string> values;  ///< of the varied keys
+  std::string outcome;              ///< done, stopped, refused (no run began), crashed
+  std::string reason;               ///< empty when done
+  double t = 0.0;                   ///< reached
+  std::map<std::string, long> events;
+  /// Peaks from the start over all steps, along tangent and normal; friction: work lost.
+  struct Contact {
+    std::string name;
+    double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
+  };
+  std::vector<Contact> contacts;
+  double wall_time = 0.0;  ///< s
+  long steps = 0;
+  double balance = 0.0;  ///< relative error of the energy balance
+  std::size_t warnings = 0;
+
+  [[nodiscard]] bool ran() const { return outcome == "done" || outcome == "stopped"; }
+  /// Without `time` rows, which mark jumps of the loads.
+  [[nodiscard]] long changes() const;
+};
+
+struct RowTask {
+  std::string scene;
+  std::vector<Override> changes;  ///< the sweep's settings, then the varied keys
+  std::size_t index = 0;
+  std::vector<std::string> values;
+  std::filesystem::path keep;  ///< directory of the run; empty: only the row is kept
+  std::vector<std::string> command_line;
+};
+
+/// Errors: FileError where files cannot be written.
+[[nodiscard]] SweepRow compute_row(const RowTask& task);
+
+[[nodiscard]] std::string row_json(const SweepRow& row);
+/// Errors: FileError.
+[[nodiscard]] SweepRow read_row(const std::filesystem::path& file);
+
+}  // namespace signorini

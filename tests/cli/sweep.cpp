@@ -1,0 +1,266 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::Shell;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+bool exists(const Shell& shell, const std::string& name) { return std::filesystem::exists(shell / name); }
+
+long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+const std::string vary = "contacts.belt.friction.static=1:2:0.25";  // five rows
+
+/// The rows without what differs from machine to machine.
+json rows(const Shell& shell, const std::string& directory) {
+  json list = json::parse(shell.read(directory + "/results.json"))["rows"];
+  for (json& row : list) row.erase("wall_time");
+  return list;
+}
+
+bool on_path(const char* program) {
+  return std::system((std::string("command -v ") + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// A shell line in the folder; the program is $SIGNORINI.
+int line(const Shell& shell, const std::string& text) {
+  const std::string command =
+      "cd '" + (shell / "").string() + "' && SIGNORINI='" + SIGNORINI_PROGRAM + "' && " + text;
+  return std::system(command.c_str());
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cli/sweep");
+
+TEST_CASE("cli sweep: one row a value, as table, CSV, JSON and pictures") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const Ending ending = shell.run({"sweep", "belt.toml", "--vary", vary});
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  CHECK(has(ending.out, "contacts.belt.friction.static"));
+  CHECK(lines(shell.read("belt-sweep/sweep.csv")) == 6);
+  CHECK(shell.read("belt-sweep/sweep.csv")
+            .rfind("row,contacts.belt.friction.static,outcome,t,reason,events,", 0) == 0);
+  const json list = rows(shell, "belt-sweep");
+  REQUIRE(list.size() == 5);
+  CHECK(list[1]["values"][0] == "1.25");
+  CHECK(list[1]["outcome"] == "done");
+  CHECK(list[1]["contacts"][0]["name"] == "belt");
+  CHECK(list[1]["contacts"][0]["tangential"].get<double>() > 0.0);
+  CHECK_FALSE(exists(shell, "belt-sweep/runs"));
+  for (const char* name : {"motion", "forces", "losses"}) {
+    CAPTURE(name);
+    CHECK(exists(shell, std::string("belt-sweep/plots/") + name + ".gp"));
+    if (on_path("gnuplot")) CHECK(shell.read(std::string("belt-sweep/plots/") + name + ".png").size() > 2000);
+  }
+}
+
+TEST_CASE("cli sweep: rows are what `run` computes, whatever the number of jobs") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"sweep", "belt.toml", "--vary", vary, "-o", "one", "--jobs", "1", "--no-plots"}).code ==
+          0);
+  REQUIRE(
+      shell.run({"sweep", "belt.toml", "--vary", vary, "-o", "four", "--jobs", "4", "--no-plots", "--keep"})
+          .code == 0);
+  CHECK(rows(shell, "one") == rows(shell, "four"));
+  REQUIRE(
+      shell.run({"run", "belt.toml", "-o", "run", "--set", "contacts.belt.friction.static=1.5", "--no-plots"})
+          .code == 0);
+  CHECK(shell.read("run/events.csv") == shell.read("four/runs/000003/events.csv"));
+  const json summary = json::parse(shell.read("run/summary.json"));
+  CHECK(rows(shell, "one")[2]["contacts"][0]["friction_work"] == summary["contacts"][0]["friction_work"]);
+}
+
+TEST_CASE("cli sweep: a product, and a list of words") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending = shell.run({"sweep", "belt.toml", "--vary", "run.engine=ida,exact", "--vary",
+                                   "contacts.belt.surface_velocity=0.1,0.2,0.3", "--json"});
+  CHECK(ending.code == 0);
+  const json report = json::parse(ending.out);
+  REQUIRE(report["rows"].size() == 6);
+  CHECK(report["rows"][4]["values"] == json({"exact", "0.2"}));
+  CHECK(ending.out == shell.read("belt-sweep/results.json"));
+}
+
+TEST_CASE("cli sweep: a run that is refused is a row with its reason") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending =
+      shell.run({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=0.5,1.5", "--no-plots"});
+  CHECK(ending.code == 0);
+  CHECK(has(ending.err, "note: 1 of 2 runs did not reach the end"));
+  CHECK(has(ending.out, "row 1: refused: "));
+  const json list = rows(shell, "belt-sweep");
+  CHECK(list[0]["outcome"] == "refused");
+  CHECK(has(list[0]["reason"], "expected at most the static coefficient"));
+  CHECK(list[1]["outcome"] == "done");
+}
+
+TEST_CASE("cli sweep: resumes where it was; a differing specification is refused") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  const std::vector<std::string> command = {"sweep", "belt.toml", "--vary", vary, "--no-plots"};
+  REQUIRE(shell.run(command).code == 0);
+  const json before = rows(shell, "belt-sweep");
+  const auto row = [&](int n) { return "belt-sweep/rows/00000" + std::to_string(n) + ".json"; };
+  const std::string kept = shell.read(row(1));
+  std::filesystem::remove(shell / row(3));
+  std::filesystem::remove(shell / row(5));
+  shell.write(row(5) + ".part", "{ half a row");
+  const Ending again = shell.run(command);
+  CHECK(again.code == 0);
+  CHECK(again.err == "note: 3 rows of 5 there already, 2 to go\n");
+  CHECK(shell.read(row(1)) == kept);  // wall time and all: not computed again
+  CHECK(rows(shell, "belt-sweep") == before);
+
+  const auto refused = [&](const std::vector<std::string>& line, const std::string& message) {
+    const Ending ending = shell.run(line);
+    CAPTURE(ending.err);
+    CHECK(ending.code == 6);
+    CHECK(has(ending.err, "holds another sweep: " + message));
+    CHECK(shell.read(row(1)) == kept);
+  };
+  refused({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=1:2:0.5"}, "--vary was");
+  refused({"sweep", "belt.toml", "--vary", vary, "--set", "run.rtol=1e-7"},
+          "--set was (none), is run.rtol=1e-7");
+  refused({"sweep", "belt.toml", "--vary", vary, "--share", "1/2", "-o", "belt-sweep"},
+          "--share was 1/1, is 1/2");
+  shell.write("belt.toml", belt(11));
+  refused(command, "the scene belt.toml has another content now");
+  std::vector<std::string> forced = command;
+  forced.push_back("--force");
+  CHECK(shell.run(forced).code == 0);
+  CHECK(shell.read(row(1)) != kept);
+}
+
+TEST_CASE("cli sweep: an interrupt keeps the finished rows") {
+  const Shell shell;
+  shell.write("belt.toml", belt(4000));  // some tenths of a second a row
+  const std::vector<std::string> command = {"sweep",  "belt.toml",
+                                            "--vary", "run.rtol=1e-11,1e-10,1e-9,1e-8,1e-7",
+                                            "--jobs", "1",
+                                            "--keep", "--no-plots",
+                                            "--set",  "run.output_dt=1"};
+  const pid_t child = shell.start(command);
+  for (int i = 0; i < 600 && !exists(shell, "belt-sweep/rows/000001.json"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  kill(child, SIGINT);
+  const Ending ending = shell.wait(child);
+  if (ending.code == 0) return;  // a machine so fast that all was done
+  CHECK(ending.code == 130);
+  CHECK(has(ending.err, "the same command goes on"));
+  CHECK(exists(shell, "belt-sweep/sweep.csv"));
+  const Ending again = shell.run(command);
+  CHECK(again.code == 0);
+  CHECK(has(again.err, " there already, "));
+  CHECK(rows(shell, "belt-sweep").size() == 5);
+}
+
+TEST_CASE("cli sweep: shares are merged, what is missing is named") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  REQUIRE(shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "-o", "whole"}).code == 0);
+  for (const char* share : {"1/3", "2/3", "3/3"})
+    REQUIRE(shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "--share", share}).code == 0);
+  CHECK(rows(shell, "belt-sweep-1-of-3").size() == 2);
+  const Ending part =
+      shell.run({"sweep", "--merge", "belt-sweep-1-of-3", "belt-sweep-3-of-3", "-o", "part", "--no-plots"});
+  CHECK(part.code == 4);
+  CHECK(has(part.err, "2 of 5 rows missing (2, 5)") == true);
+  CHECK(shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "-o", "part"}).code == 0);
+  CHECK(rows(shell, "part") == rows(shell, "whole"));
+  const Ending all = shell.run({"sweep", "--merge", "belt-sweep-1-of-3", "belt-sweep-2-of-3",
+                                "belt-sweep-3-of-3", "-o", "all", "--no-plots"});
+  CHECK(all.code == 0);
+  CHECK(rows(shell, "all") == rows(shell, "whole"));
+
+  REQUIRE(
+      shell.run({"sweep", "belt.toml", "--vary", "run.rtol=1e-7,1e-8", "-o", "foreign", "--no-plots"}).code ==
+      0);
+  const Ending foreign = shell.run({"sweep", "--merge", "belt-sweep-1-of-3", "foreign", "-o", "mixed"});
+  CHECK(foreign.code == 6);
+  CHECK(has(foreign.err, "foreign: is no share of the same sweep"));
+  CHECK_FALSE(exists(shell, "mixed"));
+}
+
+TEST_CASE("cli sweep: spread by GNU parallel") {
+  // moreutils has another program of that name
+  if (std::system("parallel --version 2>/dev/null | grep -q GNU") != 0) {
+    MESSAGE("skipped: no GNU parallel on PATH (Debian package parallel)");
+    return;
+  }
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  REQUIRE(line(shell, "$SIGNORINI sweep belt.toml --vary " + vary + " --no-plots --quiet -o whole") == 0);
+  REQUIRE(line(shell, "parallel --will-cite -j 2 $SIGNORINI sweep belt.toml --vary " + vary +
+                          " --jobs 1 --no-plots --quiet --share {}/3 ::: 1 2 3") == 0);
+  REQUIRE(line(shell, "$SIGNORINI sweep --merge belt-sweep-*-of-3 -o joined --no-plots --quiet") == 0);
+  CHECK(rows(shell, "joined") == rows(shell, "whole"));
+}
+
+TEST_CASE("cli sweep: a rank takes its share from the environment") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  for (const char* rank : {"0", "1"})
+    REQUIRE(line(shell, std::string("OMPI_COMM_WORLD_RANK=") + rank +
+                            " OMPI_COMM_WORLD_SIZE=2 $SIGNORINI sweep " + "belt.toml --vary " + vary +
+                            " --share auto --no-plots --quiet") == 0);
+  CHECK(rows(shell, "belt-sweep-1-of-2").size() == 3);
+  CHECK(rows(shell, "belt-sweep-2-of-2").size() == 2);
+}
+
+TEST_CASE("cli sweep: what is wrong is told before anything is written") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  struct Wrong {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  const std::vector<Wrong> wrong = {
+      {{"belt.toml"}, "expected --vary"},
+      {{"--vary", "run.rtol=1e-8"}, "expected SCENE"},
+      {{"belt.toml", "--vary", "run.rtol"}, "expected path=start:stop:step"},
+      {{"belt.toml", "--vary", "contacts.belt.friction=0:1:-1"}, "does not lead from 0 to 1"},
+      {{"belt.toml", "--vary", "contacts.bult.friction=0:1:1"},
+       "--vary contacts.bult.friction=0: there is no \"bult\""},
+      {{"belt.toml", "--vary", "run.rtoll=1,2"}, "did you mean \"rtol\"?"},
+      {{"belt.toml", "--vary", "run.rtol=1e-8", "--share", "4/3"}, "expected K/N"},
+      {{"belt.toml", "--vary", "run.rtol=1e-8", "--jobs", "0"}, "expected at least 1"},
+      {{"--merge", "a", "b"}, "expected -o DIR"},
+      {{"belt.toml", "--merge", "a", "-o", "b"}, "expected neither SCENE"},
+  };
+  for (const Wrong& w : wrong) {
+    CAPTURE(w.message);
+    std::vector<std::string> arguments = w.arguments;
+    arguments.insert(arguments.begin(), "sweep");
+    const Ending ending = shell.run(arguments);
+    CHECK(ending.code == 2);
+    CHECK(ending.out.empty());
+    CHECK(has(ending.err, w.message));
+    CHECK(shell.list() == std::vector<std::string>{"belt.toml"});
+  }
+  CHECK(shell.run({"sweep", "--merge", "missing", "-o", "b"}).code == 6);
+  CHECK(shell.run({"sweep", "missing.toml", "--vary", "run.rtol=1e-8"}).code == 6);
+  std::filesystem::create_directory(shell / "mine");
+  shell.write("mine/sweep.csv", "mine");
+  const Ending mine = shell.run({"sweep", "belt.toml", "--vary", "run.rtol=1e-8", "-o", "mine", "--force"});
+  CHECK(mine.code == 6);
+  CHECK(has(mine.err, "holds no sweep"));
+  CHECK(shell.read("mine/sweep.csv") == "mine");
+}
+
+TEST_SUITE_END();

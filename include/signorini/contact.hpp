@@ -9,8 +9,9 @@
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
-// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; where it
-// closes with g' < 0 it is hit (engine/impact.hpp). Stribeck friction: fk of the slip rate, sliding_friction().
+// A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; where
+// it closes with g' < 0 it is hit (engine/impact.hpp). Stribeck friction: fk of the slip rate,
+// sliding_friction().
 //
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
@@ -68,8 +69,8 @@ struct Contact {
   std::optional<double> stribeck_velocity;  ///< friction falls from static to kinetic with the slip rate
   double restitution = 0.0;                 ///< rigid: Newton's coefficient
   std::optional<double> capture_velocity;   ///< rigid: rebounds slower than this rest; absent: the engine's
-  History normal_force;    ///< slider: compression >= 0
-  History surface_motion;  ///< integral of the surface velocity from t = 0
+  History normal_force;                     ///< slider: compression >= 0
+  History surface_motion;                   ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
   /// Along which the touching body moves; `tangent` unless there is a shear element.

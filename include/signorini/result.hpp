@@ -128,6 +128,7 @@ struct Settings {
   double capture_velocity = 0.0;  ///< of rigid contacts that have none of their own
   int max_order = 5;
   std::string max_order_reason;
+  double dt = 0.0;  ///< newmark, friction-iteration; else 0
 };
 
 /// Everything about a run but its rows.
@@ -136,7 +137,7 @@ struct Report {
   Settings settings;
   Counters counters;
   Audit audit;
-  std::vector<Peak> peaks;  ///< one a contact
+  std::vector<Peak> peaks;                     ///< one a contact
   std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
   std::map<std::string, long> events_by_type;
   std::vector<std::string> warnings;  ///< one sentence each

@@ -54,6 +54,12 @@ struct Direction {
 
 enum class Engine { ida, newmark, friction_iteration, exact };
 
+/// newmark: how the time of an event is found. root: the step redone until the guard at its end is zero;
+/// linear: redone once, to the interpolated time.
+enum class Refine { root, linear };
+/// newmark: doubling looks for the step at which doubling it changes the result by less than the tolerance.
+enum class StepControl { fixed, doubling };
+
 /// Absolute tolerances; where absent, rtol times a scale of the scene.
 struct Tolerances {
   std::optional<double> displacement, velocity, force;
@@ -69,7 +75,11 @@ struct RunSpec {
   std::vector<double> frames;    ///< times of deformed shapes, strictly ascending, in [0, t_end]
   std::optional<int> max_order;  ///< ida: 1 to 5; absent: "auto"
   int max_events_at_once = 100;  ///< rounds of state changes at one instant before the run stops
-  std::optional<double> dt;      ///< newmark, friction-iteration
+  std::optional<double> dt;      ///< newmark, friction-iteration: the step; doubling: the greatest one
+  Refine refine = Refine::root;
+  StepControl step = StepControl::fixed;
+  double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
+  int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
   SourcePlace place;
 
   /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.

@@ -190,18 +190,24 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   std::string text =
       fmt::format("run: to t = {} {}, {}\n", number(scene.run.t_end), u.time,
                   count(static_cast<long>(report.rows), "row of history.csv", "rows of history.csv"));
-  text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", settings.engine, settings.rtol,
-                      settings.max_order, settings.max_order_reason);
+  if (settings.dt > 0.0)
+    text += fmt::format("     engine {}, dt {:g} {}\n", settings.engine, settings.dt, u.time);
+  else
+    text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", settings.engine, settings.rtol,
+                        settings.max_order, settings.max_order_reason);
   const Cost& cost = report.cost;
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
   if (!(cost.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
+  const std::string time = cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s";
+  if (settings.dt > 0.0)
+    return text + fmt::format("      {:.3g} steps in its period; {} steps, {}\n", cost.steps_per_period,
+                              rough(cost.steps), time);
   return text + fmt::format(
                     "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
                     "order of\n"
                     "      magnitude, usually too high where the highest modes stay quiet\n",
-                    cost.steps_per_period, rough(cost.steps),
-                    cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s");
+                    cost.steps_per_period, rough(cost.steps), time);
 }
 
 }  // namespace

@@ -473,4 +473,25 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   return decision;
 }
 
+Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) const {
+  Decision decision;
+  decision.visited.assign(mode.size(), false);
+  decision.jumped.assign(mode.size(), false);
+  decision.crossings.resize(mode.size());
+  std::vector<MotionJet> jets;
+  if (!evaluate(instant, forcing, mode, decision, jets)) {
+    decision.reason =
+        "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    return decision;
+  }
+  decision.consistent = true;
+  for (const MotionJet& jet : jets) decision.after.push_back(jet.motion[0]);
+  decision.before = decision.after;
+  decision.slides_after = decision.slides_before = slides(forcing, instant.t, decision.u, decision.v);
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+      decision.guards.push_back({guard.kind, guard.form});
+  return decision;
+}
+
 }  // namespace signorini

@@ -83,6 +83,9 @@ class Decider {
 
   /// `before` and `after`: the forcing on both sides of the instant.
   [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after) const;
+  /// Takes the states of `mode` as they are, from an engine that finds states itself and no instants:
+  /// forces and accelerations that follow from them, the same before and after.
+  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) const;
 
  private:
   struct Failure {

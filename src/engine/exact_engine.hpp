@@ -32,7 +32,9 @@ class ExactEngine final : public Stepper {
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
-  [[nodiscard]] double guard_error(const Form&, const ContactMotion&) const override { return 0.0; }
+  [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
+    return 0.0;
+  }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
 
  private:

@@ -153,7 +153,7 @@ void IdaEngine::integrate(double from, double to, Works& works) {
   }
 }
 
-double IdaEngine::guard_error(const Form& form, const ContactMotion& motion) const {
+double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t) const {
   return tolerance(form, motion, settings_);
 }
 

@@ -25,7 +25,8 @@ class IdaEngine final : public Stepper {
   void evaluate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
-  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion) const override;
+  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+                                   std::size_t contact) const override;
 
  private:
   struct Located {

@@ -7,6 +7,7 @@
 // spring gives, kn (g_from^2 - g_to^2)/2, until the gap opens or it closes again.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/mode.hpp"
@@ -21,6 +22,13 @@ struct Works {
       : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
   double loads = 0.0, damping = 0.0;
   std::vector<double> friction, surface, pressing;
+
+  void clear() {
+    loads = damping = 0.0;
+    std::fill(friction.begin(), friction.end(), 0.0);
+    std::fill(surface.begin(), surface.end(), 0.0);
+    std::fill(pressing.begin(), pressing.end(), 0.0);
+  }
 };
 
 /// What the dashpot of a contact that is open and pressed in takes between two gaps.

@@ -13,7 +13,9 @@
 #include "engine/audit.hpp"
 #include "engine/clock.hpp"
 #include "engine/exact_engine.hpp"
+#include "engine/friction_iteration.hpp"
 #include "engine/ida_engine.hpp"
+#include "engine/newmark_engine.hpp"
 #include "engine/order.hpp"
 #include "engine/tolerance.hpp"
 
@@ -53,6 +55,16 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
   return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
 }
 
+/// Settings of the engines whose steps have a given length.
+void name_fixed_steps(const RunSpec& spec, const char* engine, Settings& settings) {
+  if (!spec.dt)
+    throw SceneError(spec.place, "run.dt", fmt::format("engine \"{}\" needs it: its step", engine));
+  settings.engine = engine;
+  settings.max_order = 2;
+  settings.max_order_reason = "average acceleration";
+  settings.dt = *spec.dt;
+}
+
 // A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; an e = 0.999 takes 20000, in
 // a time that is no longer short.
 constexpr int watched_events = 10000;
@@ -80,6 +92,12 @@ class Run {
       report_.settings.max_order = most_levels;
       report_.settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
       stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
+    } else if (spec.engine == Engine::newmark) {
+      name_fixed_steps(spec, "newmark", report_.settings);
+      stepper_ = std::make_unique<NewmarkEngine>(model, structure_, expander_, spec, report_.settings);
+    } else if (spec.engine == Engine::friction_iteration) {
+      name_fixed_steps(spec, "friction-iteration", report_.settings);
+      stepper_ = std::make_unique<FrictionIteration>(model, structure_, expander_, spec);
     } else {
       report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
@@ -177,7 +195,7 @@ class Run {
       }
       t_ = step.end;
       stepper_->evaluate(t_, point_);
-      if (step.kind == Step::Kind::event) return instant(std::move(step.fired));
+      if (step.kind == Step::Kind::event) return instant(std::move(step.fired), std::move(step.adopted));
       auditor_.observe(forcing_, t_, decision_.mode, point_);
       if (audit_due_) {
         auditor_.equilibrium(t_, stepper_->residual());
@@ -189,7 +207,7 @@ class Run {
   }
 
   /// Decides the states at t_, applies and records them.
-  bool instant(std::vector<Fired> fired) {
+  bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt) {
     Instant now;
     now.t = t_;
     now.resolution = resolution_;
@@ -198,7 +216,8 @@ class Run {
     now.mode = decision_.mode;
     now.fired = std::move(fired);
     bool jump = false;
-    while (next_breakpoint_ < breakpoints_.size() &&
+    // States that an engine found itself come first; a breakpoint at the same time is the next instant.
+    while (!adopted && next_breakpoint_ < breakpoints_.size() &&
            breakpoints_[next_breakpoint_].time - t_ <= resolution_) {
       now.jump = true;
       jump = jump || breakpoints_[next_breakpoint_].jump;
@@ -210,7 +229,8 @@ class Run {
     std::optional<Forcing> before;
     if (now.jump) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
-    Decision next = decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
+    Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
+                            : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return stop(next.reason);
@@ -321,7 +341,8 @@ class Run {
     const Crossing& crossing = decision_.crossings[k];
     if (!crossing.failed) return;
     event.guard_rate = crossing.derivatives[0];
-    const double error = std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k]));
+    const double error =
+        std::max(crossing.noise, stepper_->guard_error(crossing.form, decision_.before[k], k));
     double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
     for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
       const auto order = static_cast<double>(m + 1);
@@ -374,9 +395,9 @@ class Run {
   void record_between(double begin, double end) {
     double from = begin;
     const auto integrate_to = [&](double t) {
-      Works works(model_.contacts.size());
-      stepper_->integrate(from, t, works);
-      auditor_.add(works);
+      works_.clear();
+      stepper_->integrate(from, t, works_);
+      auditor_.add(works_);
       from = t;
     };
     for (double t = next_record(); t < end; t = next_record()) {
@@ -406,6 +427,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   Decision decision_;
   Point point_;
+  Works works_{model_.contacts.size()};
   Report report_;
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0, cluster_ = 0.0;
@@ -443,8 +465,28 @@ void check_exact(const Model& model, const RunSpec& run) {
   }
 }
 
+/// Steps of given length solve linear laws; what iterates on friction takes no impulses.
+void check_fixed_steps(const Model& model, const RunSpec& run) {
+  const bool iterates = run.engine == Engine::friction_iteration;
+  const char* engine = iterates ? "friction-iteration" : "newmark";
+  for (const Contact& contact : model.contacts) {
+    if (contact.stribeck_velocity)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"{}\" needs laws that are linear, and the friction of contact "
+                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
+                                   engine, contact.name));
+    if (iterates && contact.law == Law::rigid)
+      throw SceneError(run.place, "run.engine",
+                       fmt::format("engine \"{}\" needs contact elements, and contact '{}' is rigid; use "
+                                   "\"newmark\" or law = \"compliant\"",
+                                   engine, contact.name));
+  }
+}
+
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
   if (settings.engine == Engine::exact) check_exact(model, settings);
+  if (settings.engine == Engine::newmark || settings.engine == Engine::friction_iteration)
+    check_fixed_steps(model, settings);
   return Run(model, settings, recorder).go();
 }
 

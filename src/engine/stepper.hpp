@@ -6,6 +6,7 @@
 // which the first guard falls, and integrates works over what it has passed.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/decide.hpp"
@@ -26,6 +27,7 @@ struct Step {
   double begin = 0.0, end = 0.0;  ///< end: of the accepted step, or the instant of the event
   double resolution = 0.0;        ///< times closer than this are one instant
   std::vector<Fired> fired;       ///< Kind::event
+  std::optional<Mode> adopted;    ///< Kind::event: states that the engine found itself, instead of `fired`
   std::string reason;             ///< Kind::failed
 };
 
@@ -41,7 +43,8 @@ class Stepper {
   /// Greatest entry of the residual of the equation of motion at the end of the last step. Unit: force.
   [[nodiscard]] virtual double residual() = 0;
   /// How far off a guard's value may be, from one step's errors. Unit: that of the guard.
-  [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion) const = 0;
+  [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion,
+                                           std::size_t contact) const = 0;
 
   /// Times inside the last step where N, T, g or ut of a contact turns beyond all its values before.
   [[nodiscard]] virtual const std::vector<double>& turning_points() const {

@@ -80,6 +80,21 @@ double answer_to_loads(const Model& model, const DofMap& map, const Holding& hol
   return result;
 }
 
+/// The same where all that is fixed is only gripped, by springs of the structure's own size: the measure of
+/// displacements where nothing that carries moves.
+double gripped_answer(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
+  const SparseMatrix k = with_grips(with_springs(model.stiffness, holding.springs), holding.fixed);
+  if (null_motions(k).cols() > 0) return 0.0;
+  const SymmetricSolver solver(k);
+  double result = 0.0;
+  for (const Load& load : model.loads)
+    result = std::max(
+        result,
+        greatest_translation(
+            solver.solve(Vector(full(load.direction, model.size()) * magnitude(load.history, t_end))), map));
+  return result;
+}
+
 /// How far the loads could throw the structure in the time of the run if nothing held it.
 double thrown(const Model& model, const DofMap& map, double t_end) {
   SparseMatrix mass = model.mass;
@@ -139,6 +154,8 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   double displacement = greatest_translation(model.u0, map);
   const double held = answer_to_loads(model, map, holding, t_end);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end));
+  const double gripped = gripped_answer(model, map, holding, t_end);
+  if (displacement < 1e-10 * gripped) displacement = gripped;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);

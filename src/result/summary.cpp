@@ -114,17 +114,26 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
 }
 
 Json settings_json(const Scene& scene, const Settings& settings) {
-  return {{"t_end", scene.run.t_end},
-          {"rtol", settings.rtol},
-          {"atol",
-           {{"displacement", settings.atol_displacement},
-            {"rotation", settings.atol_rotation},
-            {"velocity", settings.atol_velocity},
-            {"angular_velocity", settings.atol_angular_velocity},
-            {"force", settings.atol_force}}},
-          {"max_order", settings.max_order},
-          {"max_order_reason", settings.max_order_reason},
-          {"max_events_at_once", scene.run.max_events_at_once}};
+  Json json = {{"t_end", scene.run.t_end},
+               {"rtol", settings.rtol},
+               {"atol",
+                {{"displacement", settings.atol_displacement},
+                 {"rotation", settings.atol_rotation},
+                 {"velocity", settings.atol_velocity},
+                 {"angular_velocity", settings.atol_angular_velocity},
+                 {"force", settings.atol_force}}},
+               {"max_order", settings.max_order},
+               {"max_order_reason", settings.max_order_reason},
+               {"max_events_at_once", scene.run.max_events_at_once}};
+  if (settings.dt > 0.0) json["dt"] = settings.dt;
+  if (scene.run.engine == Engine::newmark) {
+    json["refine"] = scene.run.refine == Refine::linear ? "linear" : "root";
+    json["step"] = scene.run.step == StepControl::doubling ? "doubling" : "fixed";
+  } else if (scene.run.engine == Engine::friction_iteration) {
+    json["relaxation"] = scene.run.relaxation;
+    json["max_iterations"] = scene.run.max_iterations;
+  }
+  return json;
 }
 
 Json counter_json(const Counters& c) {

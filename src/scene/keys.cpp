@@ -34,7 +34,7 @@ constexpr Key table_of_keys[] = {
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
-    {"run", "engine", choice, "", "\"ida\"", "ida exact ~newmark ~friction-iteration", "Method of time integration."},
+    {"run", "engine", choice, "", "\"ida\"", "ida exact newmark friction-iteration", "Method of time integration."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
@@ -42,7 +42,11 @@ constexpr Key table_of_keys[] = {
     {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
     {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops."},
-    {"run", "dt", positive, "time", "", "", "Time step of the engines newmark and friction-iteration."},
+    {"run", "dt", positive, "time", "", "", "Time step of the engines newmark and friction-iteration, which need it; with step = \"doubling\" the greatest one."},
+    {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time."},
+    {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},
+    {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: the part of the change of a limiting force that an iteration takes, at most 1."},
+    {"run", "max_iterations", count, "", "100", "", "Engine friction-iteration: iterations of a step before the run stops."},
 
     {"run.atol", "displacement", positive, "length", "", "", "Absolute tolerance of displacements; rtol times the scale of displacements where absent."},
     {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities; rtol times the scale of velocities where absent."},

@@ -82,6 +82,23 @@ void read_max_order(Table& table, RunSpec& run) {
   run.max_order = order;
 }
 
+/// Keys of the engines with steps of given length.
+void read_steps(Table& table, RunSpec& run) {
+  if (run.engine == Engine::newmark || run.engine == Engine::friction_iteration)
+    table.require("dt", fmt::format(", which engine \"{}\" needs", table.choice("engine")));
+  run.dt = table.optional_number("dt");
+  run.refine = table.choice("refine") == "linear" ? Refine::linear : Refine::root;
+  run.step = table.choice("step") == "doubling" ? StepControl::doubling : StepControl::fixed;
+  if (run.step == StepControl::doubling && run.engine == Engine::friction_iteration)
+    table.fail("step",
+               "found \"doubling\", which engine \"friction-iteration\" does not have; expected \"fixed\"");
+  run.relaxation = table.number("relaxation");
+  if (run.relaxation > 1.0)
+    table.fail("relaxation",
+               fmt::format("found the number {}, expected at most 1", shortest(run.relaxation)));
+  run.max_iterations = table.integer("max_iterations");
+}
+
 }  // namespace
 
 void read_run(Table& top, Scene& scene, RecordedScene& record) {
@@ -97,7 +114,7 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   read_frames(table, run, scene.matrices.has_value());
   read_max_order(table, run);
   run.max_events_at_once = table.integer("max_events_at_once");
-  run.dt = table.optional_number("dt");
+  read_steps(table, run);
   table.finish();
   record.add("run", "[run]", table.record());
 }

@@ -15,6 +15,8 @@ constexpr double steps_at_stability = 12.0, steps_at_unit_tolerance = 3.1;
 constexpr double seconds_per_step = 4e-6, seconds_per_unknown = 8e-6 / 110.0;
 // Engine exact, measured on models/pipeline.toml at three finenesses: radians of omega_max a step.
 constexpr double exact_radians = 5.3, exact_per_step = 4e-6, exact_per_unknown = 3.5e-7;
+// Engines with steps of given length, measured on models/pipeline.toml and a single mass.
+constexpr double fixed_per_step = 3e-7, fixed_per_unknown = 1.6e-8;
 
 /// Does the slope jump at a breakpoint, beyond roundoff?
 bool slope_jumps(const History& history, double t) {
@@ -53,6 +55,12 @@ Cost cost_of(const Model& model, const Settings& settings, double t_end) {
     cost.steps_per_period = 2.0 * std::numbers::pi / exact_radians;
     cost.steps = t_end * cost.omega_max / exact_radians;
     cost.seconds = cost.steps * (exact_per_step + exact_per_unknown * static_cast<double>(cost.unknowns));
+    return cost;
+  }
+  if (settings.dt > 0.0 && cost.omega_max > 0.0) {
+    cost.steps_per_period = 2.0 * std::numbers::pi / (cost.omega_max * settings.dt);
+    cost.steps = t_end / settings.dt;
+    cost.seconds = cost.steps * (fixed_per_step + fixed_per_unknown * static_cast<double>(cost.unknowns));
     return cost;
   }
   if (settings.max_order < 5 || !(cost.omega_max > 0.0)) return cost;

@@ -14,8 +14,11 @@ inline std::string matrix_scene(const std::string& run, const std::string& matri
          "\n[matrices]\n" + matrices + "\n[[contacts]]\nname = \"c\"\n" + contact + "\n" + rest;
 }
 
-inline Result run_text(const std::string& text, const std::string& engine, const char* rtol = "1e-10") {
-  const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.rtol", rtol}});
+/// `dt`: for engines whose steps have a given length.
+inline Result run_text(const std::string& text, const std::string& engine, const char* rtol = "1e-10",
+                       const char* dt = "1e-3") {
+  const Scene scene =
+      parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.rtol", rtol}, {"run.dt", dt}});
   return simulate(build_model(scene), scene.run);
 }
 

@@ -94,6 +94,7 @@ struct Audit {
   Extreme penetration;  ///< rigid contacts, length
   Extreme energy;       ///< |balance(t) - balance(0)|
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
+  long impulses_on_closed = 0;        ///< impulses that contacts took while they were closed
   double work_of_loads = 0.0;         ///< greatest |W_loads(t)|
   std::vector<double> friction_work;  ///< dissipated by each contact
   Energy initial, final;

@@ -31,9 +31,10 @@ void add_event(Table& table, const Model& model, const Event& e) {
     table.row({fmt::format("{:.9g}", e.t), "", to_string(e.type), "", "", ""});
     return;
   }
-  table.row({fmt::format("{:.9g}", e.t), name_of(model, e.contact), to_string(e.type),
-             fmt::format("{} -> {}", to_string(e.from), to_string(e.to)), force(model, e.N),
-             force(model, e.T)});
+  const std::string states = fmt::format("{} -> {}", to_string(e.from), to_string(e.to));
+  const std::string hit = e.impulse_n ? fmt::format(", impulse {}", number(*e.impulse_n)) : "";
+  table.row({fmt::format("{:.9g}", e.t), name_of(model, e.contact), to_string(e.type), states + hit,
+             force(model, e.N), force(model, e.T)});
 }
 
 std::string events_by_type(const Report& report) {
@@ -129,6 +130,13 @@ std::string closing(const Model& model, const Report& report) {
       number(a.work_of_loads), model.units.force, model.units.length, number(a.final.friction),
       number(a.final.damping), number(a.final.impact));
   text += "events: " + events_by_type(report) + "\n";
+  if (a.impulses_on_closed > 0)
+    text += fmt::format("impacts passed on to closed contacts: {}\n", a.impulses_on_closed);
+  if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
+        return contact.law == Law::rigid && !contact.capture_velocity;
+      }))
+    text += fmt::format("rebounds slower than {} {}/{} were taken as rest (capture_velocity)\n",
+                        number(report.settings.capture_velocity), model.units.length, model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", effort_of(report.settings), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
   return text;

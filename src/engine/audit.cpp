@@ -96,6 +96,8 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
   landings_.instant(t, decision, old_mode);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
+  for (const Impulse& impulse : decision.impulses)
+    if (impulse.normal > 0.0 && !impulse.hit) ++audit_.impulses_on_closed;
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
   const double released = massless_
                               ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -

@@ -79,7 +79,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
         }
         if (std::abs(gap) <= 1e-9 * size)
           refuse(scene, k, ".law",
-                 fmt::format("it closes exactly when {} does, so nobody can say which of the rigid contacts "
+                 fmt::format("it closes exactly with {}, so nobody can say which of the rigid contacts "
                              "carries the force; leave it out, or give them law = \"compliant\"",
                              names));
         return;

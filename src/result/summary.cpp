@@ -171,6 +171,7 @@ Json audit_json(const Model& model, const Audit& a) {
           {"direction", extreme_json(model, a.direction, a.power_scale)},
           {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
           {"penetration", extreme_json(model, a.penetration, a.length_scale)},
+          {"impulses_on_closed", a.impulses_on_closed},
           {"energy", extreme_json(model, a.energy, a.energy_scale)}};
 }
 

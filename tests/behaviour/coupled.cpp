@@ -1,5 +1,5 @@
-// Rigid contacts that move each other through the structure: scenes on which earlier versions stopped, span or
-// went wrong. All must run to their end, keep their conditions and their energy, by both engines.
+// Rigid contacts that move each other through the structure: scenes on which earlier versions stopped, span
+// or went wrong. All must run to their end, keep their conditions and their energy, by both engines.
 #include <doctest/doctest.h>
 
 #include <filesystem>

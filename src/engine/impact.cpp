@@ -128,7 +128,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     const double tangent = 0.5 * k * (before[2 * i + 1] + after[2 * i + 1]);
     impact.loss -= normal + tangent;
     impact.surface_work += k * forcing.surface(c, t, 1);
-    greatest = std::max({greatest, std::abs(normal), std::abs(tangent)});
+    greatest = std::max({greatest, std::abs(n * before[2 * i]), std::abs(k * before[2 * i + 1])});
   }
   impact.gains = impact.loss < -1e-9 * greatest;
   return impact;

@@ -25,7 +25,7 @@ struct Sign {
 Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
     const double d = k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
-    double zero = instant.blur * form.magnitude(jet.noise[k]);
+    double zero = instant.blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
     if (k + 1 < jet.motion.size()) zero += instant.resolution * std::abs(form.rate(jet.motion[k + 1]));
     if (std::abs(d) > zero) return {d > 0.0 ? 1 : -1, static_cast<int>(k)};
   }
@@ -95,7 +95,8 @@ Decider::Decider(const Model& model, Expander& expander, int max_rounds, double 
       impacts_(model, expander, capture_velocity) {}
 
 std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
-                                                const Instant& instant, bool first) const {
+                                                const Instant& instant, bool first,
+                                                const std::vector<bool>& touching) const {
   std::vector<Failure> result;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     Failure failure{c, Guard::none};
@@ -106,7 +107,9 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
           first && std::any_of(instant.fired.begin(), instant.fired.end(),
                                [&](const Fired& f) { return f.contact == c && f.guard == guard.kind; });
       // What the integrator located is zero, also where the last rounding leaves it positive.
-      const bool is_zero = fired && guard.form.value(jets[c].motion[0]) > 0.0;
+      // So is the gap of what touches, whatever setting its neighbours' gaps to zero has made of it.
+      const bool is_zero = (fired && guard.form.value(jets[c].motion[0]) > 0.0) ||
+                           (touching[c] && guard.kind == Guard::closing);
       const Sign sign = sign_after(guard.form, jets[c], instant, is_zero ? 1 : 0);
       // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
       // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
@@ -194,7 +197,9 @@ struct Decider::Joint {
   // What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration
   // is known only once a state has been tried, so these are found out in the course of a decision.
   std::vector<bool> stays, rests;  ///< vn, vt count as zero
-  explicit Joint(std::size_t n) : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false) {}
+  std::vector<bool> touching;      ///< g is zero
+  explicit Joint(std::size_t n)
+      : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), touching(n, false) {}
 };
 
 /// The rounding of t.v less the velocity of the surface.
@@ -276,6 +281,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
         !is_zero(m.gap, noise.gap, m.vn))
       continue;
     touching.push_back(c);
+    joint.touching[c] = true;
     apart = apart || m.gap != 0.0;
     impact = impact || (mode[c].state == State::open && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
   }
@@ -393,7 +399,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   }
   bool blurred = false;
   for (bool open = instant.start;; open = false) {
-    const std::vector<Failure> failed = failures(jets, mode, instant, first);
+    const std::vector<Failure> failed = failures(jets, mode, instant, first, joint.touching);
     first = false;
     if (failed.empty() && !open) break;
     if (++decision.rounds > max_rounds_) {
@@ -462,9 +468,10 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c])) {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
-        start.at_zero = starts_at_zero(guard.form, jets[c], instant);
+        const bool touches = joint.touching[c] && guard.kind == Guard::closing;
+        start.at_zero = touches || starts_at_zero(guard.form, jets[c], instant);
         start.noise = guard.form.magnitude(jets[c].noise[0]);
-        const int order = sign_after(guard.form, jets[c], instant, 0).order;
+        const int order = sign_after(guard.form, jets[c], instant, touches ? 1 : 0).order;
         start.leading = order < static_cast<int>(jets[c].motion.size()) ? order : -1;
       }
       decision.guards.push_back(std::move(start));

@@ -94,7 +94,8 @@ class Decider {
     Form form = {};
   };
   [[nodiscard]] std::vector<Failure> failures(const std::vector<MotionJet>& jets, const Mode& mode,
-                                              const Instant& instant, bool first) const;
+                                              const Instant& instant, bool first,
+                                              const std::vector<bool>& touching) const;
   void follow_forcing(const Instant& instant, const Forcing& before, const Forcing& after,
                       const std::vector<ContactMotion>& motion, Mode& mode) const;
   bool evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,

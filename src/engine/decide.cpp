@@ -202,21 +202,33 @@ struct Decider::Joint {
       : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), touching(n, false) {}
 };
 
+namespace {
+
+/// The rounding of a form of the velocities. Where all of them are held at zero, what is left of them is the
+/// rounding of corrections, square against the motion of the rest.
+double rounding_of(const Combination& form, const Vector& v) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double fastest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
+  double size = 0.0;
+  for (const auto& [dof, factor] : form.terms)
+    size += std::abs(factor) * (std::abs(v[dof]) + epsilon * fastest);
+  return 64.0 * epsilon * size;
+}
+
+}  // namespace
+
 /// The rounding of t.v less the velocity of the surface.
 double Decider::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
-  double size = std::abs(forcing.surface(c, instant.t, 1));
-  for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
-    size += std::abs(factor * instant.v[dof]);
-  return 64.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, instant.t);
+  return rounding_of(model_.contacts[c].tangent, instant.v) +
+         64.0 * std::numeric_limits<double>::epsilon() * std::abs(forcing.surface(c, instant.t, 1)) +
+         forcing.surface_rounding(c, instant.t);
 }
 
 /// g' from which on a contact with g = 0 leaves. Slower, and pulled back, it stays: its flight would be
 /// shorter than the clock resolves, lower than the rounding of its gap, or a rebound below capture_velocity.
 double Decider::leaving_velocity(std::size_t c, const MotionJet& free, const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
-  double size = 0.0;
-  for (const auto& [dof, factor] : contact.normal.terms) size += std::abs(factor * instant.v[dof]);
-  const double rounding = free.noise[0].vn + 64.0 * std::numeric_limits<double>::epsilon() * size;
+  const double rounding = free.noise[0].vn + rounding_of(contact.normal, instant.v);
   const double pull = -free.motion[0].an;
   if (!(pull > 0.0)) return rounding;
   return rounding + std::max({instant.resolution * pull, std::sqrt(2.0 * pull * free.noise[0].gap),

@@ -163,7 +163,8 @@ for lane, engine in enumerate(('exact', 'newmark', 'friction-iteration')):
                  '%.1f' % max(abs(float(a['T']) - float(b['T'])) for a, b in zip(c, reference))])
 table('(c) First support, f = 1.3, to 0.4 s, dt = 1e-5',
       ['engine', 'slip', 'stick', 'reversal', 'separation', 'contact', 'open, %', 'stuck, %', 'slipping, %',
-       'lift-offs and landings off by, ms', 'greatest -N, kN', 'greatest T, kN', 'N off by, kN', 'T off by, kN'], rows)
+       'lift-offs and landings off by, ms',
+       'greatest -N, kN', 'greatest T, kN', 'N off by, kN', 'T off by, kN'], rows)
 
 
 # (d), (e)
@@ -232,7 +233,8 @@ for f in frictions:
     for goal in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5):
         a, b = time_at(f, 'root', goal), time_at(f, 'iteration', goal)
         if a or b:
-            r.append([f, '%.0e' % goal] + ['%.4f' % x if x else '-' for x in (a, b)] + ['%.2f' % (b / a) if a and b else '-'])
+            r.append([f, '%.0e' % goal] + ['%.4f' % x if x else '-' for x in (a, b)] +
+                     ['%.2f' % (b / a) if a and b else '-'])
 table('(d) Equal error: time from which on the error stays below', ['f', 'error', 'newmark, s', 'iteration, s', 'ratio'], r)
 
 # steps with slip: share of the output times, and what one of them costs the iteration
@@ -246,7 +248,8 @@ for f in frictions:
         r.append([f, dt, '%.1f' % (100 * share), '%.2f' % (1 + (w[2] / w[1] - 1) / share)])
 table('(d) Steps of the iteration in which a contact slips', ['f', 'dt, s', 'share, %', 'solves in such a step, about'], r)
 
-for what, data, dts in (('to 1.2 s', error, steps), ('to %g s, before the first support lands' % early, errors_early, steps + finer)):
+for what, data, dts in (('to 1.2 s', error, steps),
+                        ('to %g s, before the first support lands' % early, errors_early, steps + finer)):
     for f in frictions:
         r = []
         for i, dt in enumerate(dts):
@@ -271,7 +274,8 @@ r = []
 for dt in steps:
     r.append([dt] + [summary('error-%s-%s-%s' % (f, k, dt))['events']['total'] - 1 for f in frictions for k in names])
 r.append(['exact'] + [summary('error-%s-exact' % f)['events']['total'] - 1 for f in frictions for k in names])
-table('(e) Events without the end of the pulse', ['dt, s'] + ['f = %s, %s' % (f, names[k]) for f in frictions for k in names], r)
+table('(e) Events without the end of the pulse',
+      ['dt, s'] + ['f = %s, %s' % (f, names[k]) for f in frictions for k in names], r)
 
 print()
 for f in frictions:
@@ -336,6 +340,7 @@ plot for [i=1:6] 'history-'.word(values,i).'.dat' u 1:3 w l lw 1.4 lc rgb word(c
 unset multiplot
 
 set terminal pngcairo size 1100,820 font 'sans,10' noenhanced
+set key inside
 set output '../forces.png'
 set multiplot title 'First support, f = 1.3, dt = 1e-5 s. '.note font 'sans,10'
 engines = "exact newmark friction-iteration"

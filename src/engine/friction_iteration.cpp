@@ -146,7 +146,9 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       double terms = std::abs(contact.gap);
       for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * end_.u[dof]);
       noise = std::max(noise, rounding * epsilon * contact.normal_stiffness * terms);
-      side.pressed += relaxation_ * by;
+      // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
+      // once.
+      side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
     // The states must hold with the new bounds, too.
     switching = new_states();
@@ -157,8 +159,8 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (sides_[k].state != mode_[k].state || k == worst)
       what += fmt::format("{}'{}'", what.empty() ? "" : ", ", model_.contacts[k].name);
   return fmt::format(
-      "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt or a "
-      "relaxation below {} may help",
+      "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt, more "
+      "max_iterations or another relaxation than {} may help",
       most_,
       switching
           ? "states still change"

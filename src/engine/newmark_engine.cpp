@@ -21,6 +21,7 @@ constexpr int most_halvings = 60;
 constexpr double spare = 1.0 / 16.0;  // doubling: of the tolerance, below which steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // doubling: of dt
+constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 
 }  // namespace
 
@@ -62,6 +63,9 @@ void NewmarkEngine::start(const Segment& segment) {
     w.has_rate = rates_known(slot);
   }
   weigh(end_, t1_);
+  // What sticks does not move, so that doubling sees nothing of the load on it.
+  if (const double omega = segment.forcing->greatest_omega(); doubling_ && omega > 0.0)
+    regular_ = std::min(regular_, forcing_step / omega);
   ++counters.restarts;
 }
 
@@ -246,8 +250,9 @@ Step NewmarkEngine::failed(std::string reason) const {
 /// The length at which a step of twice it changes the result by less than the tolerance.
 double NewmarkEngine::doubled(double remaining) {
   if (std::exchange(second_, !second_)) return regular_;
-  for (double h = regular_;; h *= 0.5) {
-    if (h >= remaining || h < least_part * dt_) return h;
+  // A stretch that one step would span is compared with two halves, like any other.
+  for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
+    if (h < least_part * dt_) return h;
     inner_time_ = nan;
     if (!take(2.0 * h, t0_ + 2.0 * h, true, coarse_) || !take(h, t0_ + h, true, inner_) ||
         !step_.take(*segment_.forcing, inner_, t0_ + 2.0 * h, h, true, fine_))
@@ -267,7 +272,7 @@ double NewmarkEngine::doubled(double remaining) {
       continue;
     }
     regular_ = h;
-    second_ = !(change < spare && 2.0 * h <= dt_);
+    second_ = !(change < spare && 2.0 * h <= dt_ && 2.0 * h < remaining);
     if (!second_) regular_ = 2.0 * h;  // from the next step on
     return h;
   }

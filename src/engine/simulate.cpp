@@ -122,11 +122,11 @@ class Run {
     // At rest nothing is exchanged but rounding.
     const double moving = least_energy * audit.force_scale * audit.length_scale;
     if (audit.energy.value > much_energy * audit.energy_scale && audit.energy.value > moving)
-      report_.warnings.push_back(
-          fmt::format("the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use a "
-                      "tighter rtol, an atol "
-                      "that fits the motion, or engine \"exact\"",
-                      audit.energy.value / audit.energy_scale, audit.energy.t));
+      report_.warnings.push_back(fmt::format(
+          "the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use {}, or "
+          "engine \"exact\"",
+          audit.energy.value / audit.energy_scale, audit.energy.t,
+          report_.settings.dt > 0.0 ? "a smaller run.dt" : "a tighter rtol, an atol that fits the motion"));
     report_.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     return report_;
   }

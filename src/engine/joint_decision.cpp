@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace signorini {
 namespace {
@@ -44,10 +45,19 @@ Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::Vector
     if (presses) answer(row, p.W.col(row) + (sticks ? 0.0 : k / l) * p.W.col(row + 1));
     if (sticks) answer(row + 1, p.W.col(row + 1));
   }
+  // The problem is solved to the rounding of its greatest entry, in units that make the diagonal of W one.
+  double greatest = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (p.W(i, i) > 0.0) greatest = std::max(greatest, std::abs(p.b[i]) / std::sqrt(p.W(i, i)));
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * greatest;
   // At least what a contact alone would make of it.
   Noise result{Eigen::VectorXd::Zero(n), noise};
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (p.W(i, i) > 0.0) result.force[i] = noise[i] / p.W(i, i);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(p.W(i, i) > 0.0)) continue;
+    const double unit = std::sqrt(p.W(i, i));
+    result.response[i] += rounding * unit;
+    result.force[i] = noise[i] / p.W(i, i) + rounding / unit;
+  }
   if (rows.empty()) return result;
   const Eigen::MatrixXd inverse =
       Eigen::MatrixXd(columns(rows, Eigen::all)).completeOrthogonalDecomposition().pseudoInverse();

@@ -10,6 +10,7 @@
 // If no mode is consistent the decision says so.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "engine/impact.hpp"
@@ -32,6 +33,11 @@ struct Instant {
   bool jump = false;   ///< the forcing is not smooth here
   double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
   bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
+
+  [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const {
+    return std::any_of(fired.begin(), fired.end(),
+                       [&](const Fired& f) { return f.contact == contact && f.guard == guard; });
+  }
 };
 
 /// One guard in force after the decision.
@@ -74,6 +80,19 @@ struct Decision {
 [[nodiscard]] Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u,
                               const Vector& v);
 
+/// Why a mode cannot be put in force.
+inline constexpr const char* dependent_rows =
+    "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+
+/// "'first' (compression), 'second' (gap)": of anything with a contact and a guard.
+template <class Guarded>
+[[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
+  std::string text;
+  for (const Guarded& g : list)
+    text += (text.empty() ? "'" : ", '") + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")";
+  return text;
+}
+
 struct Participant;  // engine/joint_decision.hpp
 
 class Decider {
@@ -100,7 +119,17 @@ class Decider {
                       const std::vector<ContactMotion>& motion, Mode& mode) const;
   bool evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,
                 std::vector<MotionJet>& jets) const;
-  struct Joint;  // what is known of the contacts whose forces may jump
+  /// What is known at an instant of the contacts whose forces may jump.
+  struct Joint {
+    bool sliders = false;                ///< sliders that stick rigidly take part
+    std::vector<bool> decided, kinetic;  ///< one a contact
+    // What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration
+    // is known only once a state has been tried, so these are found out in the course of a decision.
+    std::vector<bool> stays, rests;  ///< vn, vt count as zero
+    std::vector<bool> touching;      ///< g is zero
+    explicit Joint(std::size_t n)
+        : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), touching(n, false) {}
+  };
   [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
                                            Decision& decision, const std::vector<MotionJet>& jets,
                                            const std::vector<Failure>& failed, Mode& mode) const;
@@ -114,7 +143,6 @@ class Decider {
                                         const Instant& instant) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, double t, const Vector& u,
                                               const Vector& v) const;
-  [[nodiscard]] std::string describe(const std::vector<Failure>& failures) const;
 
   const Model& model_;
   Expander& expander_;

@@ -1,6 +1,7 @@
 #include "engine/delassus.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 
 namespace signorini {
 
@@ -26,8 +27,13 @@ Delassus delassus(const Model& model, const Expander& expander, const std::vecto
   return d;
 }
 
+bool settled(const std::vector<Fixed>& fixed, const Vector& v) {
+  return std::all_of(fixed.begin(), fixed.end(),
+                     [&](const Fixed& f) { return f.value - f.form->dot(v) == 0.0; });
+}
+
 void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
-  if (fixed.empty()) return;
+  if (settled(fixed, v)) return;
   const auto count = static_cast<Eigen::Index>(fixed.size());
   std::vector<Eigen::Index> rows;
   for (const Fixed& f : fixed) rows.push_back(f.row);
@@ -37,7 +43,6 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     const Fixed& f = fixed[static_cast<std::size_t>(i)];
     miss[i] = f.value - f.form->dot(v);
   }
-  if (miss.isZero(0.0)) return;
   v += effect * W.completeOrthogonalDecomposition().solve(miss);
   for (const Fixed& f : fixed)  // one degree of freedom: exact
     if (f.form->terms.size() == 1) v[f.form->terms[0].first] = f.value / f.form->terms[0].second;

@@ -23,6 +23,8 @@ struct Fixed {
   const Combination* form;
   double value;
 };
+/// v has these velocities exactly.
+[[nodiscard]] bool settled(const std::vector<Fixed>& fixed, const Vector& v);
 /// v with these velocities to the last digit, by the smallest change in the norm of M: what computed v has
 /// them to the rounding of an elimination only.
 void settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);

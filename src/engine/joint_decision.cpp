@@ -134,8 +134,7 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
         contacts.push_back(entries[i].who.contact);
       }
     if (undecided.empty()) break;
-    if (!expander_.set(mode))
-      return "the rows of the contacts that stick are linearly dependent, so their forces are not unique";
+    if (!expander_.set(mode)) return dependent_rows;
     (void)expander_.expand(forcing, instant.t, instant.u, instant.v, jets);
 
     const auto size = static_cast<Eigen::Index>(2 * undecided.size());

@@ -11,41 +11,18 @@
 #include <utility>
 
 #include "engine/audit.hpp"
+#include "engine/breakpoints.hpp"
 #include "engine/clock.hpp"
 #include "engine/exact_engine.hpp"
 #include "engine/friction_iteration.hpp"
 #include "engine/ida_engine.hpp"
 #include "engine/newmark_engine.hpp"
 #include "engine/order.hpp"
+#include "engine/refusals.hpp"
 #include "engine/tolerance.hpp"
 
 namespace signorini {
 namespace {
-
-/// Breakpoints of all forcing in (0, t_end), ascending; `jump` where any value jumps.
-std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
-  std::vector<Breakpoint> all;
-  const auto add = [&](const History& history, bool values) {
-    for (Breakpoint b : history.breakpoints()) {
-      b.jump = b.jump && values;
-      if (b.time > 0.0 && b.time < t_end) all.push_back(b);
-    }
-  };
-  for (const Load& load : model.loads) add(load.history, true);
-  for (const Contact& contact : model.contacts) {
-    add(contact.normal_force, true);
-    add(contact.surface_motion, false);
-  }
-  std::sort(all.begin(), all.end(), [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
-  std::vector<Breakpoint> merged;
-  for (const Breakpoint& b : all) {
-    if (!merged.empty() && b.time - merged.back().time <= resolution_at(b.time, 0.0))
-      merged.back().jump = merged.back().jump || b.jump;
-    else
-      merged.push_back(b);
-  }
-  return merged;
-}
 
 std::optional<EventType> classify(State from, State to, bool dropped) {
   if (from == to) return dropped ? std::optional(EventType::slip) : std::nullopt;
@@ -56,10 +33,10 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
 }
 
 /// Settings of the engines whose steps have a given length.
-void name_fixed_steps(const RunSpec& spec, const char* engine, Settings& settings) {
+void name_fixed_steps(const RunSpec& spec, Settings& settings) {
   if (!spec.dt)
-    throw SceneError(spec.place, "run.dt", fmt::format("engine \"{}\" needs it: its step", engine));
-  settings.engine = engine;
+    throw SceneError(spec.place, "run.dt",
+                     fmt::format("engine \"{}\" needs it: its step", to_string(spec.engine)));
   settings.max_order = 2;
   settings.max_order_reason = "average acceleration";
   settings.dt = *spec.dt;
@@ -87,19 +64,18 @@ class Run {
         forcing_(model, 0.0, Side::after),
         breakpoints_(breakpoints(model, spec.t_end)) {
     report_.settings = settings_for(model, spec);
+    report_.settings.engine = to_string(spec.engine);
     if (spec.engine == Engine::exact) {
-      report_.settings.engine = "exact";
       report_.settings.max_order = most_levels;
       report_.settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
       stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
     } else if (spec.engine == Engine::newmark) {
-      name_fixed_steps(spec, "newmark", report_.settings);
+      name_fixed_steps(spec, report_.settings);
       stepper_ = std::make_unique<NewmarkEngine>(model, structure_, expander_, spec, report_.settings);
     } else if (spec.engine == Engine::friction_iteration) {
-      name_fixed_steps(spec, "friction-iteration", report_.settings);
+      name_fixed_steps(spec, report_.settings);
       stepper_ = std::make_unique<FrictionIteration>(model, structure_, expander_, spec);
     } else {
-      report_.settings.engine = "ida";
       choose_order(spec, report_.settings);
       stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings, spec.t_end);
     }
@@ -254,15 +230,7 @@ class Run {
     mark_ = t_;
     if (advanced >= least_progress * spec_.t_end) return true;
     return stop(fmt::format("{} events within {:.3g} of time; the motion does not get on; last: {}",
-                            watched_events, advanced, names_of(now)));
-  }
-
-  [[nodiscard]] std::string names_of(const Instant& now) const {
-    std::string names;
-    for (const Fired& f : now.fired)
-      names += fmt::format("{}'{}' ({})", names.empty() ? "" : ", ", model_.contacts[f.contact].name,
-                           to_string(f.guard));
-    return names;
+                            watched_events, advanced, names_of(model_, now.fired)));
   }
 
   /// A bound on decisions at (almost) one instant.
@@ -274,7 +242,7 @@ class Run {
     }
     if (++instants_ <= spec_.max_events_at_once) return true;
     return stop(fmt::format("{} events at one instant; time does not advance; last: {}",
-                            spec_.max_events_at_once, names_of(now)));
+                            spec_.max_events_at_once, names_of(model_, now.fired)));
   }
 
   void log(const Mode& old_mode, bool jump) {
@@ -442,51 +410,8 @@ class Run {
 
 }  // namespace
 
-/// A series has to reach the end of every polynomial in the forcing.
-void check_exact(const Model& model, const RunSpec& run) {
-  const auto check = [&](const History& history, const std::string& what) {
-    for (const Piece& p : history.pieces())
-      for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)
-        if (p.coefficients[j] != 0.0)
-          throw SceneError(
-              run.place, "run.engine",
-              fmt::format("engine \"exact\" takes polynomials up to degree {}; {} has degree {} or more",
-                          most_levels - 2, what, j));
-  };
-  for (const Load& load : model.loads) check(load.history, load.name);
-  for (const Contact& contact : model.contacts) {
-    if (contact.stribeck_velocity)
-      throw SceneError(run.place, "run.engine",
-                       fmt::format("engine \"exact\" needs laws that are linear, and the friction of contact "
-                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
-                                   contact.name));
-    check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
-    check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
-  }
-}
-
-/// Steps of given length solve linear laws; what iterates on friction takes no impulses.
-void check_fixed_steps(const Model& model, const RunSpec& run) {
-  const bool iterates = run.engine == Engine::friction_iteration;
-  const char* engine = iterates ? "friction-iteration" : "newmark";
-  for (const Contact& contact : model.contacts) {
-    if (contact.stribeck_velocity)
-      throw SceneError(run.place, "run.engine",
-                       fmt::format("engine \"{}\" needs laws that are linear, and the friction of contact "
-                                   "'{}' depends on its slip rate (stribeck_velocity); use \"ida\"",
-                                   engine, contact.name));
-    if (iterates && contact.law == Law::rigid)
-      throw SceneError(run.place, "run.engine",
-                       fmt::format("engine \"{}\" needs contact elements, and contact '{}' is rigid; use "
-                                   "\"newmark\" or law = \"compliant\"",
-                                   engine, contact.name));
-  }
-}
-
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
-  if (settings.engine == Engine::exact) check_exact(model, settings);
-  if (settings.engine == Engine::newmark || settings.engine == Engine::friction_iteration)
-    check_fixed_steps(model, settings);
+  refuse_what_engine_cannot(model, settings);
   return Run(model, settings, recorder).go();
 }
 

@@ -63,35 +63,29 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
   return std::max(force, model.omega_max * (momentum.size() ? momentum.cwiseAbs().maxCoeff() : 0.0));
 }
 
-/// Greatest static displacement under the amplitude of any one load; 0 when the matrix is singular.
-double answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
+/// Greatest static displacements under the amplitude of any one load; 0 when the matrix is singular.
+struct Answer {
+  double held = 0.0;
+  /// All that is fixed only gripped, by springs of the structure's own size: the measure of displacements
+  /// where nothing that carries moves.
+  double gripped = 0.0;
+};
+
+Answer answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
   const SparseMatrix k = with_springs(model.stiffness, holding.springs);
   const SparseMatrix gripped = with_grips(k, holding.fixed);
-  if (null_motions(gripped).cols() > 0) return 0.0;
+  if (null_motions(gripped).cols() > 0) return {};
   const HeldStructure structure(k, holding.fixed);
   const SymmetricSolver loose(gripped);
-  double result = 0.0;
+  Answer result;
   for (const Load& load : model.loads) {
     const Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
     const double answer = greatest_translation(structure.solve(p), map);
+    const double free = greatest_translation(loose.solve(p), map);
     // Where all that could move is fixed, only roundoff answers.
-    if (answer > 1e-10 * greatest_translation(loose.solve(p), map)) result = std::max(result, answer);
+    if (answer > 1e-10 * free) result.held = std::max(result.held, answer);
+    result.gripped = std::max(result.gripped, free);
   }
-  return result;
-}
-
-/// The same where all that is fixed is only gripped, by springs of the structure's own size: the measure of
-/// displacements where nothing that carries moves.
-double gripped_answer(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
-  const SparseMatrix k = with_grips(with_springs(model.stiffness, holding.springs), holding.fixed);
-  if (null_motions(k).cols() > 0) return 0.0;
-  const SymmetricSolver solver(k);
-  double result = 0.0;
-  for (const Load& load : model.loads)
-    result = std::max(
-        result,
-        greatest_translation(
-            solver.solve(Vector(full(load.direction, model.size()) * magnitude(load.history, t_end))), map));
   return result;
 }
 
@@ -152,9 +146,8 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
       model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
 
   double displacement = greatest_translation(model.u0, map);
-  const double held = answer_to_loads(model, map, holding, t_end);
-  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end));
-  const double gripped = gripped_answer(model, map, holding, t_end);
+  const auto [held, gripped] = answer_to_loads(model, map, holding, t_end);
+  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end).held);
   if (displacement < 1e-10 * gripped) displacement = gripped;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))

@@ -12,6 +12,7 @@
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
+#include "result/plot_folder.hpp"
 #include "result/plot_frames.hpp"
 #include "result/plot_parts.hpp"
 #include "signorini/error.hpp"
@@ -151,6 +152,15 @@ void check_window(const PlotWindow& window, const PlottedRun& run) {
   check("--to", window.to, window.to > run.t_first);
 }
 
+bool is_picture_of_run(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool named = stem == "displacement" || stem == "energy" || stem == "states" || stem == "cone" ||
+                     stem.starts_with("raster") || stem.starts_with("contact-") || stem.starts_with("frame-");
+  const bool table =
+      stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" || stem == "marks-events";
+  return (is_picture(file) && named) || (file.extension() == ".csv" && table);
+}
+
 }  // namespace
 
 std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
@@ -170,11 +180,7 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   const bool closer = !window.from && !window.to && zoom_helps(run);
 
   const fs::path folder = directory / "plots";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
-  remove_plots(directory);
-  fs::create_directories(folder, error);
+  begin_plot_folder(folder, is_picture_of_run);
 
   std::vector<fs::path> scripts;
   const auto add = [&](const std::string& name, const std::string& text) {
@@ -206,26 +212,6 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   return scripts;
 }
 
-void remove_plots(const fs::path& directory) {
-  const fs::path folder = directory / "plots";
-  std::error_code error;
-  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
-    const bool picture = type == ".gp" || type == ".svg" || type == ".png";
-    const bool named = stem == "displacement" || stem == "energy" || stem == "states" || stem == "cone" ||
-                       stem.starts_with("raster") || stem.starts_with("contact-") ||
-                       stem.starts_with("frame-");
-    const bool table = stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" ||
-                       stem == "marks-events";
-    if ((picture && named) || (type == ".csv" && table)) ours.push_back(entry.path());
-  }
-  for (const fs::path& file : ours) {
-    fs::remove(file, error);
-    if (error) throw FileError(file.string(), "cannot be removed: " + error.message());
-  }
-  if (fs::is_empty(folder, error) && !error) fs::remove(folder, error);
-}
+void remove_plots(const fs::path& directory) { clear_plot_folder(directory / "plots", is_picture_of_run); }
 
 }  // namespace signorini

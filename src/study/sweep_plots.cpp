@@ -9,6 +9,7 @@
 
 #include "base/number.hpp"
 #include "result/csv.hpp"
+#include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
 
 namespace signorini {
@@ -194,6 +195,12 @@ class Script {
   PlottedRun run_;
 };
 
+bool is_picture_of_sweep(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool named = stem == "motion" || stem == "forces" || stem == "losses";
+  return (is_picture(file) && named) || (file.extension() == ".csv" && stem.starts_with("curve-"));
+}
+
 }  // namespace
 
 std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
@@ -203,11 +210,7 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   const std::vector<std::string> contacts = contact_names(rows);
   if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return {};
   const fs::path folder = directory / "plots";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
-  remove_sweep_plots(directory);
-  fs::create_directories(folder, error);
+  begin_plot_folder(folder, is_picture_of_sweep);
   for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
     write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(list[i], axis, contacts));
 
@@ -231,21 +234,7 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
 }
 
 void remove_sweep_plots(const fs::path& directory) {
-  const fs::path folder = directory / "plots";
-  std::error_code error;
-  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
-    const bool picture = type == ".gp" || type == ".svg" || type == ".png";
-    const bool named = stem == "motion" || stem == "forces" || stem == "losses";
-    if ((picture && named) || (type == ".csv" && stem.starts_with("curve-"))) ours.push_back(entry.path());
-  }
-  for (const fs::path& file : ours) {
-    fs::remove(file, error);
-    if (error) throw FileError(file.string(), "cannot be removed: " + error.message());
-  }
-  if (fs::is_empty(folder, error) && !error) fs::remove(folder, error);
+  clear_plot_folder(directory / "plots", is_picture_of_sweep);
 }
 
 }  // namespace signorini

@@ -1,0 +1,38 @@
+#include "result/plot_folder.hpp"
+
+#include <string>
+#include <vector>
+
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+bool is_picture(const fs::path& file) {
+  const std::string type = file.extension().string();
+  return type == ".gp" || type == ".svg" || type == ".png";
+}
+
+void clear_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (ours(entry.path())) found.push_back(entry.path());
+  for (const fs::path& file : found) {
+    fs::remove(file, error);
+    if (error) throw FileError(file.string(), "cannot be removed: " + error.message());
+  }
+  if (fs::is_empty(folder, error) && !error) fs::remove(folder, error);
+}
+
+void begin_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
+  clear_plot_folder(folder, ours);
+  fs::create_directories(folder, error);
+}
+
+}  // namespace signorini

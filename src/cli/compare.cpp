@@ -11,6 +11,7 @@
 #include "cli/compare_text.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/live.hpp"
+#include "cli/owned_folder.hpp"
 #include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
@@ -31,90 +32,25 @@ struct CompareOptions {
   bool force = false, quiet = false, json = false, no_plots = false;
 };
 
-/// What this command puts into its directory, beside one folder a run.
-constexpr const char* own_files[] = {"runs.csv", "differences.csv", "columns.csv", "events.csv",
-                                     "compare.json"};
-
-bool is_engine(const CompareOptions& options, const std::string& name) {
-  return std::find(options.engines.begin(), options.engines.end(), name) != options.engines.end();
-}
-
-/// "exact:run.rtol=1e-12" is for one engine: no key of a scene has a colon before its first dot.
-std::optional<std::string> engine_of(const CompareOptions& options, const Override& change) {
-  const std::size_t colon = change.path.find(':');
-  if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
-  const std::string name = change.path.substr(0, colon);
-  if (!is_engine(options, name))
-    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the engines compared{}", change.path,
-                                 change.value, name, suggestion(name, options.engines)));
-  return name;
-}
-
-std::vector<Override> changes_for(const CompareOptions& options, const std::string& engine) {
-  std::vector<Override> changes = {{"run.engine", engine}};
-  for (const Override& change : overrides_of(options.settings)) {
-    const std::optional<std::string> only = engine_of(options, change);
-    const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
-    if (path == "run.engine")
-      throw UsageError("--set " + change.path + "=" + change.value + ": --engines says which engines run");
-    if (!only || *only == engine) changes.push_back({path, change.value});
-  }
-  return changes;
-}
-
 Scene scene_for(const CompareOptions& options, const std::string& engine) {
   try {
-    return read_scene(options.sources.front(), changes_for(options, engine));
-  } catch (const UsageError& error) {  // the reader knows the engines; it was told with a --set
-    const std::string told = "--set run.engine=" + engine, message = error.what();
-    if (message.rfind(told, 0) != 0) throw;
-    throw UsageError("--engines " + engine + message.substr(told.size()));
+    std::vector<Override> changes = overrides_for(options.settings, options.engines, engine);
+    changes.insert(changes.begin(), {"run.engine", engine});
+    return read_scene(options.sources.front(), changes);
+  } catch (const UsageError& error) {
+    throw UsageError(engine_as_given(error.what(), engine));
   }
 }
 
-void check_directory(const fs::path& path, bool force) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(path, error))) return;
-  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
-  if (fs::is_empty(path, error)) return;
-  if (!force)
-    throw FileError(path.string(), "is there already and not empty; --force replaces the comparison in it");
-  if (!fs::exists(path / "compare.json", error))
-    throw FileError(path.string(),
-                    "is not empty and holds no comparison (no compare.json) that --force could replace");
+const OwnedFolder& own_folder() {
+  static const OwnedFolder folder = {
+      "comparison", "compare.json", {"runs.csv", "differences.csv", "columns.csv", "events.csv"}};
+  return folder;
 }
 
-void remove_old(const fs::path& path) {
-  std::error_code error;
-  for (const char* name : own_files) fs::remove(path / name, error);
-  for (const auto& entry : fs::directory_iterator(path / "plots", error)) {
-    const std::string stem = entry.path().stem().string(), type = entry.path().extension().string();
-    const bool picture = type == ".gp" || type == ".svg" || type == ".png";
-    const bool ours = picture
-                          ? stem == "differences" || stem.starts_with("contact-")
-                          : type == ".csv" && (stem.starts_with("motion-") || stem.starts_with("forces-"));
-    if (ours) fs::remove(entry.path(), error);
-  }
-}
-
-void create(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
-}
-
-/// Says first that the directory is one of ours, so that --force can replace what is left by a kill.
 void begin(const fs::path& path, bool force) {
-  check_directory(path, force);
-  create(path / "plots");
-  remove_old(path);
-  write_file(path / "compare.json", "{}\n");
-}
-
-/// Takes back what begin() made; what else is there stays.
-void leave(const fs::path& path) {
-  std::error_code ignored;
-  for (const fs::path& made : {path / "compare.json", path / "plots", path}) fs::remove(made, ignored);
+  begin_folder(path, own_folder(), force);
+  begin_comparison_plots(path);
 }
 
 struct Outcomes {
@@ -163,7 +99,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
     run_engine(options, path, scene, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
     if (outcomes.report.runs.empty()) {  // nothing to compare the others with
-      leave(path);
+      leave_folder(path, own_folder());
       throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
                                        ", refuses the scene: " + outcomes.report.refused.front().second);
     }
@@ -238,23 +174,11 @@ fs::path output_directory(const CompareOptions& options) {
   return (by_engine(options) ? first.stem() : first.filename()).string() + "-compare";
 }
 
-std::string draw_pictures(const fs::path& path, const ComparisonReport& report) {
-  const std::vector<fs::path> scripts = write_comparison_plots(path, report);
-  if (scripts.empty()) return "";
-  const std::string folder = (path / "plots").string();
-  const Drawing drawing = draw(scripts);
-  if (drawing.kind == Drawing::Kind::no_gnuplot)
-    return "pictures: no gnuplot on PATH; its scripts are in " + folder + "\n";
-  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
-  print_note("gnuplot failed: " + drawing.message);
-  return "";
-}
-
 ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
   const std::vector<Limit> limits = parse_limits(options.limits);
   check_sources(options);
   const fs::path path = output_directory(options);
-  check_directory(path, options.force);
+  check_folder(path, own_folder(), options.force);
   Outcomes outcomes =
       by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
   if (outcomes.interrupted) {
@@ -281,7 +205,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
     print("\nresults: " + path.string() +
           "/ (compare.json, runs.csv, differences.csv, columns.csv, events.csv)\n");
   }
-  const std::string drawn = options.no_plots ? "" : draw_pictures(path, report);
+  const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_comparison_plots(path, report));
   if (!options.quiet && !options.json) print(drawn);
   for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
   if (!report.exceeded.empty()) return ExitCode::limit;

@@ -60,7 +60,8 @@ std::string sequence(const ComparisonReport& report, std::size_t i) {
   const std::size_t pairs = alignment.pairs.size();
   std::string text = alignment.split
                          ? fmt::format("{} alike, then they part at t = {:.9g}: {}; {} from there on",
-                                       count_of(pairs, "event"), alignment.split->t, split_text(report, i),
+                                       count_of(pairs, "event"), alignment.split->t,
+                                       split_text(report.runs.front(), report.runs[i + 1], *alignment.split),
                                        count_of(alignment.split->unaligned, "event"))
                          : fmt::format("the same, {}", count_of(pairs, "event")) + up_to(report, i);
   if (alignment.swapped > 0)

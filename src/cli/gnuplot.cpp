@@ -7,6 +7,8 @@
 #include <array>
 #include <cerrno>
 
+#include "cli/terminal.hpp"
+
 namespace signorini::cli {
 
 namespace {
@@ -64,6 +66,18 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
     if (ended.code != 0) return {Drawing::Kind::failed, script.string() + ": " + ended.said};
   }
   return {};
+}
+
+std::string draw_pictures(const std::filesystem::path& directory,
+                          const std::vector<std::filesystem::path>& scripts, const std::string& later) {
+  if (scripts.empty()) return "";
+  const std::string folder = (directory / "plots").string();
+  const Drawing drawing = draw(scripts);
+  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
+  if (drawing.kind == Drawing::Kind::no_gnuplot)
+    return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
+  print_note("gnuplot failed: " + drawing.message);
+  return "";
 }
 
 }  // namespace signorini::cli

@@ -15,4 +15,10 @@ struct Drawing {
 /// Runs each script in its own folder.
 [[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
 
+/// Draws DIR/plots and returns the line that says where the pictures are, with `later` where there is no
+/// gnuplot; empty where there is nothing to say. What gnuplot complains of goes to stderr.
+[[nodiscard]] std::string draw_pictures(const std::filesystem::path& directory,
+                                        const std::vector<std::filesystem::path>& scripts,
+                                        const std::string& later = "");
+
 }  // namespace signorini::cli

@@ -11,6 +11,7 @@
 #include <deque>
 #include <vector>
 
+#include "cli/interrupt.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini::cli {
@@ -35,6 +36,7 @@ class Live : public Recorder {
   [[nodiscard]] double reached() const { return reached_; }
 
  private:
+  Interrupt interrupt_;
   Recorder& next_;
   const Model& model_;
   double t_end_;

@@ -42,6 +42,7 @@ int main_program(int argc, char** argv) {
   add_check(program);
   add_compare(program);
   add_sweep(program);
+  add_study(program);
   add_plot(program);
   add_keys(program);
   std::vector<std::string> names;

@@ -34,21 +34,6 @@ fs::path directory_of(const RunOptions& options) {
   return *options.directory;
 }
 
-// The line about the pictures; empty when there is nothing to say.
-std::string draw_pictures(const fs::path& directory) {
-  const std::vector<fs::path> scripts = write_plots(directory);
-  if (scripts.empty()) return "";
-  const std::string folder = (directory / "plots").string();
-  const Drawing drawing = draw(scripts);
-  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
-  if (drawing.kind == Drawing::Kind::no_gnuplot) {
-    return "pictures: no gnuplot on PATH; its scripts are in " + folder +
-           " (signorini plot draws them later)\n";
-  }
-  print_note("gnuplot failed: " + drawing.message);
-  return "";
-}
-
 ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& directory) {
   const std::string kept = "what was computed is kept in " + directory.string();
   switch (outcome.kind) {
@@ -105,7 +90,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
           "summary.json, run.toml)\n");
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
-  const std::string drawn = pictures ? draw_pictures(path) : "";
+  const std::string drawn =
+      pictures ? draw_pictures(path, write_plots(path), " (signorini plot draws them later)") : "";
   if (tables) print(drawn);
   return conclude(report.outcome, scene.units, path);
 }

@@ -1,6 +1,29 @@
 #include "cli/settings.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/suggest.hpp"
+
 namespace signorini::cli {
+
+namespace {
+
+const std::string set = "--set ";
+
+std::optional<std::string> engine_of(const Override& change, const std::vector<std::string>& engines) {
+  const std::size_t colon = change.path.find(':');
+  if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
+  const std::string name = change.path.substr(0, colon);
+  if (std::find(engines.begin(), engines.end(), name) == engines.end())
+    throw UsageError(fmt::format("--set {}={}: \"{}\" is not among the engines compared{}", change.path,
+                                 change.value, name, suggestion(name, engines)));
+  return name;
+}
+
+}  // namespace
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {
   command
@@ -20,6 +43,30 @@ std::vector<Override> overrides_of(const std::vector<std::string>& settings) {
     list.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
   return list;
+}
+
+std::vector<Override> overrides_for(const std::vector<std::string>& settings,
+                                    const std::vector<std::string>& engines, const std::string& engine) {
+  std::vector<Override> changes;
+  for (const Override& change : overrides_of(settings)) {
+    const std::optional<std::string> only = engine_of(change, engines);
+    const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
+    if (path == "run.engine")
+      throw UsageError(set + change.path + "=" + change.value + ": --engines says which engines run");
+    if (!only || *only == engine) changes.push_back({path, change.value});
+  }
+  return changes;
+}
+
+std::string engine_as_given(const std::string& message, const std::string& engine) {
+  const std::string told = set + "run.engine=" + engine;
+  return message.starts_with(told) ? "--engines " + engine + message.substr(told.size()) : message;
+}
+
+std::string vary_as_given(const std::string& message, const std::vector<Vary>& varied) {
+  for (const Vary& vary : varied)
+    if (message.starts_with(set + vary.path + "=")) return "--vary " + message.substr(set.size());
+  return message;
 }
 
 }  // namespace signorini::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "signorini/scene.hpp"
+#include "study/vary.hpp"
 
 namespace signorini::cli {
 
@@ -14,5 +15,17 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
 /// Errors: UsageError for one without "=".
 [[nodiscard]] std::vector<Override> overrides_of(const std::vector<std::string>& settings);
+
+/// The settings that hold for `engine`. "exact:run.rtol=1e-12" is for one engine of `engines`: no key of a
+/// scene has a colon before its first dot. Errors: UsageError, also for run.engine.
+[[nodiscard]] std::vector<Override> overrides_for(const std::vector<std::string>& settings,
+                                                  const std::vector<std::string>& engines,
+                                                  const std::string& engine);
+
+// The scene reader names what it was told as --set; users said it with other options.
+/// "--set run.engine=idea: ..." as "--engines idea: ...".
+[[nodiscard]] std::string engine_as_given(const std::string& message, const std::string& engine);
+/// "--set run.dt=0: ..." as "--vary run.dt=0: ..." where run.dt is varied.
+[[nodiscard]] std::string vary_as_given(const std::string& message, const std::vector<Vary>& varied);
 
 }  // namespace signorini::cli

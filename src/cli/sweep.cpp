@@ -38,14 +38,6 @@ std::optional<std::string> environment(const char* name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
-/// The reader was told the values with --set, the user said --vary.
-std::string as_given(const std::string& message, const std::vector<Vary>& varied) {
-  const std::string set = "--set ";
-  for (const Vary& vary : varied)
-    if (message.rfind(set + vary.path + "=", 0) == 0) return "--vary " + message.substr(set.size());
-  return message;
-}
-
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
 /// a wrong command line, a value that only some rows cannot take is a row.
 SweepSpec specify(const SweepOptions& options) {
@@ -73,7 +65,7 @@ SweepSpec specify(const SweepOptions& options) {
       if (!first) first = error;
     }
   }
-  throw Error(first->code(), as_given(first->what(), spec.vary));
+  throw Error(first->code(), vary_as_given(first->what(), spec.vary));
 }
 
 std::size_t jobs_of(const SweepOptions& options) {
@@ -169,19 +161,6 @@ bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std:
   return whole;
 }
 
-std::string draw_pictures(const SweepDirectory& directory) {
-  const std::vector<fs::path> scripts =
-      write_sweep_plots(directory.path(), directory.spec(), directory.rows());
-  if (scripts.empty()) return "";
-  const std::string folder = (directory.path() / "plots").string();
-  const Drawing drawing = draw(scripts);
-  if (drawing.kind == Drawing::Kind::no_gnuplot)
-    return "pictures: no gnuplot on PATH; its scripts are in " + folder + "\n";
-  if (drawing.kind == Drawing::Kind::drawn) return "pictures: " + folder + "/*.png and *.svg\n";
-  print_note("gnuplot failed: " + drawing.message);
-  return "";
-}
-
 void conclude(const SweepOptions& options, const SweepDirectory& directory) {
   directory.write_results();
   if (options.json) print(sweep_json(directory.spec(), directory.rows()));
@@ -192,7 +171,10 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
     print("\nresults: " + directory.path().string() + "/ (sweep.csv, results.json" +
           (options.keep ? ", runs/)\n" : ")\n"));
   }
-  const std::string drawn = options.no_plots ? "" : draw_pictures(directory);
+  const std::string drawn =
+      options.no_plots ? ""
+                       : draw_pictures(directory.path(), write_sweep_plots(directory.path(), directory.spec(),
+                                                                           directory.rows()));
   if (tables) print(drawn);
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;

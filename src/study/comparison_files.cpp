@@ -174,16 +174,14 @@ Json comparison_json_of(const ComparisonReport& report, std::size_t i) {
 
 }  // namespace
 
-std::string split_text(const ComparisonReport& report, std::size_t comparison) {
-  const auto& split = report.comparisons[comparison].alignment.split;
-  if (!split) return "";
+std::string split_text(const ComparedRun& reference, const ComparedRun& other,
+                       const Alignment::Split& split) {
   const auto side = [&](const ComparedRun& run, const std::optional<std::size_t>& index) {
     if (!index) return run.figures.name + " has no more events";
     const LoggedEvent& event = run.events[*index];
     return fmt::format("{} has {} at t = {:.12g}", run.figures.name, event.name(), event.t);
   };
-  return fmt::format("{}; {}", side(report.runs.front(), split->reference),
-                     side(report.runs[comparison + 1], split->other));
+  return fmt::format("{}; {}", side(reference, split.reference), side(other, split.other));
 }
 
 std::string comparison_json(const ComparisonReport& report) {

@@ -24,8 +24,9 @@ struct ComparisonReport {
   std::vector<std::pair<std::string, std::string>> refused;
 };
 
-/// "parts at t = 0.31: ida has first slip, stick -> slip+ at 0.31; exact has no more events"; "" when equal.
-[[nodiscard]] std::string split_text(const ComparisonReport& report, std::size_t comparison);
+/// "exact has no more events; ida has first slip, stick -> slip+ at t = 0.31"
+[[nodiscard]] std::string split_text(const ComparedRun& reference, const ComparedRun& other,
+                                     const Alignment::Split& split);
 
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 

@@ -8,6 +8,7 @@
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
+#include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
 
 namespace signorini {
@@ -182,10 +183,20 @@ class Pictures {
   std::vector<PlottedRun> runs_;
 };
 
+bool is_picture_of_comparison(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  if (is_picture(file)) return stem == "differences" || stem.starts_with("contact-");
+  return file.extension() == ".csv" && (stem.starts_with("motion-") || stem.starts_with("forces-"));
+}
+
 }  // namespace
 
 std::string run_slug(const std::string& name, std::size_t i) {
   return std::to_string(i + 1) + "-" + plain(name);
+}
+
+void begin_comparison_plots(const fs::path& directory) {
+  begin_plot_folder(directory / "plots", is_picture_of_comparison);
 }
 
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report) {

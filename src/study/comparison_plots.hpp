@@ -16,6 +16,9 @@ namespace signorini {
 /// The part of the names of files that stands for run number i: "2-exact".
 [[nodiscard]] std::string run_slug(const std::string& name, std::size_t i);
 
+/// DIR/plots, there and without what an earlier comparison left. Errors: FileError.
+void begin_comparison_plots(const std::filesystem::path& directory);
+
 /// Writes the scripts into DIR/plots and returns them; none with fewer than two output times. Errors:
 /// FileError.
 std::vector<std::filesystem::path> write_comparison_plots(const std::filesystem::path& directory,

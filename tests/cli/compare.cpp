@@ -8,15 +8,9 @@
 using nlohmann::json;
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
+using signorini::cli_test::exists;
+using signorini::cli_test::has;
 using signorini::cli_test::Shell;
-
-namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-bool exists(const Shell& shell, const std::string& name) { return std::filesystem::exists(shell / name); }
-
-}  // namespace
 
 TEST_SUITE_BEGIN("cli/compare");
 

@@ -82,6 +82,14 @@ class Shell {
   std::filesystem::path folder_;
 };
 
+[[nodiscard]] inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+[[nodiscard]] inline bool exists(const Shell& shell, const std::string& name) {
+  return std::filesystem::exists(shell / name);
+}
+
 /// Block on a belt: a few events a time unit, for as long as asked.
 inline std::string belt(double t_end) {
   return R"(schema = 1

@@ -9,11 +9,10 @@
 using nlohmann::json;
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
+using signorini::cli_test::exists;
 using signorini::cli_test::Shell;
 
 namespace {
-
-bool exists(const Shell& shell, const std::string& name) { return std::filesystem::exists(shell / name); }
 
 long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 

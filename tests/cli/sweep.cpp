@@ -9,13 +9,11 @@
 using nlohmann::json;
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
+using signorini::cli_test::exists;
+using signorini::cli_test::has;
 using signorini::cli_test::Shell;
 
 namespace {
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-bool exists(const Shell& shell, const std::string& name) { return std::filesystem::exists(shell / name); }
 
 long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 

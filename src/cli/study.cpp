@@ -1,0 +1,207 @@
+// signorini study: speed against error, engine by engine, setting by setting.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command.hpp"
+#include "cli/gnuplot.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/owned_folder.hpp"
+#include "cli/settings.hpp"
+#include "cli/study_text.hpp"
+#include "cli/terminal.hpp"
+#include "study/decades.hpp"
+#include "study/work_files.hpp"
+#include "study/work_plots.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+  std::string scene;
+  std::vector<std::string> engines = {"exact", "ida", "newmark", "friction-iteration"};
+  std::string rtol = "1e-4:1e-12";
+  std::optional<std::string> dt, directory;
+  std::vector<std::string> varied, settings;
+  long repeats = 3;
+  double time_limit = 60.0;
+  bool force = false, quiet = false, json = false, no_plots = false;
+};
+
+const OwnedFolder& own_folder() {
+  static const OwnedFolder folder = {"study", "study.json", {"study.csv", "study.md"}};
+  return folder;
+}
+
+void check(const StudyOptions& options) {
+  for (const std::string& engine : options.engines)
+    if (std::count(options.engines.begin(), options.engines.end(), engine) > 1)
+      throw UsageError("--engines: " + engine + " stands twice");
+  if (options.repeats < 1)
+    throw UsageError(fmt::format("--repeats {}: expected at least 1", options.repeats));
+  if (!(options.time_limit > 0.0))
+    throw UsageError(fmt::format("--time-limit {}: expected a number of seconds > 0", options.time_limit));
+  if (options.directory && options.directory->empty())
+    throw UsageError("-o: expected the name of a directory");
+}
+
+std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
+  return overrides_for(options.settings, options.engines, engine);
+}
+
+/// A wrong engine or varied key is a wrong command line, told before anything is written.
+void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
+  for (const std::string& engine : options.engines) {
+    std::vector<Override> changes = settings_for(options, engine);
+    changes.insert(changes.begin(), {"run.engine", engine});
+    if (accuracy_key(engine) == "run.dt") changes.insert(changes.begin(), {"run.dt", "1e-3"});
+    for (const Vary& vary : varied) changes.push_back({vary.path, vary.values.front()});
+    try {
+      (void)read_scene(options.scene, changes);
+    } catch (const UsageError& error) {
+      throw UsageError(vary_as_given(engine_as_given(error.what(), engine), varied));
+    } catch (const SceneError&) {  // of one engine, or one value: a row
+    }
+  }
+}
+
+WorkRequest request_of(const StudyOptions& options, const std::vector<std::string>& command_line) {
+  WorkRequest request;
+  request.scene = options.scene;
+  request.settings = [&options](const std::string& engine) { return settings_for(options, engine); };
+  request.ranges.engines = options.engines;
+  request.ranges.rtol = parse_decades("--rtol", options.rtol);
+  std::vector<Vary> varied;
+  for (const std::string& text : options.varied) varied.push_back(parse_vary(text));
+  for (const Vary& vary : varied)
+    if (vary.path == "run.engine" || vary.path == "run.rtol" || vary.path == "run.dt")
+      throw UsageError("--vary " + vary.path + ": --engines, --rtol and --dt say what runs");
+  request.ranges.varied = points(varied);
+  request.repeats = static_cast<std::size_t>(options.repeats);
+  request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
+  request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};
+  (void)read_scene(options.scene, settings_for(options, ""));
+  try_engines(options, varied);
+  return request;
+}
+
+class Progress {
+ public:
+  explicit Progress(bool shown) : shown_(shown && stderr_is_terminal()) {}
+  ~Progress() { say(""); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void say(const std::string& text) const {
+    if (shown_) progress_line(text);
+  }
+
+ private:
+  bool shown_;
+};
+
+void run_all(WorkStudy& study, const WorkRequest& request, const Progress& progress) {
+  progress.say("reference");
+  study.find_reference();
+  const std::vector<WorkPoint> plan = work_points(request.ranges);
+  for (std::size_t i = 0; i < plan.size() && !study.report().interrupted; ++i) {
+    progress.say(fmt::format("{} ({} of {})", plan[i].name(), i + 1, plan.size()));
+    study.add(plan[i]);
+    write_work(request.directory, study.report());
+  }
+  study.time_all([&](const WorkRow& row, std::size_t round) {
+    progress.say(fmt::format("timing {} (round {} of {})", row.point.name(), round, request.repeats));
+  });
+}
+
+ExitCode study(const StudyOptions& options, const std::vector<std::string>& command_line) {
+  check(options);
+  WorkRequest request = request_of(options, command_line);
+  const fs::path path = request.directory;
+  check_folder(path, own_folder(), options.force);
+  if (!options.dt) {
+    const Scene scene = read_scene(options.scene, settings_for(options, ""));
+    request.ranges.dt = usual_steps(scene.run.t_end);
+  } else {
+    request.ranges.dt = parse_decades("--dt", *options.dt);
+  }
+  WorkStudy work(request);
+  begin_folder(path, own_folder(), options.force);
+  std::error_code ignored;
+  fs::remove_all(path / "runs", ignored);
+  remove_work_plots(path);
+  {
+    const Interrupt interrupt;
+    const Progress progress(!options.quiet);
+    try {
+      run_all(work, request, progress);
+    } catch (const Error&) {
+      if (work.report().rows.empty()) leave_folder(path, own_folder());
+      throw;
+    }
+  }
+  const WorkReport& report = work.report();
+  write_work(path, report);
+  const bool tables = !options.quiet && !options.json;
+  if (options.json) print(work_json(report));
+  if (tables)
+    print(study_text(report) + "\nresults: " + path.string() +
+          "/ (study.csv, study.json, study.md, runs/)\n");
+  if (report.interrupted) {
+    print_error("interrupted; what was measured is kept in " + path.string());
+    return ExitCode::interrupted;
+  }
+  const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_work_plots(path, report));
+  if (tables) print(drawn);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_study(Program& program) {
+  auto options = std::make_shared<StudyOptions>();
+  CLI::App* command = program.app.add_subcommand(
+      "study", "speed against error: every engine at every accuracy, which is cheapest for what");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  command->add_option("--engines", options->engines, "engines to measure (default: all)")
+      ->option_text("NAME,NAME...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--rtol", options->rtol,
+          "tolerances of ida: start:stop by decades, start:stop:factor, or a list (default: 1e-4:1e-12)")
+      ->option_text("RANGE");
+  command
+      ->add_option("--dt", options->dt,
+                   "steps of newmark and friction-iteration (default: five decades from t_end/50)")
+      ->option_text("RANGE");
+  command
+      ->add_option("--vary", options->varied,
+                   "another key to vary against the unvaried reference: reduction.cutoff_omega=1e3,1e4")
+      ->option_text("PATH=VALUES")
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory of the study (default: SCENE's name with -study)")
+      ->option_text("DIR");
+  add_settings(*command, options->settings);
+  command->add_option("--repeats", options->repeats, "times are the least of so many (default: 3)")
+      ->option_text("N");
+  command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
+      ->option_text("S");
+  command->add_flag("--force", options->force, "replace an earlier study in the directory");
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->add_flag("--json", options->json, "print study.json instead of tables");
+  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  command->callback([&program, options] {
+    program.action = [options, line = program.command_line] { return study(*options, line); };
+  });
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,21 @@
+#include "cli/study_text.hpp"
+
+#include "cli/table.hpp"
+#include "study/work_files.hpp"
+
+namespace signorini::cli {
+
+std::string study_text(const WorkReport& report) {
+  std::string text = report.title.empty() ? "" : report.title + "\n";
+  text += work_circumstances(report) + "\nerrors against " + report.reference + "\n\n";
+  WorkTable content = work_table(report);
+  Table table(std::move(content.header), std::move(content.right));
+  for (auto& row : content.rows) table.row(std::move(row));
+  text += table.str() + "\n";
+  for (const std::string& sentence : work_conclusions(report)) text += sentence + "\n";
+  for (const std::string& note : report.notes) text += "  note: " + note + "\n";
+  for (const std::string& failure : work_failures(report)) text += "  " + failure + "\n";
+  return text;
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,12 @@
+// study_text.hpp: what `study` prints: the runs in a table, which is cheapest for what, how runs fail.
+#pragma once
+
+#include <string>
+
+#include "study/work_study.hpp"
+
+namespace signorini::cli {
+
+[[nodiscard]] std::string study_text(const WorkReport& report);
+
+}  // namespace signorini::cli

@@ -1,0 +1,36 @@
+// work_files.hpp: a study as files (docs/command-line.md).
+//
+//   study.csv    one row a run: engine, setting, outcome, errors, times, counters
+//   study.json   the same, with machine, versions, notes and frontiers
+//   study.md     the table and the sentences, to be read
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study/work_study.hpp"
+
+namespace signorini {
+
+/// The table for people: cells as text.
+struct WorkTable {
+  std::vector<std::string> header;
+  std::vector<bool> right;  ///< columns of numbers
+  std::vector<std::vector<std::string>> rows;
+};
+[[nodiscard]] WorkTable work_table(const WorkReport& report);
+
+/// What the study found, one sentence each: the frontiers, then how rows fail.
+[[nodiscard]] std::vector<std::string> work_conclusions(const WorkReport& report);
+[[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
+
+/// "500 unknowns, 3 contacts, ...; AMD ..., 2 cores; ..."
+[[nodiscard]] std::string work_circumstances(const WorkReport& report);
+
+[[nodiscard]] std::string work_json(const WorkReport& report);
+
+/// Errors: FileError.
+void write_work(const std::filesystem::path& directory, const WorkReport& report);
+
+}  // namespace signorini

@@ -1,0 +1,34 @@
+#include "study/work_row.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+
+const WorkError* WorkRow::error(const std::string& quantity) const {
+  const auto found =
+      std::find_if(errors.begin(), errors.end(), [&](const WorkError& e) { return e.quantity == quantity; });
+  return found == errors.end() ? nullptr : &*found;
+}
+
+std::optional<double> WorkRow::wall_time() const {
+  if (wall_times.empty()) return std::nullopt;
+  return *std::min_element(wall_times.begin(), wall_times.end());
+}
+
+void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedRun& run,
+                     const Comparison& comparison) {
+  const auto& split = comparison.alignment.split;
+  row.alike = comparison.alignment.pairs.size();
+  row.split = split ? split_text(reference, run, *split) : "";
+  row.t_split = split ? std::optional(split->t) : std::nullopt;
+  row.errors.clear();
+  for (const Quantity& quantity : quantities(comparison, reference.figures.facts.units)) {
+    if (quantity.deviation->count == 0) continue;
+    const Greatest& greatest =
+        split && quantity.name != "event_time" ? quantity.deviation->until_split : quantity.deviation->whole;
+    row.errors.push_back({quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where,
+                          quantity.deviation->whole.value});
+  }
+}
+
+}  // namespace signorini

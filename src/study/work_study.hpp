@@ -1,0 +1,81 @@
+// work_study.hpp: speed against error on one scene.
+//
+//   WorkStudy study(request);  study.find_reference();
+//   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
+//   study.time_all();          // round by round, so that a slow minute of the machine meets all alike
+//
+// The reference is `exact`, or where it refuses the scene the tightest setting one decade on. Rigid contacts
+// without a capture_velocity get that of the scene's own tolerance in all runs: else every run would solve a
+// problem of its own.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/machine.hpp"
+#include "study/work_row.hpp"
+#include "study/work_run.hpp"
+
+namespace signorini {
+
+struct WorkRequest {
+  std::string scene;  ///< file
+  /// Settings of the user for an engine, "" for what holds for all.
+  std::function<std::vector<Override>(const std::string& engine)> settings;
+  WorkRanges ranges;
+  std::size_t repeats = 3;
+  std::filesystem::path directory;
+  WorkLimits limits;
+};
+
+/// What a study says (work_files.hpp).
+struct WorkReport {
+  std::string scene, title;
+  Units units;
+  Machine machine;
+  double t_end = 0.0;
+  std::size_t repeats = 0, unknowns = 0, contacts = 0;
+  std::string reference;           ///< name of the reference's run
+  std::vector<std::string> notes;  ///< one sentence each
+  std::vector<WorkRow> rows;
+  bool interrupted = false;
+};
+
+class WorkStudy {
+ public:
+  /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
+  explicit WorkStudy(WorkRequest request);
+
+  /// Errors: SceneError where no engine computes the scene; FileError.
+  void find_reference();
+  /// Records a run and compares it. A refusal is a row. Errors: FileError.
+  const WorkRow& add(const WorkPoint& point);
+  /// `before` is told each run's name. A row is repeated until it took ten seconds, at least once.
+  void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
+
+  [[nodiscard]] const WorkReport& report() const { return report_; }
+  [[nodiscard]] double t_end() const { return report_.t_end; }
+
+ private:
+  struct Prepared {
+    Scene scene;
+    Model model;
+  };
+  [[nodiscard]] Prepared prepare(const WorkPoint& point) const;
+  [[nodiscard]] std::filesystem::path folder_of(const WorkPoint& point) const;
+  void choose_reference();
+  bool try_reference(const WorkPoint& point, std::string& why_not);
+  void doubt_reference(const WorkPoint& point);
+  void compare(WorkRow& row, const ComparedRun& run) const;
+
+  WorkRequest request_;
+  WorkReport report_;
+  std::vector<Override> held_;  // capture velocities, the same in all runs
+  ComparedRun reference_;
+  WorkPoint reference_point_;
+  Comparison doubt_;  // of `exact`: what a change in the last digits does
+};
+
+}  // namespace signorini

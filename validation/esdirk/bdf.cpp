@@ -6,6 +6,7 @@
 #include "engine/fast_vector.hpp"
 #include "engine/ida_linear_solver.hpp"
 #include "integrator.hpp"
+#include "parts.hpp"
 
 namespace signorini::esdirk {
 namespace {
@@ -18,18 +19,17 @@ class Bdf final : public Integrator {
         structure_(model_),
         layout_(model_),
         linear_(model_, structure_, layout_) {
-    SUNContext_Create(nullptr, &context_);
     for (N_Vector* x : {&y_, &yp_}) {
-      *x = make_vector(layout_.size(), context_);
+      *x = make_vector(layout_.size(), parts_.context);
       N_VConst(0.0, *x);
     }
-    ida_ = IDACreate(context_);
+    ida_ = IDACreate(parts_.context);
     check(IDAInit(ida_, &Bdf::residual, 0.0, y_, yp_), "IDAInit");
     IDASetUserData(ida_, this);
     IDAWFtolerances(ida_, &Bdf::weights);
-    matrix_ = linear_.make_matrix(context_);
-    solver_ = linear_.make_solver(context_);
-    check(IDASetLinearSolver(ida_, solver_, matrix_), "IDASetLinearSolver");
+    parts_.matrix = linear_.make_matrix(parts_.context);
+    parts_.solver = linear_.make_solver(parts_.context);
+    check(IDASetLinearSolver(ida_, parts_.solver, parts_.matrix), "IDASetLinearSolver");
     IDASetJacFn(ida_, &Bdf::jacobian);
     IDASetMaxNumSteps(ida_, -1);
     IDASetDeltaCjLSetup(ida_, 0.0);  // as engine ida
@@ -38,16 +38,11 @@ class Bdf final : public Integrator {
   }
   ~Bdf() override {
     IDAFree(&ida_);
-    SUNLinSolFree(solver_);
-    SUNMatDestroy(matrix_);
     N_VDestroy(y_);
     N_VDestroy(yp_);
-    SUNContext_Free(&context_);
   }
-  Bdf(const Bdf&) = delete;
-  Bdf& operator=(const Bdf&) = delete;
 
-  void run(const Stretch& stretch, std::vector<double>& y, Tally& tally) override {
+  void run(const Stretch& stretch, bool through, std::vector<double>& y, Tally& tally) override {
     flow_.start(stretch.mode, stretch.begin);
     linear_.set_mode(stretch.mode);
     mode_ = stretch.mode;
@@ -64,11 +59,11 @@ class Bdf final : public Integrator {
       }
     check(IDAReInit(ida_, stretch.begin, y_, yp_), "IDAReInit");
     IDASetInitStep(ida_, first_step(flow_, stretch, 2, 4));
-    IDASetStopTime(ida_, stretch.end);
+    const double length = stretch.end - stretch.begin, far = stretch.end + length + std::abs(stretch.end);
+    IDASetStopTime(ida_, through ? far : stretch.end);
     double t = stretch.begin, before = t;
     steps_.clear();
     orders_.clear();
-    const double far = stretch.end + (stretch.end - stretch.begin) + std::abs(stretch.end);
     for (int flag = IDA_SUCCESS; flag != IDA_TSTOP_RETURN && t < stretch.end;) {
       flag = IDASolve(ida_, far, &t, y_, yp_, IDA_ONE_STEP);
       check(flag, "IDASolve");
@@ -76,6 +71,7 @@ class Bdf final : public Integrator {
       before = t;
       IDAGetLastOrder(ida_, &orders_.emplace_back());
     }
+    if (t > stretch.end) check(IDAGetDky(ida_, stretch.end, 0, y_), "IDAGetDky");
     long failed_tests = 0, failed_solves = 0, solves = 0, setups = 0;
     IDAGetNumErrTestFails(ida_, &failed_tests);
     IDAGetNumNonlinSolvConvFails(ida_, &failed_solves);
@@ -151,11 +147,9 @@ class Bdf final : public Integrator {
   Layout layout_;
   IdaLinearSolver linear_;
   Mode mode_;
-  SUNContext context_ = nullptr;
+  Parts parts_;
   N_Vector y_ = nullptr, yp_ = nullptr;
   void* ida_ = nullptr;
-  SUNMatrix matrix_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;
   std::vector<double> steps_;
   std::vector<int> orders_;
 };

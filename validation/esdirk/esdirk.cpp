@@ -5,6 +5,7 @@
 
 #include "engine/fast_vector.hpp"
 #include "integrator.hpp"
+#include "parts.hpp"
 
 namespace signorini::esdirk {
 namespace {
@@ -12,14 +13,13 @@ namespace {
 class Esdirk final : public Integrator {
  public:
   Esdirk(Flow& flow, int order, bool linear) : flow_(flow), order_(order) {
-    SUNContext_Create(nullptr, &context_);
-    y_ = make_vector(2 * flow.size(), context_);
+    y_ = make_vector(2 * flow.size(), parts_.context);
     N_VConst(0.0, y_);
-    memory_ = ARKStepCreate(nullptr, &Esdirk::derivative, 0.0, y_, context_);
+    memory_ = ARKStepCreate(nullptr, &Esdirk::derivative, 0.0, y_, parts_.context);
     ARKStepSetUserData(memory_, this);
     ARKStepWFtolerances(memory_, &Esdirk::weights);
     make_solver();
-    check(ARKStepSetLinearSolver(memory_, solver_, matrix_), "ARKStepSetLinearSolver");
+    check(ARKStepSetLinearSolver(memory_, parts_.solver, parts_.matrix), "ARKStepSetLinearSolver");
     check(ARKStepSetLinSysFn(memory_, &Esdirk::system), "ARKStepSetLinSysFn");
     const ARKODE_DIRKTableID table = order == 3   ? ARKODE_ESDIRK325L2SA_5_2_3
                                      : order == 4 ? ARKODE_ESDIRK436L2SA_6_3_4
@@ -41,31 +41,27 @@ class Esdirk final : public Integrator {
   }
   ~Esdirk() override {
     ARKStepFree(&memory_);
-    SUNLinSolFree(solver_);
-    SUNMatDestroy(matrix_);
     N_VDestroy(y_);
-    SUNContext_Free(&context_);
   }
-  Esdirk(const Esdirk&) = delete;
-  Esdirk& operator=(const Esdirk&) = delete;
 
-  void run(const Stretch& stretch, std::vector<double>& y, Tally& tally) override {
+  void run(const Stretch& stretch, bool through, std::vector<double>& y, Tally& tally) override {
     flow_.start(stretch.mode, stretch.begin);
     const int n = flow_.size();
     std::copy(stretch.u0.begin(), stretch.u0.end(), NV_DATA_S(y_));
     std::copy(stretch.v0.begin(), stretch.v0.end(), NV_DATA_S(y_) + n);
     check(ARKStepReInit(memory_, nullptr, &Esdirk::derivative, stretch.begin, y_), "ARKStepReInit");
     ARKStepSetInitStep(memory_, first_step(flow_, stretch, order_, order_));
-    ARKStepSetStopTime(memory_, stretch.end);
+    const double length = stretch.end - stretch.begin, far = stretch.end + length + std::abs(stretch.end);
+    ARKStepSetStopTime(memory_, through ? far : stretch.end);
     double t = stretch.begin, before = t;
     steps_.clear();
-    const double far = stretch.end + (stretch.end - stretch.begin) + std::abs(stretch.end);
     for (int flag = ARK_SUCCESS; flag != ARK_TSTOP_RETURN && t < stretch.end;) {
       flag = ARKStepEvolve(memory_, far, y_, &t, ARK_ONE_STEP);
       check(flag, "ARKStepEvolve");
       steps_.push_back(t - before);
       before = t;
     }
+    if (t > stretch.end) check(ARKStepGetDky(memory_, stretch.end, 0, y_), "ARKStepGetDky");
     long failed_tests = 0, failed_solves = 0;
     ARKStepGetNumErrTestFails(memory_, &failed_tests);
     ARKStepGetNumNonlinSolvConvFails(memory_, &failed_solves);
@@ -93,23 +89,23 @@ class Esdirk final : public Integrator {
     return 0;
   }
   void make_solver() {
-    matrix_ = SUNMatNewEmpty(context_);
-    matrix_->content = this;
-    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
-    matrix_->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
-    matrix_->ops->destroy = [](SUNMatrix m) { SUNMatFreeEmpty(m); };
-    solver_ = SUNLinSolNewEmpty(context_);
-    solver_->content = this;
-    solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-    solver_->ops->setup = [](SUNLinearSolver s, SUNMatrix) {
+    parts_.matrix = SUNMatNewEmpty(parts_.context);
+    parts_.matrix->content = this;
+    parts_.matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    parts_.matrix->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
+    parts_.matrix->ops->destroy = [](SUNMatrix m) { SUNMatFreeEmpty(m); };
+    parts_.solver = SUNLinSolNewEmpty(parts_.context);
+    parts_.solver->content = this;
+    parts_.solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    parts_.solver->ops->setup = [](SUNLinearSolver s, SUNMatrix) {
       auto* e = static_cast<Esdirk*>(s->content);
       return e->flow_.factor(e->gamma_) ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
     };
-    solver_->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    parts_.solver->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
       static_cast<Esdirk*>(s->content)->flow_.solve(NV_DATA_S(b), NV_DATA_S(x));
       return static_cast<int>(SUNLS_SUCCESS);
     };
-    solver_->ops->free = [](SUNLinearSolver s) {
+    parts_.solver->ops->free = [](SUNLinearSolver s) {
       SUNLinSolFreeEmpty(s);
       return static_cast<int>(SUNLS_SUCCESS);
     };
@@ -117,11 +113,9 @@ class Esdirk final : public Integrator {
 
   Flow& flow_;
   int order_;
-  SUNContext context_ = nullptr;
+  Parts parts_;
   N_Vector y_ = nullptr;
   void* memory_ = nullptr;
-  SUNMatrix matrix_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;
   double gamma_ = 0.0;
   std::vector<double> steps_;
 };

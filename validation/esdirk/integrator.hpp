@@ -20,9 +20,13 @@ struct Tally {
 
 class Integrator {
  public:
+  Integrator() = default;
   virtual ~Integrator() = default;
-  /// y of length 2 n: the state at the end of the stretch. Errors: std::runtime_error.
-  virtual void run(const Stretch& stretch, std::vector<double>& y, Tally& tally) = 0;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+  /// y of length 2 n: the state at the end of the stretch. `through`: steps do not stop there, and y is
+  /// interpolated inside the one that passes it, as where an event is found. Errors: std::runtime_error.
+  virtual void run(const Stretch& stretch, bool through, std::vector<double>& y, Tally& tally) = 0;
 };
 
 /// SUNDIALS' ARKStep with an ESDIRK table of order 3, 4 or 5. linear: one Newton iteration a stage without a

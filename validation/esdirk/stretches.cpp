@@ -1,7 +1,7 @@
 #include "stretches.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 namespace signorini::esdirk {
@@ -30,13 +30,24 @@ Result run(const Scene& scene, const Model& model) {
 
 }  // namespace
 
+double processor_time() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 Cut cut(Scene scene, const Model& model, double restart) {
   scene.run.output_dt.reset();
   scene.run.frames.clear();
   scene.run.output_times = std::vector<double>{scene.run.t_end};
-  const Result bare = run(scene, model);
   Cut result;
-  result.seconds = bare.report.wall_time;
+  Result bare;
+  result.seconds = 1e300;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const double start = processor_time();
+    bare = run(scene, model);
+    result.seconds = std::min(result.seconds, processor_time() - start);
+  }
 
   std::vector<double> times{0.0, scene.run.t_end};
   for (const Event& event : bare.events) {

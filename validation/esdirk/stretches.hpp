@@ -31,8 +31,11 @@ struct Stretch {
 struct Cut {
   std::vector<Stretch> stretches;
   long events = 0;
-  double seconds = 0.0;  ///< of the reference run without output
+  double seconds = 0.0;  ///< of the reference run without output and cuts, least of three
 };
+
+/// Seconds of this process on a processor: other processes do not count.
+[[nodiscard]] double processor_time();
 
 /// Runs the scene with its engine; restart > 0 cuts at its multiples, too. Displacements and velocities must
 /// be continuous at events. Errors: std::runtime_error if the run does not reach its end.

@@ -22,7 +22,8 @@ program, repeats, have_siconos, have_scipy = sys.argv[1], int(sys.argv[2]), sys.
 only = sys.argv[5:]
 python = sys.executable
 long_run = 4.0  # s: runs longer than that are not repeated
-work = tempfile.mkdtemp()
+kept = tempfile.TemporaryDirectory()  # gone when the script ends
+work = kept.name
 
 
 def timed(command):

@@ -1,0 +1,162 @@
+#include "flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace signorini::esdirk {
+
+Form stribeck_row(const Contact& contact, State state, double vt) {
+  const int s = slip_sign(state);
+  Form row;
+  row.T = 1.0;
+  row.N = s * sliding_friction(contact, s * vt);
+  return row;
+}
+
+Form stribeck_tangent(const Contact& contact, State state, double vt, double N) {
+  Form row = stribeck_row(contact, state, vt);
+  row.vt = sliding_friction_slope(contact, slip_sign(state) * vt) * N;
+  return row;
+}
+
+Flow::Flow(const Model& model, const Structure& structure)
+    : model_(model),
+      structure_(structure),
+      n_(model.size()),
+      mass_(model, structure),
+      implicit_(model, structure),
+      rhs_(static_cast<std::size_t>(mass_.size())),
+      work_(static_cast<std::size_t>(n_)),
+      scale_(static_cast<std::size_t>(2 * n_)) {
+  for (std::size_t i = 0; i < model.dofs.size(); ++i) {
+    const Dof& dof = model.dofs[i];
+    if (dof.massless) throw std::runtime_error("degrees of freedom without mass are not treated here");
+    scale_[i] = dof.rotation ? model.scales.rotation : model.scales.displacement;
+    scale_[i + model.dofs.size()] = dof.rotation ? model.scales.angular_velocity : model.scales.velocity;
+  }
+}
+
+void Flow::start(const Mode& mode, double t) {
+  const bool same = !mode_.empty() && states_of(mode) == states_of(mode_);
+  mode_ = mode;
+  rows_ = tangents_ = rows_of(model_, mode);
+  forcing_.emplace(model_, t, Side::after);
+  linear_ = true;
+  for (std::size_t k = 0; k < mode.size(); ++k)
+    if (is_stribeck(model_.contacts[k], mode[k].state)) {
+      if (model_.contacts[k].law != Law::slider)
+        throw std::runtime_error("Stribeck's friction is treated on sliders only");
+      linear_ = false;
+    }
+  if (same) return;
+  fresh_ = true;
+  const std::vector<Weights> accelerations(static_cast<std::size_t>(n_), Weights{1.0, 0.0, 0.0});
+  if (!mass_.set(rows_, accelerations, true)) throw std::runtime_error("forces are not unique");
+  ++count.factorisations;
+}
+
+ContactMotion Flow::motion(std::size_t k, double t, int order, const double* u, const double* v) const {
+  const Contact& contact = model_.contacts[k];
+  ContactMotion m;
+  m.gap = (order == 0 ? contact.gap : 0.0) + contact.normal.dot(u);
+  m.ut = contact.tangent.dot(u) - forcing_->surface(k, t, order);
+  m.vn = contact.normal.dot(v);
+  m.vt = contact.tangent.dot(v) - forcing_->surface(k, t, order + 1);
+  m.at = -forcing_->surface(k, t, order + 2);
+  m.pressing = forcing_->pressing(k, t, order);
+  m.pressing_rate = forcing_->pressing(k, t, order + 1);
+  return m;
+}
+
+void Flow::derivative(double t, int order, const double* y, double* dy) {
+  ++count.derivatives;
+  const double *u = y, *v = y + n_;
+  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+  structure_.add_product(structure_.k, u, rhs_.data());
+  structure_.add_product(structure_.c, v, rhs_.data());
+  for (int i = 0; i < n_; ++i) rhs_[static_cast<std::size_t>(i)] *= -1.0;
+  forcing_->add_load(t, order, rhs_.data());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const ContactMotion m = motion(k, t, order, u, v);
+    const auto row = static_cast<std::size_t>(n_) + 2 * k;
+    const auto side = [&](const Form& form) { return order == 0 ? -form.value(m) : -form.rate(m); };
+    rhs_[row] = side(rows_[k].normal);
+    rhs_[row + 1] = side(rows_[k].tangent);
+    // N of a slider is known, so the friction of the slip rate is a constant of its row.
+    if (const State state = mode_[k].state; order == 0 && is_stribeck(model_.contacts[k], state))
+      rhs_[row + 1] = (rows_[k].tangent.N - stribeck_row(model_.contacts[k], state, m.vt).N) * -m.pressing;
+  }
+  mass_.solve(rhs_.data());
+  std::copy(v, v + n_, dy);
+  std::copy(rhs_.begin(), rhs_.begin() + n_, dy + n_);
+}
+
+void Flow::linearise(double t, const double* y) {
+  if (linear_) return;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    if (is_stribeck(model_.contacts[k], mode_[k].state)) {
+      const ContactMotion m = motion(k, t, 0, y, y + n_);
+      tangents_[k].tangent = stribeck_tangent(model_.contacts[k], mode_[k].state, m.vt, -m.pressing);
+    }
+}
+
+bool Flow::factor(double g) {
+  ++count.factorisations;
+  g_ = g;
+  const std::vector<Weights> weights(static_cast<std::size_t>(n_), Weights{1.0, g, g * g});
+  const bool ok = implicit_.set(tangents_, weights, fresh_);
+  fresh_ = !ok;
+  return ok;
+}
+
+void Flow::solve(const double* b, double* x) {
+  ++count.solves;
+  const double *bu = b, *bv = b + n_;
+  std::fill(rhs_.begin(), rhs_.end(), 0.0);
+  for (int i = 0; i < n_; ++i) work_[static_cast<std::size_t>(i)] = -g_ * bu[i];
+  structure_.add_product(structure_.m, bv, rhs_.data());
+  structure_.add_product(structure_.k, work_.data(), rhs_.data());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const double gap = contact.normal.dot(work_), ut = contact.tangent.dot(work_);
+    const double an = contact.normal.dot(bv), at = contact.tangent.dot(bv);
+    const auto row = static_cast<std::size_t>(n_) + 2 * k;
+    const auto side = [&](const Form& f) { return f.gap * gap + f.ut * ut + f.an * an + f.at * at; };
+    rhs_[row] = side(tangents_[k].normal);
+    rhs_[row + 1] = side(tangents_[k].tangent);
+  }
+  implicit_.solve(rhs_.data());
+  for (int i = 0; i < n_; ++i) {
+    const double xv = rhs_[static_cast<std::size_t>(i)], xu = bu[i] + g_ * xv;
+    x[i] = xu;
+    x[n_ + i] = xv;
+  }
+}
+
+void Flow::weights(const double* y, double* w) const {
+  for (std::size_t i = 0; i < scale_.size(); ++i) w[i] = 1.0 / (rtol_ * (std::abs(y[i]) + scale_[i]));
+}
+
+double Flow::distance(const double* y, const Vector& u, const Vector& v) const {
+  double sum = 0.0;
+  for (int i = 0; i < n_; ++i) {
+    const double du = (y[i] - u[i]) / scale_[static_cast<std::size_t>(i)];
+    const double dv = (y[n_ + i] - v[i]) / scale_[static_cast<std::size_t>(n_ + i)];
+    sum += du * du + dv * dv;
+  }
+  return std::sqrt(sum / (2.0 * n_));
+}
+
+double Flow::value(const Form& form, std::size_t k, double t, const double* y) {
+  std::vector<double> dy(static_cast<std::size_t>(2 * n_));
+  derivative(t, 0, y, dy.data());
+  ContactMotion m = motion(k, t, 0, y, y + n_);
+  m.N = force(k, 0);
+  m.T = force(k, 1);
+  m.an = model_.contacts[k].normal.dot(dy.data() + n_);
+  m.at += model_.contacts[k].tangent.dot(dy.data() + n_);
+  return form.value(m);
+}
+
+}  // namespace signorini::esdirk

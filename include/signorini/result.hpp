@@ -122,7 +122,8 @@ struct Landing {
 };
 
 struct Settings {
-  std::string engine;
+  std::string engine;         ///< that computes
+  std::string engine_reason;  ///< why: "as given" or "auto: ..."
   double rtol = 0.0;
   double atol_displacement = 0.0, atol_rotation = 0.0, atol_velocity = 0.0, atol_angular_velocity = 0.0,
          atol_force = 0.0;

@@ -52,7 +52,8 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-enum class Engine { ida, newmark, friction_iteration, exact };
+/// automatic: exact or ida, whichever the scene is cheaper with (engine/choose_engine.hpp).
+enum class Engine { automatic, ida, newmark, friction_iteration, exact };
 
 /// newmark: how the time of an event is found. root: the step redone until the guard at its end is zero;
 /// linear: redone once, to the interpolated time.
@@ -67,7 +68,7 @@ struct Tolerances {
 
 struct RunSpec {
   double t_end = 0.0;
-  Engine engine = Engine::ida;
+  Engine engine = Engine::automatic;
   double rtol = 1e-8;
   Tolerances atol;
   std::optional<double> output_dt;  ///< grid 0, dt, 2 dt, ..., t_end

@@ -195,6 +195,7 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   else
     text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", settings.engine, settings.rtol,
                         settings.max_order, settings.max_order_reason);
+  if (settings.engine_reason.starts_with("auto")) text += "     engine " + settings.engine_reason + "\n";
   const Cost& cost = report.cost;
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);

@@ -189,7 +189,10 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   report.limits = limits;
   for (std::size_t i = 1; i < report.runs.size(); ++i) {
     const ComparedRun& run = report.runs[i];
-    const ComparisonSettings settings{options.instant, path / "plots", run_slug(run.figures.name, i)};
+    ComparisonSettings settings;
+    settings.instant = options.instant;
+    settings.folder = path / "plots";
+    settings.slug = run_slug(run.figures.name, i);
     report.comparisons.push_back(compare_runs(report.runs.front(), run, settings));
     for (std::string& sentence :
          exceeded(limits, report.runs.front().figures, run.figures, report.comparisons.back()))

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
+
 #include <exception>
 #include <new>
 #include <string>
@@ -65,6 +67,7 @@ int main_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace signorini;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no more is a failed write, and said so
   try {
     return cli::main_program(argc, argv);
   } catch (const Error& error) {

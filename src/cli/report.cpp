@@ -77,9 +77,11 @@ std::string audit_table(const Model& model, const Audit& a) {
 }
 
 std::string effort_of(const Settings& settings) {
-  if (settings.engine == "exact") return "exact (Taylor series)";
+  const bool chosen = settings.engine_reason.starts_with("auto");
+  if (settings.engine == "exact") return chosen ? "auto: exact (Taylor series)" : "exact (Taylor series)";
   if (settings.dt > 0.0) return fmt::format("{}, dt {:g}", settings.engine, settings.dt);
-  return fmt::format("{}, rtol {:g}, order at most {}", settings.engine, settings.rtol, settings.max_order);
+  return fmt::format("{}{}, rtol {:g}, order at most {}", chosen ? "auto: " : "", settings.engine,
+                     settings.rtol, settings.max_order);
 }
 
 }  // namespace

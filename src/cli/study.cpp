@@ -13,6 +13,7 @@
 #include "cli/settings.hpp"
 #include "cli/study_text.hpp"
 #include "cli/terminal.hpp"
+#include "result/run_directory.hpp"
 #include "study/decades.hpp"
 #include "study/work_files.hpp"
 #include "study/work_plots.hpp"
@@ -43,6 +44,8 @@ void check(const StudyOptions& options) {
   for (const std::string& engine : options.engines)
     if (std::count(options.engines.begin(), options.engines.end(), engine) > 1)
       throw UsageError("--engines: " + engine + " stands twice");
+  for (const std::string& engine : options.engines)
+    if (engine.empty()) throw UsageError("--engines: found an empty name, expected such as exact,ida");
   if (options.repeats < 1)
     throw UsageError(fmt::format("--repeats {}: expected at least 1", options.repeats));
   if (!(options.time_limit > 0.0))
@@ -51,8 +54,33 @@ void check(const StudyOptions& options) {
     throw UsageError("-o: expected the name of a directory");
 }
 
+/// Runs that differ in these have nothing to compare, or another option says it.
+void refuse_key(const std::string& option, const std::string& path) {
+  if (path == "run.rtol" || path == "run.dt")
+    throw UsageError(option + ": --rtol and --dt say how accurate runs are");
+  for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
+                          "title", "schema", "units"})
+    if (path == key || path.starts_with(std::string(key) + "."))
+      throw UsageError(option + ": runs that differ in this key cannot be compared");
+  if (path.ends_with(".name")) throw UsageError(option + ": runs that differ in names cannot be compared");
+}
+
+/// The reference may have settings, too.
 std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
-  return overrides_for(options.settings, options.engines, engine);
+  std::vector<std::string> engines = options.engines;
+  for (const char* reference : {"exact", "ida"}) engines.emplace_back(reference);
+  return overrides_for(options.settings, engines, engine);
+}
+
+void check_settings(const StudyOptions& options) {
+  for (const Override& change : overrides_of(options.settings)) {
+    const std::size_t colon = change.path.find(':');
+    const std::string option = "--set " + change.path;
+    if (colon != std::string::npos && colon < change.path.find('.'))
+      refuse_key(option, change.path.substr(colon + 1));
+    else if (change.path == "run.dt")
+      refuse_key(option, change.path);
+  }
 }
 
 /// A wrong engine or varied key is a wrong command line, told before anything is written.
@@ -77,11 +105,19 @@ WorkRequest request_of(const StudyOptions& options, const std::vector<std::strin
   request.settings = [&options](const std::string& engine) { return settings_for(options, engine); };
   request.ranges.engines = options.engines;
   request.ranges.rtol = parse_decades("--rtol", options.rtol);
+  for (const double value : request.ranges.rtol)
+    if (!(value >= 1e-14 && value < 1.0))
+      throw UsageError(
+          fmt::format("--rtol {}: found {:g}, expected numbers >= 1e-14 and < 1", options.rtol, value));
+  check_settings(options);
   std::vector<Vary> varied;
   for (const std::string& text : options.varied) varied.push_back(parse_vary(text));
-  for (const Vary& vary : varied)
-    if (vary.path == "run.engine" || vary.path == "run.rtol" || vary.path == "run.dt")
-      throw UsageError("--vary " + vary.path + ": --engines, --rtol and --dt say what runs");
+  for (const Vary& vary : varied) {
+    refuse_key("--vary " + vary.path, vary.path);
+    for (const std::string& value : vary.values)
+      if (std::count(vary.values.begin(), vary.values.end(), value) > 1)
+        throw UsageError("--vary " + vary.path + ": " + value + " stands twice");
+  }
   request.ranges.varied = points(varied);
   request.repeats = static_cast<std::size_t>(options.repeats);
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
@@ -105,9 +141,33 @@ class Progress {
   bool shown_;
 };
 
+/// Runs of an earlier study go, and nothing else. Errors: FileError.
+void clear_runs(const fs::path& path) {
+  std::error_code error;
+  const fs::path runs = path / "runs";
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(runs, error)) folders.push_back(entry.path());
+  for (const fs::path& folder : folders) {
+    if (!fs::exists(folder / "summary.json", error)) continue;
+    remove_run(folder);
+    fs::remove(folder, error);  // if that left it empty
+  }
+  fs::remove(runs, error);
+}
+
+/// A scene among the runs would be removed with them.
+void refuse_scene_inside(const fs::path& path, const std::string& scene) {
+  std::error_code error;
+  const fs::path runs = fs::weakly_canonical(path / "runs", error), file = fs::weakly_canonical(scene, error);
+  const auto [end, rest] = std::mismatch(runs.begin(), runs.end(), file.begin(), file.end());
+  if (end == runs.end())
+    throw FileError(scene, "lies among the runs of " + path.string() + ", which this study would replace");
+}
+
 void run_all(WorkStudy& study, const WorkRequest& request, const Progress& progress) {
   progress.say("reference");
   study.find_reference();
+  if (study.report().interrupted) return;
   const std::vector<WorkPoint> plan = work_points(request.ranges);
   for (std::size_t i = 0; i < plan.size() && !study.report().interrupted; ++i) {
     progress.say(fmt::format("{} ({} of {})", plan[i].name(), i + 1, plan.size()));
@@ -131,9 +191,9 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     request.ranges.dt = parse_decades("--dt", *options.dt);
   }
   WorkStudy work(request);
+  refuse_scene_inside(path, options.scene);
   begin_folder(path, own_folder(), options.force);
-  std::error_code ignored;
-  fs::remove_all(path / "runs", ignored);
+  clear_runs(path);
   remove_work_plots(path);
   {
     const Interrupt interrupt;
@@ -141,12 +201,20 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     try {
       run_all(work, request, progress);
     } catch (const Error&) {
-      if (work.report().rows.empty()) leave_folder(path, own_folder());
+      if (work.report().rows.empty()) {
+        clear_runs(path);
+        leave_folder(path, own_folder());
+      } else {
+        write_work(path, work.report());
+      }
       throw;
     }
   }
   const WorkReport& report = work.report();
   write_work(path, report);
+  const bool pictures = !options.no_plots && !report.interrupted;
+  const std::string drawn = pictures ? draw_pictures(path, write_work_plots(path, report)) : "";
+  if (!drawn.empty()) write_work(path, report);  // now with the picture
   const bool tables = !options.quiet && !options.json;
   if (options.json) print(work_json(report));
   if (tables)
@@ -156,7 +224,6 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     print_error("interrupted; what was measured is kept in " + path.string());
     return ExitCode::interrupted;
   }
-  const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_work_plots(path, report));
   if (tables) print(drawn);
   return ExitCode::done;
 }

@@ -7,7 +7,7 @@ namespace signorini::cli {
 
 std::string study_text(const WorkReport& report) {
   std::string text = report.title.empty() ? "" : report.title + "\n";
-  text += work_circumstances(report) + "\nerrors against " + report.reference + "\n\n";
+  text += work_circumstances(report) + "\n" + work_reference(report) + "\n\n";
   WorkTable content = work_table(report);
   Table table(std::move(content.header), std::move(content.right));
   for (auto& row : content.rows) table.row(std::move(row));

@@ -16,6 +16,7 @@
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
+#include "study/fingerprint.hpp"
 #include "study/sweep_plots.hpp"
 
 namespace signorini::cli {

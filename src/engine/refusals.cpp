@@ -31,6 +31,8 @@ void refuse_long_polynomials(const Model& model, const RunSpec& run) {
 
 const char* to_string(Engine engine) {
   switch (engine) {
+    case Engine::automatic:
+      return "auto";
     case Engine::ida:
       return "ida";
     case Engine::newmark:

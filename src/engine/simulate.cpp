@@ -12,6 +12,7 @@
 
 #include "engine/audit.hpp"
 #include "engine/breakpoints.hpp"
+#include "engine/choose_engine.hpp"
 #include "engine/clock.hpp"
 #include "engine/exact_engine.hpp"
 #include "engine/friction_iteration.hpp"
@@ -411,8 +412,13 @@ class Run {
 }  // namespace
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
-  refuse_what_engine_cannot(model, settings);
-  return Run(model, settings, recorder).go();
+  const EngineChoice choice = choose_engine(model, settings);
+  RunSpec spec = settings;
+  spec.engine = choice.engine;
+  refuse_what_engine_cannot(model, spec);
+  Report report = Run(model, spec, recorder).go();
+  report.settings.engine_reason = choice.reason;
+  return report;
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

@@ -122,6 +122,7 @@ Json settings_json(const Scene& scene, const Settings& settings) {
                  {"velocity", settings.atol_velocity},
                  {"angular_velocity", settings.atol_angular_velocity},
                  {"force", settings.atol_force}}},
+               {"engine_reason", settings.engine_reason},
                {"max_order", settings.max_order},
                {"max_order_reason", settings.max_order_reason},
                {"max_events_at_once", scene.run.max_events_at_once}};

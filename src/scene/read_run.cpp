@@ -13,7 +13,8 @@ namespace {
 constexpr double most_rows = 1e8;
 
 Engine engine_of(const std::string& name) {
-  static const std::map<std::string, Engine> engines = {{"ida", Engine::ida},
+  static const std::map<std::string, Engine> engines = {{"auto", Engine::automatic},
+                                                        {"ida", Engine::ida},
                                                         {"newmark", Engine::newmark},
                                                         {"friction-iteration", Engine::friction_iteration},
                                                         {"exact", Engine::exact}};

@@ -65,6 +65,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   json["run"] = {{"t_end", scene.run.t_end},
                  {"rtol", report.settings.rtol},
                  {"engine", report.settings.engine},
+                 {"engine_reason", report.settings.engine_reason},
                  {"max_order", report.settings.max_order},
                  {"max_order_reason", report.settings.max_order_reason},
                  {"rows", report.rows},

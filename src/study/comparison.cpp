@@ -91,7 +91,7 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), c, "history.csv");
   for (const CommonColumn& column : columns) c.columns.emplace_back(column.name, Deviation());
   Series series(settings, "motion-", {"displacement", "velocity"});
-  while (join.next()) {
+  while (join.next() && join.t() <= settings.t_end) {
     double displacement = 0.0, velocity = 0.0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const CommonColumn& column = columns[i];
@@ -107,12 +107,13 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
   series.close();
 }
 
-void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
+void compare_energy(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
+                    double split, Comparison& c) {
   TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv");
   Comparison ignored;  // its columns have no other quantity
   std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
   std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
-  while (join.next()) {
+  while (join.next() && join.t() <= settings.t_end) {
     for (const CommonColumn& column : columns)
       c.energy.take(std::abs(join.a().number(column.a) - join.b().number(column.b)), join.t(), column.name,
                     split);
@@ -163,6 +164,7 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
       continue;
     }
     const double t = rows_a.t();
+    if (t > settings.t_end) break;
     judge(t);
     waiting = Waiting{t, before, {}, false};
     before = t;
@@ -217,8 +219,8 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
                         const ComparisonSettings& settings) {
   Comparison c;
   c.name = other.figures.name;
-  c.t_end = std::min(reference.figures.t, other.figures.t);
-  if (reference.figures.t != other.figures.t) {
+  c.t_end = std::min({reference.figures.t, other.figures.t, settings.t_end});
+  if (reference.figures.t != other.figures.t && c.t_end < settings.t_end) {
     const bool reference_first = reference.figures.t < other.figures.t;
     const RunFigures& shorter = reference_first ? reference.figures : other.figures;
     const RunFigures& longer = reference_first ? other.figures : reference.figures;
@@ -234,7 +236,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   }
   compare_motion(reference, other, settings, split, c);
   compare_forces(reference, other, settings, split, c);
-  compare_energy(reference, other, split, c);
+  compare_energy(reference, other, settings, split, c);
   if (c.common_times < 2 && c.t_end > 0.0) {
     c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
                                   c.common_times, c.common_times == 1 ? "time is" : "times are"));

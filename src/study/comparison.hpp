@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,8 @@ struct ComparedRun {
 [[nodiscard]] ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name);
 
 struct ComparisonSettings {
-  double instant = 0.0;  ///< AlignmentSettings::instant
+  double instant = 0.0;                                    ///< AlignmentSettings::instant
+  double t_end = std::numeric_limits<double>::infinity();  ///< what lies beyond is not compared
   /// Where the differences over time are written (for pictures): motion-SLUG.csv, forces-SLUG.csv; none if
   /// empty.
   std::filesystem::path folder;

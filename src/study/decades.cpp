@@ -32,10 +32,9 @@ double positive(const std::string& option, const std::string& text) {
   return *number;
 }
 
-/// As it would be written by hand: 1e-05, not 1.0000000000000003e-05.
-double tidy(double value) { return *parse_number(fmt::format("{:.12g}", value)); }
-
 }  // namespace
+
+double tidy(double value) { return *parse_number(fmt::format("{:.12g}", value)); }
 
 std::vector<double> parse_decades(const std::string& option, const std::string& text) {
   const std::string given = option + " " + text;

@@ -13,4 +13,7 @@ namespace signorini {
 /// Numbers > 0 in the order given. Errors: UsageError, which begins with `option`, also for more than 100.
 [[nodiscard]] std::vector<double> parse_decades(const std::string& option, const std::string& text);
 
+/// As it would be written by hand: 1e-05, not 1.0000000000000003e-05.
+[[nodiscard]] double tidy(double value);
+
 }  // namespace signorini

@@ -24,12 +24,15 @@ struct Greatest {
 /// One quantity: over the whole time that both runs cover, and up to where their sequences part.
 struct Deviation {
   Greatest whole, until_split;
-  std::size_t count = 0;  ///< pairs compared; 0: nothing to compare
+  std::size_t count = 0;              ///< pairs compared; 0: nothing to compare
+  std::size_t count_until_split = 0;  ///< of these, after t = 0 and before the sequences part
 
   void take(double difference, double at, const std::string& place, double split) {
     ++count;
     whole.take(difference, at, place);
-    if (at < split) until_split.take(difference, at, place);
+    if (!(at < split)) return;
+    until_split.take(difference, at, place);
+    if (at > 0.0) ++count_until_split;
   }
 };
 

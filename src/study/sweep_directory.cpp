@@ -99,12 +99,6 @@ void remove_old(const fs::path& path) {
 
 }  // namespace
 
-std::string fingerprint_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
-}
-
 SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::points(spec_.vary)) {
   check_directory(path_);

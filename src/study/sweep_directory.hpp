@@ -29,9 +29,6 @@ struct SweepSpec {
   Units units;
 };
 
-/// Short text that differs where texts differ, the same on every machine.
-[[nodiscard]] std::string fingerprint_of(const std::string& text);
-
 /// Errors of all members: FileError.
 class SweepDirectory {
  public:

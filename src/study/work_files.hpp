@@ -25,12 +25,15 @@ struct WorkTable {
 [[nodiscard]] std::vector<std::string> work_conclusions(const WorkReport& report);
 [[nodiscard]] std::vector<std::string> work_failures(const WorkReport& report);
 
-/// "500 unknowns, 3 contacts, ...; AMD ..., 2 cores; ..."
+/// "errors against exact", and up to where
+[[nodiscard]] std::string work_reference(const WorkReport& report);
+
+/// "51 dofs, 2 contacts; AMD ..., 2 cores; ..."
 [[nodiscard]] std::string work_circumstances(const WorkReport& report);
 
 [[nodiscard]] std::string work_json(const WorkReport& report);
 
-/// Errors: FileError.
+/// study.md shows the picture if it is there. Errors: FileError.
 void write_work(const std::filesystem::path& directory, const WorkReport& report);
 
 }  // namespace signorini

@@ -37,6 +37,13 @@ std::string WorkPoint::name() const { return joined(engine, setting()); }
 
 std::string WorkPoint::line() const { return joined(engine, text_of_varied(*this)); }
 
+std::string WorkPoint::label() const {
+  std::string text = engine;
+  for (const Override& change : varied)
+    text += " " + change.path.substr(change.path.rfind('.') + 1) + "=" + change.value;
+  return text;
+}
+
 std::vector<Override> WorkPoint::changes() const {
   std::vector<Override> list = {{"run.engine", engine}};
   if (accuracy) list.push_back({accuracy_key(engine), shortest(*accuracy)});

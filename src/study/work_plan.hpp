@@ -28,6 +28,8 @@ struct WorkPoint {
   [[nodiscard]] std::string name() const;
   /// The line in pictures that it belongs to: the engine, and what is varied.
   [[nodiscard]] std::string line() const;
+  /// The same, short: "ida cutoff_omega=1e3"
+  [[nodiscard]] std::string label() const;
   /// Of the scene: engine, accuracy, varied keys.
   [[nodiscard]] std::vector<Override> changes() const;
 };

@@ -20,12 +20,13 @@ namespace {
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a", "#1b9e77",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
-constexpr std::array<const char*, 3> drawn = {"event_time", "displacement", "force_away"};
+constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
+constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};  // filled; the hollow one is the number before
 constexpr int panel_height = 330;
 
 /// Runs of one engine, the accurate ones last.
 struct Line {
-  std::string name;
+  std::string name, label;
   std::vector<const WorkRow*> rows;
 };
 
@@ -35,7 +36,7 @@ std::vector<Line> lines_of(const WorkReport& report) {
     if (!row.wall_time() || row.errors.empty()) continue;
     const std::string name = row.point.line();
     auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.name == name; });
-    if (line == lines.end()) line = lines.insert(lines.end(), Line{name, {}});
+    if (line == lines.end()) line = lines.insert(lines.end(), Line{name, row.point.label(), {}});
     line->rows.push_back(&row);
   }
   return lines;
@@ -50,7 +51,8 @@ std::string line_table(const Line& line) {
     block.text(row->point.setting()).number(row->complete() ? 1.0 : 0.0).number(row->wall_time());
     for (const char* name : drawn) {
       const WorkError* error = row->error(name);
-      block.number(error && std::isfinite(error->value) ? std::optional(error->value) : std::nullopt);
+      const double value = error == nullptr ? NAN : row->complete() ? error->value : error->whole;
+      block.number(std::isfinite(value) ? std::optional(value) : std::nullopt);
     }
     block.end_row();
   }
@@ -106,12 +108,12 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
           fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN", column, shortest(axis.floor));
       const std::string colour = colours[k % colours.size()];
       elements.push_back(data +
-                         fmt::format("$2 == 1 ? ({}) : NaN):3 with linespoints linewidth 2 pointtype 7 "
+                         fmt::format("$2 == 1 ? ({}) : NaN):3 with linespoints linewidth 2 pointtype {} "
                                      "pointsize 0.9 linecolor '{}' title {}",
-                                     x, colour, quoted(lines[k].name)));
-      elements.push_back(data + fmt::format("$2 == 0 ? ({}) : NaN):3 with points pointtype 6 pointsize 0.9 "
+                                     x, symbols[k % symbols.size()], colour, quoted(lines[k].label)));
+      elements.push_back(data + fmt::format("$2 == 0 ? ({}) : NaN):3 with points pointtype {} pointsize 0.9 "
                                             "linewidth 1.5 linecolor '{}' notitle",
-                                            x, colour));
+                                            x, symbols[k % symbols.size()] - 1, colour));
     }
     s += plot_command(elements);
   }

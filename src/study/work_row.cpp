@@ -23,11 +23,13 @@ void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedR
   row.t_split = split ? std::optional(split->t) : std::nullopt;
   row.errors.clear();
   for (const Quantity& quantity : quantities(comparison, reference.figures.facts.units)) {
-    if (quantity.deviation->count == 0) continue;
-    const Greatest& greatest =
-        split && quantity.name != "event_time" ? quantity.deviation->until_split : quantity.deviation->whole;
-    row.errors.push_back({quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where,
-                          quantity.deviation->whole.value});
+    const Deviation& deviation = *quantity.deviation;
+    const bool times = quantity.name == "event_time";  // of aligned events, which lie before the split
+    const bool part = split && !times;
+    if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
+    const Greatest& greatest = part ? deviation.until_split : deviation.whole;
+    row.errors.push_back(
+        {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});
   }
 }
 

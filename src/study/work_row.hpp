@@ -22,23 +22,24 @@ struct WorkError {
 
 struct WorkRow {
   WorkPoint point;
-  std::filesystem::path directory;  ///< of the run; empty if refused
-  std::string outcome;              ///< done, stopped, refused, "too slow"
-  std::string reason;               ///< empty when done
-  double t = 0.0;                   ///< reached
-  long events = 0, events_of_reference = 0;
-  std::size_t alike = 0;          ///< events with a partner in the reference
-  std::string split;              ///< how the sequences part; empty where they are the same
-  std::optional<double> t_split;  ///< where
-  /// The sequences part no sooner than the reference's own sequence is determined.
-  bool undetermined = false;
+  std::filesystem::path directory;                  ///< of the run; empty if refused
+  std::string outcome;                              ///< done, stopped, refused, "too slow"
+  bool reference = false;                           ///< the others' errors are against this run
+  std::string reason;                               ///< empty when done
+  std::optional<double> t;                          ///< reached
+  bool whole = false;                               ///< reached the end of the reference
+  std::optional<long> events, events_of_reference;  ///< up to where runs are compared
+  std::size_t alike = 0;                            ///< events with a partner in the reference
+  std::string split;                                ///< how the sequences part; empty where they are the same
+  std::optional<double> t_split;                    ///< where
+
   std::vector<WorkError> errors;
   std::vector<double> wall_times;  ///< s, of repeated runs without output
-  long steps = 0, factorisations = 0, solves = 0, restarts = 0;
-  double balance = 0.0;  ///< relative error of the energy balance
+  std::optional<long> steps, factorisations, solves, restarts;
+  std::optional<double> balance;  ///< relative error of the energy balance
 
-  /// Reached the end with the reference's sequence of events, as far as that is determined.
-  [[nodiscard]] bool complete() const { return outcome == "done" && (split.empty() || undetermined); }
+  /// Reached the end with the reference's sequence of events.
+  [[nodiscard]] bool complete() const { return outcome == "done" && whole && split.empty(); }
   [[nodiscard]] const WorkError* error(const std::string& quantity) const;
   [[nodiscard]] std::optional<double> wall_time() const;  ///< the least
 };

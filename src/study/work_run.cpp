@@ -13,11 +13,7 @@ using Clock = std::chrono::steady_clock;
 /// Ends a run after its time. The clock is asked now and then: asking costs as much as a short step.
 class Deadline : public Recorder {
  public:
-  Deadline(const WorkLimits& limits, Recorder* next)
-      : limits_(limits),
-        next_(next),
-        end_(Clock::now() +
-             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds))) {}
+  Deadline(const WorkLimits& limits, Recorder* next) : limits_(limits), next_(next) {}
 
   void event(const Event& event) override {
     if (next_) next_->event(event);
@@ -29,7 +25,7 @@ class Deadline : public Recorder {
     if (next_ && !next_->progress(t)) return false;
     constexpr int seldom = 16;
     if (++calls_ % seldom != 0) return true;
-    too_slow = Clock::now() >= end_;
+    too_slow = std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds;
     interrupted = !limits_.go_on();
     return !too_slow && !interrupted;
   }
@@ -39,7 +35,7 @@ class Deadline : public Recorder {
  private:
   const WorkLimits& limits_;
   Recorder* next_;
-  Clock::time_point end_;
+  Clock::time_point start_ = Clock::now();
   int calls_ = 0;
 };
 

@@ -2,20 +2,24 @@
 //
 //   WorkStudy study(request);  study.find_reference();
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
-//   study.time_all();          // round by round, so that a slow minute of the machine meets all alike
+//   study.time_all(...);       // round by round, so that a slow minute of the machine meets all alike
 //
-// The reference is `exact`, or where it refuses the scene the tightest setting one decade on. Rigid contacts
+// The reference is `exact`, or where that refuses the scene or stops early the tightest setting of `ida`, one
+// decade on. What `exact` itself is known to is measured: the same run with all masses changed in their last
+// digits. From where such a change decides the sequence of events on, nothing is compared. Rigid contacts
 // without a capture_velocity get that of the scene's own tolerance in all runs: else every run would solve a
 // problem of its own.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/machine.hpp"
-#include "study/work_row.hpp"
+#include "study/frontier.hpp"
 #include "study/work_run.hpp"
 
 namespace signorini {
@@ -37,8 +41,10 @@ struct WorkReport {
   Machine machine;
   double t_end = 0.0;
   std::size_t repeats = 0, unknowns = 0, contacts = 0;
-  std::string reference;           ///< name of the reference's run
-  std::vector<std::string> notes;  ///< one sentence each
+  std::string reference;                    ///< name of the reference's run; empty if there is none
+  double compared_until = 0.0;              ///< time up to which errors are taken
+  std::map<std::string, ErrorRange> range;  ///< of quantities
+  std::vector<std::string> notes;           ///< one sentence each
   std::vector<WorkRow> rows;
   bool interrupted = false;
 };
@@ -48,7 +54,8 @@ class WorkStudy {
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
   explicit WorkStudy(WorkRequest request);
 
-  /// Errors: SceneError where no engine computes the scene; FileError.
+  /// Where no engine computes the scene in ten times the time limit, runs have times and no errors. Errors:
+  /// SceneError where none computes it at all; FileError.
   void find_reference();
   /// Records a run and compares it. A refusal is a row. Errors: FileError.
   const WorkRow& add(const WorkPoint& point);
@@ -56,26 +63,32 @@ class WorkStudy {
   void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
 
   [[nodiscard]] const WorkReport& report() const { return report_; }
-  [[nodiscard]] double t_end() const { return report_.t_end; }
 
  private:
   struct Prepared {
     Scene scene;
     Model model;
   };
+  /// A run that is on disk.
+  struct Recorded {
+    std::filesystem::path directory;
+    bool too_slow = false;
+  };
   [[nodiscard]] Prepared prepare(const WorkPoint& point) const;
-  [[nodiscard]] std::filesystem::path folder_of(const WorkPoint& point) const;
-  void choose_reference();
+  const Recorded& record(const WorkPoint& point, const WorkLimits& limits);
+  bool choose_reference();
   bool try_reference(const WorkPoint& point, std::string& why_not);
   void doubt_reference(const WorkPoint& point);
+  void take_ranges();
   void compare(WorkRow& row, const ComparedRun& run) const;
 
   WorkRequest request_;
   WorkReport report_;
+  std::string fingerprint_;     // of the scene as it was first read
   std::vector<Override> held_;  // capture velocities, the same in all runs
-  ComparedRun reference_;
-  WorkPoint reference_point_;
-  Comparison doubt_;  // of `exact`: what a change in the last digits does
+  std::map<std::string, Recorded> recorded_;
+  ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
+  bool doubted_ = false;
 };
 
 }  // namespace signorini

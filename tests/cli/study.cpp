@@ -23,8 +23,8 @@ TEST_CASE("cli study: errors fall with the setting, every run is a row, all file
   CHECK(ending.err.empty());
   CHECK(has(ending.out, "errors against exact"));
   CHECK(has(ending.out, "is cheapest"));
-  for (const char* name : {"study.csv", "study.json", "study.md", "runs/ida-rtol-1e-09/events.csv",
-                           "runs/exact/summary.json", "plots/work-precision.gp", "plots/line-1.csv"}) {
+  for (const char* name : {"study.csv", "study.json", "study.md", "runs/003-ida-rtol-1e-09/events.csv",
+                           "runs/001-exact/summary.json", "plots/work-precision.gp", "plots/line-1.csv"}) {
     CAPTURE(name);
     CHECK(exists(shell, std::string("belt-study/") + name));
   }
@@ -114,7 +114,7 @@ TEST_CASE("cli study: wrong command lines are told before anything is written") 
   wrong({"--dt", "x"}, "--dt x");
   wrong({"--repeats", "0"}, "--repeats 0");
   wrong({"--time-limit", "-1"}, "--time-limit");
-  wrong({"--vary", "run.rtol=1,2"}, "--vary run.rtol");
+  wrong({"--vary", "run.rtol=1,2"}, "--vary run.rtol: --rtol and --dt");
   wrong({"--vary", "spring.1.stiffness=1,2"}, "--vary spring.1.stiffness=1: unknown key");
   wrong({"--set", "run.engine=ida"}, "--engines says");
   shell.write("note.txt", "mine");

@@ -14,6 +14,7 @@ WorkRow row(const std::string& engine, double accuracy, double error, double sec
   r.point.engine = engine;
   if (!accuracy_key(engine).empty()) r.point.accuracy = accuracy;
   r.outcome = "done";
+  r.whole = true;
   r.errors = {{"event_time", "s", error, 0.0, "", error}};
   r.wall_times = {2.0 * seconds, seconds};
   return r;
@@ -69,10 +70,26 @@ TEST_CASE(
       "1.0e-05 s ida is cheapest (rtol=1e-06: 0.9 s), below that down to 1.0e-14 s exact is cheapest (3 s).");
   rows[3].split = "lost";
   CHECK(frontier(rows, "event_time") == std::vector<std::size_t>{0, 2, 1, 4});
-  rows[3].undetermined = true;  // there the reference itself does not know
-  CHECK(frontier(rows, "event_time") == std::vector<std::size_t>{0, 2, 3, 4});
   rows[4].outcome = "stopped";
-  CHECK(frontier(rows, "event_time").back() == 3);
+  CHECK(frontier(rows, "event_time").back() == 1);
+  rows[1].whole = false;
+  CHECK(frontier(rows, "event_time").back() == 2);
   CHECK(frontier(rows, "displacement").empty());
-  CHECK(frontier_sentence(rows, "displacement").starts_with("No run reached the end"));
+  CHECK(frontier_sentence(rows, "displacement") ==
+        "Of displacement, none can be named cheapest: no complete run has an error that means anything.");
+  for (WorkRow& r : rows) r.wall_times.clear();
+  CHECK(frontier_sentence(rows, "event_time") ==
+        "Of event time, none can be named cheapest: no run was timed.");
+  for (WorkRow& r : rows) r.whole = false;
+  CHECK(frontier_sentence(rows, "event_time").ends_with("the end with the reference's events."));
+}
+
+TEST_CASE("frontier: errors below what the reference is known to are one error, those too great are none") {
+  std::vector<WorkRow> rows = {row("exact", 0.0, 1e-9, 2.0), row("ida", 1e-6, 1e-8, 1.0),
+                               row("ida", 1e-9, 1e-12, 5.0), row("newmark", 1.0, 3.0, 0.1)};
+  CHECK(frontier(rows, "event_time") == std::vector<std::size_t>{3, 1, 0, 2});
+  CHECK(frontier(rows, "event_time", {1e-9, 1.0}) == std::vector<std::size_t>{1, 0});
+  CHECK(frontier(rows, "event_time", {1e-8, 1.0}) == std::vector<std::size_t>{1});
+  rows[1].wall_times = {1.95};  // no faster than exact but for noise
+  CHECK(frontier(rows, "event_time", {1e-8, 1.0}) == std::vector<std::size_t>{0});
 }

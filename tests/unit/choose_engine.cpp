@@ -1,0 +1,54 @@
+#include "engine/choose_engine.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// A mass of 1 on a spring of 100 (omega 10) and a dashpot; slides on a floor.
+Scene oscillator(double dashpot, const std::string& engine, const std::string& friction = "0.3") {
+  return parse_scene(fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+[run]
+t_end = 1.0
+initial = {{ u = [1.0], v = [0.0] }}
+{}
+[matrices]
+dofs = ["x"]
+mass = [[1.0]]
+damping = [[{}]]
+stiffness = [[100.0]]
+[[contacts]]
+name = "floor"
+law = "slider"
+tangent = {{ x = 1.0 }}
+normal_force = 1.0
+friction = {}
+)",
+                                 engine, dashpot, friction),
+                     "test.toml");
+}
+
+std::string computed_by(const Scene& scene) {
+  const Result result = simulate(build_model(scene), scene.run);
+  CHECK(result.report.outcome.kind == Outcome::Kind::done);
+  return result.report.settings.engine + " " + result.report.settings.engine_reason.substr(0, 8);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/choose_engine");
+
+TEST_CASE("engine auto: exact unless decay is faster than oscillation or a law is not linear") {
+  CHECK(computed_by(oscillator(0.0, "")) == "exact auto: th");
+  CHECK(computed_by(oscillator(9.9, "engine = \"auto\"")) == "exact auto: th");
+  CHECK(computed_by(oscillator(10.1, "")) == "ida auto: th");
+  CHECK(computed_by(oscillator(0.0, "", "{ static = 0.3, kinetic = 0.2, stribeck_velocity = 0.1 }")) ==
+        "ida auto: a ");
+  CHECK(computed_by(oscillator(1e3, "engine = \"exact\"")) == "exact as given");
+  CHECK(computed_by(oscillator(0.0, "engine = \"ida\"")) == "ida as given");
+}

@@ -75,7 +75,8 @@ TEST_CASE("a reduced pipeline: engines agree, forces and energy are kept") {
   const Result newmark = run(pipeline, until, 2000.0, "newmark");
   check_events(exact, newmark, 1e-5);
   CHECK(apart(exact, newmark) < 1e-6);
-  const Result iteration = run(pipeline, until, 2000.0, "friction-iteration");
+  const Changes longer{{"run.t_end", "0.2"}, {"run.dt", "1e-5"}};
+  const Result iteration = run(pipeline, longer, 2000.0, "friction-iteration");
   CHECK(apart(exact, iteration) < 1e-4);
   const Audit& audit = exact.report.audit;
   CHECK(audit.energy.value < 1e-9 * audit.energy_scale);
@@ -83,11 +84,12 @@ TEST_CASE("a reduced pipeline: engines agree, forces and energy are kept") {
   CHECK(audit.friction.value < 1e-9 * audit.force_scale);
 }
 
+// Until the first landing; after it short slips differ, and displacements differ with them.
 TEST_CASE("displacements converge with the cutoff") {
-  const Changes until{{"run.t_end", "0.3"}, {"run.output_dt", "0.005"}};
+  const Changes until{{"run.t_end", "0.15"}};
   const Result whole = run(pipeline, until, 0.0, "exact");
   double before = 1.0;
-  for (const double cutoff : {500.0, 2000.0, 8000.0}) {
+  for (const double cutoff : {500.0, 2000.0, 8000.0, 32000.0}) {
     const Result reduced = run(pipeline, until, cutoff, "exact");
     CHECK(reduced.rows[0].u.size() == 51);
     const double error = apart(whole, reduced);
@@ -95,7 +97,7 @@ TEST_CASE("displacements converge with the cutoff") {
     CHECK(error < 0.5 * before);
     before = error;
   }
-  CHECK(before < 1e-5);
+  CHECK(before < 1e-6);
 }
 
 TEST_CASE("rigid contacts: a reduced frame follows the full one") {
@@ -103,7 +105,7 @@ TEST_CASE("rigid contacts: a reduced frame follows the full one") {
   const Result whole = run(frame, until, 0.0, "exact");
   double scale = 0.0;
   for (const Result::Row& row : whole.rows) scale = std::max(scale, row.u.cwiseAbs().maxCoeff());
-  const Result coarse = run(frame, until, 500.0, "exact"), fine = run(frame, until, 5000.0, "exact");
+  const Result coarse = run(frame, until, 500.0, "exact"), fine = run(frame, until, 2000.0, "exact");
   CHECK(apart(whole, fine) < 1e-3 * scale);
   CHECK(apart(whole, fine) < apart(whole, coarse));
   CHECK(fine.report.audit.penetration.value < 1e-9 * scale);
@@ -118,9 +120,9 @@ TEST_CASE("parts without mass: above all frequencies as the full model, below wi
   const Result all = run(lumped, step, 1e3, "exact");
   check_events(whole, all, 1e-9);
   CHECK(apart(whole, all) < 1e-11);
-  const Result exact = run(lumped, step, 10.0, "exact");
-  check_events(exact, run(lumped, step, 10.0, "ida"), 1e-6);
-  check_events(exact, run(lumped, step, 10.0, "newmark"), 1e-4);
+  const Result exact = run(lumped, step, 5.0, "exact");
+  check_events(exact, run(lumped, step, 5.0, "ida"), 1e-6);
+  check_events(exact, run(lumped, step, 5.0, "newmark"), 1e-4);
 }
 
 TEST_CASE("contacts with dashpots, and sliders that stick rigidly") {
@@ -133,7 +135,7 @@ TEST_CASE("contacts with dashpots, and sliders that stick rigidly") {
   check_events(exact, run(pipeline, dashpots, 1000.0, "ida"), 1e-7);
 
   const std::string chain = SIGNORINI_TEST_DATA "/cases/10a_bk_chain_20.toml";
-  const Changes until{{"run.t_end", "10.0"}};
+  const Changes until{{"run.output_times", "[10.0]"}, {"run.t_end", "10.0"}};
   const Result whole = run(chain, until, 0.0, "exact");
   REQUIRE(state_changes(whole).size() > 10);
   const Result all = run(chain, until, 1e3, "exact");

@@ -85,7 +85,8 @@ TEST_CASE("K and M of the physical structure, seen through the shapes, are those
     const Model model = build_model(cut(pipeline(), cutoff));
     const Eigen::MatrixXd& r = model.reduction->shapes;
     const Eigen::MatrixXd k = r.transpose() * (whole.stiffness * r), m = r.transpose() * (whole.mass * r);
-    const Vector size = k.diagonal().cwiseSqrt();
+    // Rounding of the energy of free motions may be negative.
+    const Vector size = k.diagonal().cwiseMax(0.0).cwiseSqrt();
     for (int i = 0; i < model.size(); ++i)
       for (int j = 0; j < model.size(); ++j) {
         CHECK(std::abs(k(i, j) - model.stiffness.coeff(i, j)) <= 1e-9 * size[i] * size[j] + 1e-6);

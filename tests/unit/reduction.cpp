@@ -6,6 +6,7 @@
 
 #include "model/reduction.hpp"
 #include "model/springs.hpp"
+#include "study/check.hpp"
 #include "unit/model_scenes.hpp"
 
 using namespace signorini;
@@ -193,6 +194,23 @@ TEST_CASE("what is reported: frequencies on both sides of the cutoff, shares, ri
   CHECK(r.ringing >= 100.0 * r.shares[5].residual * std::sqrt(0.5));
   const Model finer = build_model(cut(pipeline(), 4000.0));
   CHECK(finer.reduction->ringing < r.ringing);
+}
+
+TEST_CASE("check describes the full structure, and the cost of the reduced one") {
+  Scene whole = pipeline();
+  whole.loads[0].history.start = 0.01;  // a jump at t = 0 would already show in the forces at contacts
+  const Scene small = cut(whole, 1000.0);
+  const CheckReport a = check(whole, build_model(whole)), b = check(small, build_model(small));
+  CHECK(b.degrees_of_freedom == 51);
+  CHECK(b.massless == 0);
+  CHECK(b.mass->total == a.mass->total);
+  CHECK(b.mass->moving_x == a.mass->moving_x);
+  REQUIRE(b.stuck.modes.size() == a.stuck.modes.size());
+  for (std::size_t i = 0; i < a.stuck.modes.size(); ++i)
+    CHECK(b.stuck.modes[i].omega == a.stuck.modes[i].omega);
+  CHECK(b.cost.unknowns < a.cost.unknowns / 2);
+  CHECK(b.cost.omega_max < 0.05 * a.cost.omega_max);
+  CHECK(b.contacts[0].N == doctest::Approx(a.contacts[0].N).epsilon(1e-8));
 }
 
 TEST_CASE("Rayleigh damping of each mode stays what it was; static shapes keep that of their stiffness") {

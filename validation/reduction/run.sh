@@ -1,7 +1,7 @@
 #!/bin/sh
 # The tables of this page: what a cutoff costs in accuracy and brings in time, on the pipeline scene.
 #
-#   validation/reduction/run.sh [REPEATS]        half an hour or so
+#   validation/reduction/run.sh [REPEATS]        some minutes
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$root"

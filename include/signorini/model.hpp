@@ -4,10 +4,13 @@
 //
 // K holds no contact springs. Only degrees of freedom that exist and are not fixed are numbered;
 // those whose row of M is zero are massless. Shapes: n degrees of freedom, all vectors of length n.
+// In a reduced model (`reduction` is set) they are amplitudes of modes and of static shapes; contacts and
+// loads are forms on those, columns and drawing refer to the physical degrees of freedom.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +32,7 @@ struct Dof {
 /// A column of history.csv.
 struct Column {
   std::string name;
-  int dof = 0;
+  int dof = 0;  ///< physical
   bool velocity = false;
 };
 
@@ -78,6 +81,37 @@ struct DrawnContact {
   double nx = 0.0, ny = 0.0, tx = 0.0, ty = 0.0;
 };
 
+/// How much of a form's static compliance (displacement along it under a unit force along it, motions
+/// without stiffness left aside) the modes that are left out have. It is kept, without inertia.
+struct ComplianceShare {
+  std::string what;         ///< "normal of contact 'first'", "load 1"
+  int contact = -1;         ///< index into Model::contacts; -1: a load
+  bool normal = false;      ///< of the contact, else its tangent
+  double compliance = 0.0;  ///< of all modes with stiffness
+  double residual = 0.0;    ///< of the modes that are left out
+};
+
+/// What a reduced model is made of, and the way back: physical displacements = shapes * u.
+struct Reduction {
+  std::vector<Dof> dofs;   ///< the physical ones, to which columns and drawing refer
+  Eigen::MatrixXd shapes;  ///< physical x reduced; the slip points of shear elements have no column
+  double cutoff = 0.0;     ///< rad per time
+  int modes = 0;           ///< kept, free motions included
+  int free_modes = 0;      ///< of them, those without stiffness
+  int left_out = 0;        ///< modes above the cutoff
+  int massless_shapes = 0, massive_shapes = 0;  ///< of the static compliance of the modes left out
+  double highest_kept = 0.0;                    ///< rad per time; 0: free motions only
+  double first_left_out = 0.0;                  ///< rad per time; 0: none
+  double highest_massive = 0.0;                 ///< rad per time, of the massive shapes; 0: none
+  std::vector<ComplianceShare> shares;          ///< contacts, then loads
+  /// Amplitude at named nodes of what the modes left out would ring with after the loads' jumps; length.
+  double ringing = 0.0;
+  /// Greatest part of the initial displacement (velocity) that the reduced model cannot represent.
+  double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
+
+  [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }
+};
+
 struct Model {
   std::string title;
   Units units;
@@ -96,8 +130,11 @@ struct Model {
   double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in force
   double omega1 = 0.0;             ///< lowest circular frequency, initially closed contacts held; 0: none
   double omega_max = 0.0;          ///< highest circular frequency, all contacts held by their springs
+  std::optional<Reduction> reduction;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
+  /// To which columns and drawing refer.
+  [[nodiscard]] const std::vector<Dof>& physical_dofs() const { return reduction ? reduction->dofs : dofs; }
 };
 
 /// Assembles, finds frequencies, damping, initial state and scales. Errors: SceneError.

@@ -50,7 +50,7 @@ struct Energy {
   [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
-/// The state at an output time. u, v of length n.
+/// The state at an output time. u, v: of the physical degrees of freedom.
 struct Sample {
   double t = 0.0;
   const Vector* u = nullptr;

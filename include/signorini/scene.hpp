@@ -109,6 +109,12 @@ struct DampingSpec {
   SourcePlace place;
 };
 
+/// Modes up to the cutoff are kept, of the others their static compliance (model/reduction.hpp).
+struct ReductionSpec {
+  double cutoff_omega = 0.0;  ///< rad per time
+  SourcePlace place;
+};
+
 struct Section {
   std::string name;
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI 0: for bars only
@@ -230,6 +236,7 @@ struct Scene {
   std::vector<LoadSpec> loads;
   std::optional<BaseMotionSpec> base_motion;
   std::optional<MatricesSpec> matrices;
+  std::optional<ReductionSpec> reduction;
   std::string resolved;  ///< the same scene as TOML with every default filled in (run.toml)
 };
 

@@ -43,17 +43,13 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
   const Units& u = model.units;
   std::string text = model.title.empty() ? "" : model.title + "\n";
   text += fmt::format("units: {}, {}, {}, {}\n\n", u.force, u.mass, u.length, u.time);
-  text +=
-      fmt::format("structure: {}, {}; {}\n", count(model.size(), "degree of freedom", "degrees of freedom"),
-                  report.massless == 0 ? "none massless" : fmt::format("{} massless", report.massless),
-                  count(static_cast<long>(model.contacts.size()), "contact", "contacts"));
+  text += fmt::format("structure: {}, {}; {}\n",
+                      count(report.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+                      report.massless == 0 ? "none massless" : fmt::format("{} massless", report.massless),
+                      count(static_cast<long>(model.contacts.size()), "contact", "contacts"));
   if (!report.mass) {
-    const Vector diagonal = model.mass.diagonal();
-    double least = 0.0;
-    for (double m : diagonal)
-      if (m > 0.0 && (least == 0.0 || m < least)) least = m;
-    text += fmt::format("mass: diagonal of the matrix from {} to {}\n", number(least),
-                        number(diagonal.maxCoeff()));
+    text += fmt::format("mass: diagonal of the matrix from {} to {}\n", number(report.least_mass),
+                        number(report.greatest_mass));
     return text;
   }
   const MassFacts& m = *report.mass;
@@ -184,6 +180,33 @@ std::string load_rows(const Model& model, const CheckReport& report) {
          more(report.discontinuities.size()) + "\n";
 }
 
+std::string reduction_lines(const Model& model) {
+  if (!model.reduction) return "";
+  const Reduction& r = *model.reduction;
+  const std::string per_time = "rad/" + model.units.time;
+  std::string text = fmt::format("reduced: {} of {} modes up to {} {}", r.modes, r.modes + r.left_out,
+                                 number(r.cutoff), per_time);
+  if (r.free_modes > 0) text += fmt::format(", {} of them free motions", r.free_modes);
+  text += r.highest_kept > 0.0 ? fmt::format("; highest kept {} {}", number(r.highest_kept), per_time)
+                               : std::string("; none with stiffness");
+  text += r.left_out > 0 ? fmt::format(", first left out {} {}\n", number(r.first_left_out), per_time)
+                         : std::string(", none left out\n");
+  text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
+  if (r.massive_shapes > 0)
+    text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
+  text += fmt::format("; after jumps of loads {} {} of ringing are left out\n", number(r.ringing),
+                      model.units.length);
+  const std::string give = unit(model.units.length + "/" + model.units.force);
+  Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
+              {false, true, true, true});
+  for (std::size_t i = 0; i < r.shares.size() && i < most_rows; ++i) {
+    const ComplianceShare& s = r.shares[i];
+    table.row({s.what, number(s.compliance), number(s.residual),
+               number(s.compliance > 0.0 ? s.residual / s.compliance : 0.0)});
+  }
+  return text + table.str() + more(r.shares.size()) + "\n";
+}
+
 std::string cost_lines(const Scene& scene, const Model& model, const CheckReport& report) {
   const Units& u = model.units;
   const Settings& settings = report.settings;
@@ -216,7 +239,7 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
   return head(scene, model, report) + "\n" + contact_rows(model, report) + warning_lines(report) +
          free_motion_lines(report) + frequency_rows(model, report) + stiffness_rows(model, report) +
-         load_rows(model, report) + cost_lines(scene, model, report);
+         load_rows(model, report) + reduction_lines(model) + cost_lines(scene, model, report);
 }
 
 std::string column_text(const Model& model) {
@@ -224,7 +247,7 @@ std::string column_text(const Model& model) {
   Table table({"", ""}, {false, false});
   table.row({"t", u.time});
   for (const Column& column : model.columns) {
-    const Dof& dof = model.dofs[static_cast<std::size_t>(column.dof)];
+    const Dof& dof = model.physical_dofs()[static_cast<std::size_t>(column.dof)];
     const std::string what = dof.rotation ? "rad" : u.length;
     table.row({column.name, column.velocity ? what + "/" + u.time : what});
   }

@@ -61,6 +61,24 @@ frequencies = [2.0, 15.0]
 ```
 
 `signorini check` prints the ratios that follow for the first modes. Single dampers are given with `[[springs]]`. Not with `[matrices]`, which bring their own.)"},
+    {"reduction", "## `[reduction]`",
+     R"(Steps follow the highest frequency of the model, whether anything excites it or not, and a fine mesh has far higher
+ones than the motion needs. With a cutoff the modes up to it are kept. All others keep their static compliance, at
+every contact and under every load: so statics, contact stiffness and reactions are those of the full model, and what
+is left out is the inertia of the high modes.
+
+```toml
+[reduction]
+cutoff_omega = 2000.0
+```
+
+`signorini check` prints how many modes stay, the frequencies on both sides of the cutoff, and how much of the
+compliance at each contact is left without inertia. Raise the cutoff until the answers stay:
+
+    signorini run SCENE --set reduction.cutoff_omega=4000
+
+Contacts with law `rigid`, sliders that stick rigidly and contacts with dashpots need mass where they act, so the
+static shapes that belong to them keep theirs, and bring frequencies above the cutoff.)"},
     {"sections", "## `[sections]`",
      R"(```toml
 [sections.pipe]

@@ -334,6 +334,12 @@ class Run {
     result.t = t;
     result.u = &point.u;
     result.v = &point.v;
+    if (model_.reduction) {
+      physical_u_ = model_.reduction->physical(point.u);
+      physical_v_ = model_.reduction->physical(point.v);
+      result.u = &physical_u_;
+      result.v = &physical_v_;
+    }
     for (std::size_t k = 0; k < model_.contacts.size(); ++k)
       result.contacts.push_back(auditor_.sample(k, forcing_, t, decision_.mode[k], point));
     result.energy = auditor_.energy(t, decision_.mode, point);
@@ -396,6 +402,7 @@ class Run {
   std::unique_ptr<Stepper> stepper_;
   Decision decision_;
   Point point_;
+  Vector physical_u_, physical_v_;  // of a reduced model, for the recorder
   Works works_{model_.contacts.size()};
   Report report_;
   Energy last_energy_;

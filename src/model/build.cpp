@@ -1,7 +1,7 @@
 // build_model: the scene as matrices, in the order in which one thing needs the other:
 //
-//   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales -> shear
-//   elements
+//   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
+//   -> reduction -> shear elements
 #include <fmt/core.h>
 
 #include "model/assembly.hpp"
@@ -11,6 +11,7 @@
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
 #include "model/modes.hpp"
+#include "model/reduction.hpp"
 #include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
 #include "model/shear.hpp"
@@ -100,6 +101,11 @@ Model build_model(const Scene& scene) {
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   check_rigid_contacts(scene, model);
+  if (scene.reduction) {
+    reduce(scene, assembly.dampers, model);
+    check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
+    model.omega_max = highest_frequency(model);
+  }
   add_shear_elements(scene, model);
   return model;
 }

@@ -6,6 +6,7 @@
 
 #include "base/version.hpp"
 #include "contact/law.hpp"
+#include "result/reduction_json.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -213,6 +214,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
   for (const auto& [type, count] : report.events_by_type) total += count;
   json["events"] = {{"total", total}, {"by_type", report.events_by_type}};
   json["counters"] = counter_json(report.counters);
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
   json["audit"] = audit_json(model, report.audit);
   json["energy"] = {{"initial", energy_json(report.audit.initial)},
                     {"final", energy_json(report.audit.final)},

@@ -22,6 +22,7 @@ constexpr Key table_of_keys[] = {
     {"", "masses", tables, "", "", "", "Point masses."},
     {"", "supports", tables, "", "", "", "Degrees of freedom that are held."},
     {"", "springs", tables, "", "", "", "Springs and dampers, to the ground or between two nodes."},
+    {"", "reduction", table, "", "", "", "Modes above a cutoff leave their static compliance only; all modes count where absent."},
     {"", "matrices", table, "", "", "", "Mass, damping and stiffness matrices, instead of nodes and members."},
     {"", "contacts", tables, "", "", "", "Unilateral or frictional contacts."},
     {"", "loads", tables, "", "", "", "Loads that vary with time."},
@@ -61,6 +62,9 @@ constexpr Key table_of_keys[] = {
     {"run.initial.*", "vx", number, "length/time", "", "", "Initial horizontal velocity."},
     {"run.initial.*", "vy", number, "length/time", "", "", "Initial vertical velocity."},
     {"run.initial.*", "wz", number, "1/time", "", "", "Initial angular velocity, counter-clockwise."},
+
+    {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
+    {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},
 
     {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
     {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},

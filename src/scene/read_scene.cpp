@@ -91,6 +91,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_springs(top, scene, record);
     read_damping(top, scene, record);
   }
+  read_reduction(top, scene, record);
   read_run(top, scene, record);
   read_contacts(top, scene, record);  // compressions are checked up to t_end
   read_loads(top, scene, record);

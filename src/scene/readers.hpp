@@ -30,6 +30,7 @@ void read_run(Table& top, Scene& scene, RecordedScene& record);
 /// Part of [run]; `run` is that table.
 void read_initial(Table& run, Scene& scene);
 void read_damping(Table& top, Scene& scene, RecordedScene& record);
+void read_reduction(Table& top, Scene& scene, RecordedScene& record);
 void read_sections(Table& top, Scene& scene, RecordedScene& record);
 void read_nodes(Table& top, Scene& scene, RecordedScene& record);
 void read_members(Table& top, Scene& scene, RecordedScene& record);

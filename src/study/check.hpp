@@ -45,11 +45,14 @@ struct Cost {
   double steps = 0.0, seconds = 0.0;
 };
 
+/// Of the structure as the scene has it, also where the run is to use a reduced model of it; frequencies,
+/// free motions and stiffness, too.
 struct CheckReport {
+  long degrees_of_freedom = 0, massless = 0;
   std::optional<MassFacts> mass;
-  long massless = 0;
-  std::vector<ContactSample> contacts;    ///< right after t = 0
-  std::vector<std::string> warnings;      ///< of the run, and what may be a mistake
+  double least_mass = 0.0, greatest_mass = 0.0;  ///< on the diagonal of M, zeros left aside
+  std::vector<ContactSample> contacts;           ///< right after t = 0
+  std::vector<std::string> warnings;             ///< of the run, and what may be a mistake
   std::vector<std::string> free_motions;  ///< of the structure on its closed contacts, and what holds them
   Frequencies open, closed, stuck;        ///< all contacts alike
   std::vector<StiffnessRatio> stiffness;

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contact/law.hpp"
+#include "result/reduction_json.hpp"
 #include "study/check.hpp"
 
 namespace signorini {
@@ -34,7 +35,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   Json json = {{"scene", scene.file},
                {"title", model.title},
                {"units", {{"force", u.force}, {"mass", u.mass}, {"length", u.length}, {"time", u.time}}},
-               {"degrees_of_freedom", model.size()},
+               {"degrees_of_freedom", report.degrees_of_freedom},
                {"massless", report.massless},
                {"static_start", model.static_start}};
   if (report.mass) {
@@ -62,6 +63,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   json["discontinuities"] = Json::array();
   for (const Discontinuity& d : report.discontinuities)
     json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
   json["run"] = {{"t_end", scene.run.t_end},
                  {"rtol", report.settings.rtol},
                  {"engine", report.settings.engine},

@@ -78,6 +78,7 @@ std::string dump(const Scene& s) {
             s.run.max_order, s.run.max_events_at_once, s.run.dt);
   dump.line("initial", s.initial.is_static, s.initial.u, s.initial.v, s.initial.components);
   dump.line("damping", s.damping.alpha, s.damping.beta, s.damping.alpha_over_omega1);
+  if (s.reduction) dump.line("reduction", s.reduction->cutoff_omega);
   dump_structure(dump, s);
   for (const auto& c : s.contacts) {
     dump.line("contact", c.name, static_cast<int>(c.law), c.normal, c.tangent, c.gap, c.normal_stiffness,

@@ -1,6 +1,7 @@
 // --set path=value: what it reaches, and that every mistake in it is a wrong command line.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ TEST_CASE("overrides reach every kind of place") {
   CHECK(with({{"members.1.elements.2", "5"}}).members[0].elements == std::vector{4, 5});
   CHECK(with({{"loads.1.amplitude", "3"}}).loads[0].amplitude == 3.0);
   CHECK(with({{"loads.1.history.end", "0.2"}}).loads[0].history.end == 0.2);
+  CHECK(with({{"reduction.cutoff_omega", "100"}}).reduction->cutoff_omega == 100.0);
+  CHECK(with({{"reduction.cutoff_omega", "100"}, {"reduction.cutoff_frequency", "5"}})
+            .reduction->cutoff_omega == doctest::Approx(10.0 * std::acos(-1.0)));
 }
 
 TEST_CASE("overrides choose contacts by name, by number, or all") {

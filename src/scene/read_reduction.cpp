@@ -1,0 +1,26 @@
+// [reduction]: the cutoff, in cycles or in radians per time.
+#include <numbers>
+
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
+  if (!top.has("reduction")) return;
+  Table table = top.child("reduction");
+  if (table.has("cutoff_frequency") && table.has("cutoff_omega"))
+    table.fail("cutoff_frequency", "stands beside cutoff_omega, expected one of the two");
+  ReductionSpec spec;
+  spec.place = table.place();
+  if (const auto frequency = table.optional_number("cutoff_frequency")) {
+    spec.cutoff_omega = 2.0 * std::numbers::pi * *frequency;
+  } else {
+    table.require("cutoff_omega", " (or cutoff_frequency)");
+    spec.cutoff_omega = *table.optional_number("cutoff_omega");
+  }
+  table.finish();
+  scene.reduction = spec;
+  record.add("reduction", "[reduction]", table.record());
+}
+
+}  // namespace signorini

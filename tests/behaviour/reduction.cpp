@@ -1,0 +1,143 @@
+// Runs of reduced models: the same events where nothing is left out, convergence where something is, and all
+// engines of one mind.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "behaviour/engines.hpp"
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+
+namespace {
+
+using Changes = std::vector<Override>;
+
+Result run(const std::string& file, Changes changes, double cutoff, const std::string& engine) {
+  if (cutoff > 0.0) changes.push_back({"reduction.cutoff_omega", fmt::format("{}", cutoff)});
+  changes.push_back({"run.engine", engine});
+  const Scene scene = read_scene(file, changes);
+  Result result = simulate(build_model(scene), scene.run);
+  INFO(result.report.outcome.reason);
+  REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+  return result;
+}
+
+const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml", frame = SIGNORINI_MODELS "/rigid-frame.toml";
+
+std::vector<Event> state_changes(const Result& result) {
+  std::vector<Event> events;
+  for (const Event& e : result.events)
+    if (e.type != EventType::time) events.push_back(e);
+  return events;
+}
+
+/// The same events, in order, at the same times.
+void check_events(const Result& expected, const Result& found, double time) {
+  const std::vector<Event> a = state_changes(expected), b = state_changes(found);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    INFO("event ", i, " at ", a[i].t);
+    CHECK(a[i].contact == b[i].contact);
+    CHECK(a[i].from == b[i].from);
+    CHECK(a[i].to == b[i].to);
+    CHECK(std::abs(a[i].t - b[i].t) <= time);
+  }
+}
+
+/// Greatest difference of displacements at the output times.
+double apart(const Result& a, const Result& b) {
+  REQUIRE(a.rows.size() == b.rows.size());
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    greatest = std::max(greatest, (a.rows[i].u - b.rows[i].u).cwiseAbs().maxCoeff());
+  return greatest;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/reduction");
+
+TEST_CASE("above all frequencies the events are those of the full model") {
+  const Changes until{{"run.t_end", "0.2"}};
+  const Result whole = run(pipeline, until, 0.0, "exact"), all = run(pipeline, until, 1e7, "exact");
+  REQUIRE(state_changes(whole).size() > 20);
+  check_events(whole, all, 1e-9);
+  CHECK(apart(whole, all) < 1e-9);
+}
+
+TEST_CASE("a reduced pipeline: engines agree, forces and energy are kept") {
+  const Changes until{{"run.t_end", "0.2"}, {"run.rtol", "1e-10"}, {"run.dt", "2e-6"}};
+  const Result exact = run(pipeline, until, 2000.0, "exact");
+  REQUIRE(state_changes(exact).size() > 6);
+  check_events(exact, run(pipeline, until, 2000.0, "ida"), 1e-7);
+  const Result newmark = run(pipeline, until, 2000.0, "newmark");
+  check_events(exact, newmark, 1e-5);
+  CHECK(apart(exact, newmark) < 1e-6);
+  const Changes longer{{"run.t_end", "0.2"}, {"run.dt", "1e-5"}};
+  const Result iteration = run(pipeline, longer, 2000.0, "friction-iteration");
+  CHECK(apart(exact, iteration) < 1e-4);
+  const Audit& audit = exact.report.audit;
+  CHECK(audit.energy.value < 1e-9 * audit.energy_scale);
+  CHECK(audit.equilibrium.value < 1e-9 * audit.force_scale);
+  CHECK(audit.friction.value < 1e-9 * audit.force_scale);
+}
+
+// Until the first landing; after it short slips differ, and displacements differ with them.
+TEST_CASE("displacements converge with the cutoff") {
+  const Changes until{{"run.t_end", "0.15"}};
+  const Result whole = run(pipeline, until, 0.0, "exact");
+  double before = 1.0;
+  for (const double cutoff : {500.0, 2000.0, 8000.0, 32000.0}) {
+    const Result reduced = run(pipeline, until, cutoff, "exact");
+    CHECK(reduced.rows[0].u.size() == 51);
+    const double error = apart(whole, reduced);
+    INFO(cutoff, " ", error);
+    CHECK(error < 0.5 * before);
+    before = error;
+  }
+  CHECK(before < 1e-6);
+}
+
+TEST_CASE("rigid contacts: a reduced frame follows the full one") {
+  const Changes until{{"run.t_end", "0.2"}, {"run.frames", "[]"}, {"run.rtol", "1e-9"}};
+  const Result whole = run(frame, until, 0.0, "exact");
+  double scale = 0.0;
+  for (const Result::Row& row : whole.rows) scale = std::max(scale, row.u.cwiseAbs().maxCoeff());
+  const Result coarse = run(frame, until, 500.0, "exact"), fine = run(frame, until, 2000.0, "exact");
+  CHECK(apart(whole, fine) < 1e-3 * scale);
+  CHECK(apart(whole, fine) < apart(whole, coarse));
+  CHECK(fine.report.audit.penetration.value < 1e-9 * scale);
+  const Result ida = run(frame, until, 500.0, "ida");
+  CHECK(apart(coarse, ida) < 1e-5 * scale);
+}
+
+TEST_CASE("parts without mass: above all frequencies as the full model, below with all engines alike") {
+  const std::string lumped = SIGNORINI_TEST_DATA "/cases/08b_lumped_singular_M.toml";
+  const Changes step{{"run.dt", "1e-4"}};
+  const Result whole = run(lumped, step, 0.0, "exact");
+  const Result all = run(lumped, step, 1e3, "exact");
+  check_events(whole, all, 1e-9);
+  CHECK(apart(whole, all) < 1e-11);
+  const Result exact = run(lumped, step, 5.0, "exact");
+  check_events(exact, run(lumped, step, 5.0, "ida"), 1e-6);
+  check_events(exact, run(lumped, step, 5.0, "newmark"), 1e-4);
+}
+
+TEST_CASE("contacts with dashpots, and sliders that stick rigidly") {
+  const Changes dashpots{{"run.t_end", "0.16"},
+                         {"run.rtol", "1e-10"},
+                         {"contacts.*.normal_damping", "50.0"},
+                         {"contacts.*.tangential_damping", "50.0"}};
+  const Result exact = run(pipeline, dashpots, 1000.0, "exact");
+  REQUIRE(state_changes(exact).size() > 4);
+  check_events(exact, run(pipeline, dashpots, 1000.0, "ida"), 1e-7);
+
+  const std::string chain = SIGNORINI_TEST_DATA "/cases/10a_bk_chain_20.toml";
+  const Changes until{{"run.output_times", "[10.0]"}, {"run.t_end", "10.0"}};
+  const Result whole = run(chain, until, 0.0, "exact");
+  REQUIRE(state_changes(whole).size() > 10);
+  const Result all = run(chain, until, 1e3, "exact");
+  check_events(whole, all, 1e-8);
+}

@@ -37,7 +37,10 @@ Forcing::Forcing(const Model& model, double t, Side side)
     pressing_.push_back(piece(contact.normal_force, t, side));
     surface_.push_back(piece(contact.surface_motion, t, side));
     moves_.push_back(changes(*surface_.back()));
-    drives_.push_back(moves_.back() || changes(*pressing_.back()));
+    presses_.push_back(changes(*pressing_.back()));
+    still_surface_.push_back(surface_.back()->value(t));
+    still_pressing_.push_back(pressing_.back()->value(t));
+    drives_.push_back(moves_.back() || presses_.back());
     varies_ = varies_ || drives_.back();
     lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
   }
@@ -49,10 +52,10 @@ double Forcing::surface_rounding(std::size_t k, double t) const {
   return moves_[k] ? roundoff_of_rate(*surface_[k], t) : 0.0;
 }
 
-void Forcing::add_load(double t, int order, double* P) const {
+void Forcing::add_load(double t, int order, double* P, double factor) const {
   if (order == 0)
-    for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += constant_[i];
-  for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, p->value(t, order));
+    for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += factor * constant_[i];
+  for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, factor * p->value(t, order));
 }
 
 Forcing Forcing::none(const Model& model) {
@@ -61,7 +64,9 @@ Forcing Forcing::none(const Model& model) {
   f.pressing_.assign(model.contacts.size(), &still);
   f.surface_ = f.pressing_;
   f.lifted_.assign(model.contacts.size(), false);
-  f.moves_ = f.drives_ = f.lifted_;
+  f.moves_ = f.presses_ = f.drives_ = f.lifted_;
+  f.still_pressing_.assign(model.contacts.size(), 0.0);
+  f.still_surface_ = f.still_pressing_;
   return f;
 }
 

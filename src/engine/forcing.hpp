@@ -25,8 +25,8 @@ class Forcing {
   /// Nothing acts and nothing moves.
   [[nodiscard]] static Forcing none(const Model& model);
 
-  /// P += the derivative of the given order of the load vector; length n.
-  void add_load(double t, int order, double* P) const;
+  /// P += factor times the derivative of the given order of the load vector; length n.
+  void add_load(double t, int order, double* P, double factor = 1.0) const;
   /// Coefficients scale^k / k! f^(k)(t), 0 <= k < count, of everything.
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector.
@@ -48,11 +48,11 @@ class Forcing {
   [[nodiscard]] std::size_t greatest_degree() const;
   /// Derivative of normal_force of contact k.
   [[nodiscard]] double pressing(std::size_t k, double t, int order) const {
-    return pressing_[k]->value(t, order);
+    return presses_[k] ? pressing_[k]->value(t, order) : order == 0 ? still_pressing_[k] : 0.0;
   }
   /// Derivative of the motion of the surface of contact k (order 1: surface velocity).
   [[nodiscard]] double surface(std::size_t k, double t, int order) const {
-    return order > 0 && !moves_[k] ? 0.0 : surface_[k]->value(t, order);
+    return moves_[k] ? surface_[k]->value(t, order) : order == 0 ? still_surface_[k] : 0.0;
   }
   /// Rounding of the surface velocity at t.
   [[nodiscard]] double surface_rounding(std::size_t k, double t) const;
@@ -66,7 +66,8 @@ class Forcing {
   Vector constant_;                                            // the loads that do not change
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
-  std::vector<bool> lifted_, moves_, drives_;
+  std::vector<bool> lifted_, moves_, presses_, drives_;
+  std::vector<double> still_pressing_, still_surface_;  // where nothing changes
   bool varies_ = false, loaded_ = false;
 };
 

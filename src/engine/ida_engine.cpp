@@ -15,7 +15,7 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, const Expan
       expander_(expander),
       settings_(settings),
       powers_(model, structure),
-      bdf_(model, structure, settings),
+      bdf_(model, structure, settings, counters),
       history_(guards_per_contact * model.contacts.size() + powers_.count()),
       flights_(model, structure, expander, t_end),
       integrals_(powers_.count()) {
@@ -72,7 +72,6 @@ Step IdaEngine::advance() {
     return *flight_;
   }
   BdfStep bdf = bdf_.advance();
-  counters = bdf_.counters;
   Step step;
   step.begin = bdf.begin;
   step.end = bdf.end;
@@ -88,7 +87,7 @@ Step IdaEngine::advance() {
   }
   bdf_.evaluate(bdf.end, point_);
   if (accelerations_) expander_.consistent(*segment_.forcing, bdf.end, point_);
-  fill(bdf.end, point_, history_.push(bdf.end));
+  fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
   step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
   if (const auto event = first_event(bdf, step.resolution)) {
@@ -121,8 +120,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
                                c.slot / guards_per_contact, step.begin, step.end, c.time, resolution);
     if (!first || time < first->time) first = Located{c.slot, time};
   }
-  if (step.kind != BdfStep::Kind::root) ++bdf_.counters.rolled_back;
-  counters = bdf_.counters;
+  if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;
   return first;
 }
 

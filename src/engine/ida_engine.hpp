@@ -25,6 +25,7 @@ class IdaEngine final : public Stepper {
   void evaluate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
+  void count() override { bdf_.count(); }
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
                                    std::size_t contact) const override;
 

@@ -12,16 +12,25 @@ Layout::Layout(const Model& model) : dofs(model.size()), contacts(static_cast<in
 
 IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout)
     : model_(model),
-      structure_(structure),
       layout_(layout),
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
-      rhs_(static_cast<std::size_t>(matrix_.size())),
-      correction_(static_cast<std::size_t>(layout.dofs)) {}
+      rhs_(static_cast<std::size_t>(matrix_.size())) {}
 
 void IdaLinearSolver::set_mode(const Mode& mode) {
   rows_ = rows_of(model_, mode);
   fresh_ = true;
+  held_.clear();
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (const bool tangent : {false, true}) {
+      const Combination& form = tangent ? model_.contacts[k].tangent : model_.contacts[k].normal;
+      const Form& row = tangent ? rows_[k].tangent : rows_[k].normal;
+      const bool prescribes = tangent ? row.at != 0.0 : row.an != 0.0 && row.N == 0.0;
+      if (!prescribes || form.terms.size() != 1) continue;
+      const auto& [dof, factor] = form.terms[0];
+      held_.push_back({static_cast<std::size_t>(dof),
+                       static_cast<std::size_t>(layout_.dofs) + 2 * k + (tangent ? 1 : 0), factor, 0.0});
+    }
 }
 
 bool IdaLinearSolver::factor() {
@@ -33,48 +42,33 @@ bool IdaLinearSolver::factor() {
 }
 
 void IdaLinearSolver::solve(const double* b, double* x) {
-  const auto n = static_cast<std::size_t>(layout_.dofs);
-  for (std::size_t i = 0; i < n; ++i) {
-    const int v = layout_.velocity[i];
-    correction_[i] = v >= 0 ? -b[i] / cj_ : 0.0;
-    rhs_[i] = v >= 0 ? b[v] : b[i];
+  const auto n = static_cast<std::size_t>(layout_.dofs), massive = static_cast<std::size_t>(layout_.massive);
+  const bool all_massive = n == massive;
+  if (all_massive) {
+    std::copy(b + n, b + n + rhs_.size(), rhs_.data());
+  } else {
+    for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
+    std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
   }
-  structure_.add_product(structure_.k, correction_.data(), rhs_.data());
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const Contact& contact = model_.contacts[k];
-    const double gap = contact.normal.dot(correction_), ut = contact.tangent.dot(correction_);
-    const auto f = static_cast<std::size_t>(layout_.force(k));
-    const std::size_t row = n + 2 * k;
-    rhs_[row] = b[f] + rows_[k].normal.gap * gap + rows_[k].normal.ut * ut;
-    rhs_[row + 1] = b[f + 1] + rows_[k].tangent.gap * gap + rows_[k].tangent.ut * ut;
-  }
-  // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
-  struct Held {
-    int dof;
-    double value;
-  };
-  std::vector<Held> held;
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    for (const bool tangent : {false, true}) {
-      const Combination& form = tangent ? model_.contacts[k].tangent : model_.contacts[k].normal;
-      const Form& row = tangent ? rows_[k].tangent : rows_[k].normal;
-      const bool prescribes = tangent ? row.at != 0.0 : row.an != 0.0 && row.N == 0.0;
-      if (!prescribes || form.terms.size() != 1) continue;
-      const auto& [dof, factor] = form.terms[0];
-      held.push_back({dof, rhs_[n + 2 * k + (tangent ? 1 : 0)] / (cj_ * factor)});
-    }
+  for (Held& h : held_) h.value = rhs_[h.row] / (cj_ * h.factor);
   matrix_.solve(rhs_.data());
-  for (const Held& h : held) rhs_[static_cast<std::size_t>(h.dof)] = h.value;
+  for (const Held& h : held_) rhs_[h.dof] = h.value;
+  const double step = 1.0 / cj_;
+  if (all_massive) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = step * (rhs_[i] + b[i]);
+    std::copy(rhs_.begin(), rhs_.end(), x + n);
+    return;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     const int v = layout_.velocity[i];
     if (v >= 0) {
       x[v] = rhs_[i];
-      x[i] = (rhs_[i] + b[i]) / cj_;
+      x[i] = step * (rhs_[i] + b[i]);
     } else {
       x[i] = rhs_[i];
     }
   }
-  std::copy(rhs_.begin() + static_cast<std::ptrdiff_t>(n), rhs_.end(), x + layout_.dofs + layout_.massive);
+  std::copy(rhs_.begin() + static_cast<std::ptrdiff_t>(n), rhs_.end(), x + n + massive);
 }
 
 SUNMatrix IdaLinearSolver::make_matrix(SUNContext context) {

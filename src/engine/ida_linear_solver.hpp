@@ -4,6 +4,7 @@
 //   | K  cj M + C  n t | |dv| = |r2|   =>   (cj M + C + K/cj) dv + n dN + t dT = r2 - K r1 / cj
 //   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
 //
+// The residual comes with r1/cj already in r2 and r3 (engine/ida_problem.hpp), so the right side is at hand.
 // One matrix of the size of the structure plus two rows a contact, instead of twice that.
 #pragma once
 
@@ -47,12 +48,17 @@ class IdaLinearSolver {
 
  private:
   const Model& model_;
-  const Structure& structure_;
   const Layout& layout_;
   SystemMatrix matrix_;
   std::vector<Rows> rows_;
   std::vector<Weights> weights_;
-  std::vector<double> rhs_, correction_;
+  // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
+  struct Held {
+    std::size_t dof, row;
+    double factor, value;
+  };
+  std::vector<Held> held_;
+  std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;
 };

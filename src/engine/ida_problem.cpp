@@ -20,12 +20,11 @@ constexpr double rounding_floor = 20.0 * std::numeric_limits<double>::epsilon();
 
 IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Settings& settings)
     : model_(model),
-      structure_(structure),
       layout_(model),
       linear_(model, structure, layout_),
       settings_(settings),
-      v_(static_cast<std::size_t>(layout_.dofs)),
-      a_(static_cast<std::size_t>(layout_.dofs)) {
+      momentum_(model, structure),
+      forces_(layout_.massive < layout_.dofs ? static_cast<std::size_t>(layout_.dofs) : 0) {
   const auto size = static_cast<std::size_t>(layout_.size());
   atol_.assign(size, settings.atol_force);
   std::vector<std::size_t> group(size, 2 * model.contacts.size());
@@ -75,7 +74,8 @@ void IdaProblem::linearise(double t, const double* y, const double* yp) {
   }
 }
 
-ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const double* yp) const {
+ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const double* yp,
+                                 double step) const {
   const Contact& contact = model_.contacts[k];
   const auto velocity = [&](const Combination& form) {
     double sum = 0.0;
@@ -97,6 +97,17 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   m.T = y[f + 1];
   m.gap = contact.gap + contact.normal.dot(y);
   m.ut = contact.tangent.dot(y) - segment_.forcing->surface(k, t, 0);
+  if (step != 0.0) {
+    const auto off = [&](const Combination& form) {
+      double sum = 0.0;
+      for (const auto& [dof, factor] : form.terms)
+        if (const int v = layout_.velocity[static_cast<std::size_t>(dof)]; v >= 0)
+          sum += factor * (yp[dof] - y[v]);
+      return sum;
+    };
+    m.gap -= step * off(contact.normal);
+    m.ut -= step * off(contact.tangent);
+  }
   m.vn = velocity(contact.normal);
   m.vt = velocity(contact.tangent) - segment_.forcing->surface(k, t, 1);
   const Rows& rows = linear_.rows()[k];
@@ -109,33 +120,39 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   return m;
 }
 
-void IdaProblem::residual(double t, const double* y, const double* yp, double* r) {
+void IdaProblem::residual(double t, double step, const double* y, const double* yp, double* r) {
   const auto n = static_cast<std::size_t>(layout_.dofs);
-  for (std::size_t i = 0; i < n; ++i) {
-    const int v = layout_.velocity[i];
-    v_[i] = v >= 0 ? y[v] : yp[i];
-    a_[i] = v >= 0 ? yp[v] : 0.0;
-  }
-  // The momentum rows are gathered in r[0..n) and moved where they belong.
-  std::fill(r, r + n, 0.0);
-  segment_.forcing->add_load(t, 0, r);
-  for (std::size_t i = 0; i < n; ++i) r[i] = -r[i];
-  structure_.add_product(a_.data(), v_.data(), y, r);
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const auto f = layout_.force(k);
-    model_.contacts[k].normal.add_to(r, y[f]);
-    model_.contacts[k].tangent.add_to(r, y[f + 1]);
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    if (const int v = layout_.velocity[i]; v >= 0) {
-      r[v] = r[i];
-      r[i] = yp[i] - y[v];
+  const bool all_massive = layout_.massive == layout_.dofs;
+  double* forces = all_massive ? r + n : forces_.data();
+  if (all_massive) {
+    const double *v = y + n, *a = yp + n;
+    for (std::size_t i = 0; i < n; ++i) {
+      r[i] = yp[i] - v[i];
+      momentum_.put(i, a[i], v[i], y[i] - step * r[i]);
     }
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      const int v = layout_.velocity[i];
+      if (v >= 0)
+        momentum_.put(i, yp[v], y[v], y[i] - step * (yp[i] - y[v]));
+      else
+        momentum_.put(i, 0.0, yp[i], y[i]);
+    }
+  }
+  momentum_.apply(forces);
+  segment_.forcing->add_load(t, 0, forces, -1.0);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const ContactMotion m = motion(k, t, y, yp);
     const auto f = layout_.force(k);
+    model_.contacts[k].normal.add_to(forces, y[f]);
+    model_.contacts[k].tangent.add_to(forces, y[f + 1]);
+    const ContactMotion m = motion(k, t, y, yp, step);
     r[f] = linear_.rows()[k].normal.value(m);
     r[f + 1] = linear_.rows()[k].tangent.value(m);
+  }
+  for (std::size_t i = 0; i < n && !all_massive; ++i) {
+    const int v = layout_.velocity[i];
+    r[v >= 0 ? static_cast<std::size_t>(v) : i] = forces[i];
+    if (v >= 0) r[i] = yp[i] - y[v];
   }
   for (const std::size_t k : stribeck_) {
     const ContactMotion m = motion(k, t, y, yp);
@@ -201,10 +218,13 @@ void IdaProblem::read(const double* y, const double* yp, Point& point) const {
   const auto n = static_cast<Eigen::Index>(layout_.dofs);
   point.u = Eigen::Map<const Vector>(y, n);
   point.v.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const int v = layout_.velocity[static_cast<std::size_t>(i)];
-    point.v[i] = v >= 0 ? y[v] : yp[i];
-  }
+  if (layout_.massive == layout_.dofs)
+    point.v = Eigen::Map<const Vector>(y + n, n);
+  else
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int v = layout_.velocity[static_cast<std::size_t>(i)];
+      point.v[i] = v >= 0 ? y[v] : yp[i];
+    }
   point.forces = Eigen::Map<const Vector>(y + layout_.dofs + layout_.massive, 2 * layout_.contacts);
 }
 

@@ -1,7 +1,13 @@
 // ida_problem.hpp: residual, error weights and root functions that IDA calls; no solver state.
+//
+//   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
+//
+// Rows are combined as the condensed solver needs them (engine/ida_linear_solver.hpp): zero for the same y
+// and y' as without r1/cj, and a solve has no product with K of its own.
 #pragma once
 
 #include "engine/ida_linear_solver.hpp"
+#include "engine/momentum.hpp"
 #include "engine/stepper.hpp"
 #include "engine/watch.hpp"
 
@@ -13,8 +19,8 @@ class IdaProblem {
 
   void start(const Segment& segment, const Watch& watch);
 
-  /// r = F(t, y, y')
-  void residual(double t, const double* y, const double* yp, double* r);
+  /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
+  void residual(double t, double step, const double* y, const double* yp, double* r);
   /// Puts the tangents of rows that are not linear (Stribeck's friction) into the linear solver.
   void linearise(double t, const double* y, const double* yp);
   /// Error weights; see below.
@@ -31,10 +37,11 @@ class IdaProblem {
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
  private:
-  [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp) const;
+  /// step: at u - step (u' - v).
+  [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
+                                     double step = 0.0) const;
 
   const Model& model_;
-  const Structure& structure_;
   Layout layout_;
   IdaLinearSolver linear_;
   const Settings settings_;
@@ -45,7 +52,8 @@ class IdaProblem {
   // structure does not dilute the few contacts.
   std::vector<double> factor_, atol_;
   std::vector<std::size_t> stribeck_;  // contacts that slip by Stribeck's law in this segment
-  std::vector<double> v_, a_;
+  Momentum momentum_;
+  std::vector<double> forces_;  // of all degrees of freedom, where some have no mass
 };
 
 }  // namespace signorini

@@ -6,6 +6,7 @@
 #include <sundials/sundials_context.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -74,7 +75,10 @@ struct IdaStepper::Memory {
   Memory& operator=(const Memory&) = delete;
 
   static int residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void* self) {
-    static_cast<Memory*>(self)->problem.residual(t, NV_DATA_S(y), NV_DATA_S(yp), NV_DATA_S(r));
+    auto* m = static_cast<Memory*>(self);
+    double cj = 0.0;
+    IDAGetCurrentCj(m->ida, &cj);
+    m->problem.residual(t, 1.0 / cj, NV_DATA_S(y), NV_DATA_S(yp), NV_DATA_S(r));
     return 0;
   }
   static int weights(N_Vector y, N_Vector w, void* self) {
@@ -157,6 +161,12 @@ struct IdaStepper::Memory {
     c.factorisations = problem.linear().klu().factorisations;
     c.refactorisations = problem.linear().klu().refactorisations;
     c.guard_evaluations = guard_evaluations;
+    for (std::size_t order = 0; order < steps_by_order.size(); ++order) {
+      if (steps_by_order[order] == 0) continue;
+      c.steps += steps_by_order[order];
+      c.steps_by_order[static_cast<int>(order)] += steps_by_order[order];
+      steps_by_order[order] = 0;
+    }
   }
 
   IdaProblem problem;
@@ -174,20 +184,25 @@ struct IdaStepper::Memory {
   double held_time = 0.0;     // time of what y and yp hold
   std::vector<int> found;
   long guard_evaluations = 0;
-  Counters counted;  // what IDA has counted since its last restart
+  std::array<long, max_degree + 1> steps_by_order{};  // since the last count
+  Counters counted;                                   // what IDA has counted since its last restart
 };
 
-IdaStepper::IdaStepper(const Model& model, const Structure& structure, const Settings& settings)
-    : m_(std::make_unique<Memory>(model, structure, settings)) {}
+IdaStepper::IdaStepper(const Model& model, const Structure& structure, const Settings& settings,
+                       Counters& counters)
+    : counters_(counters), m_(std::make_unique<Memory>(model, structure, settings)) {}
 
 IdaStepper::~IdaStepper() = default;
 
+void IdaStepper::count() { m_->add_counters(counters_); }
+
 void IdaStepper::start(const Segment& segment, const Watch& watch) {
+  count();  // IDA forgets at a restart
   m_->segment = segment;
   m_->problem.start(segment, watch);
   m_->begin(m_->first_step());
   m_->counted = Counters{};
-  ++counters.restarts;
+  ++counters_.restarts;
 }
 
 BdfStep IdaStepper::advance() {
@@ -199,14 +214,13 @@ BdfStep IdaStepper::advance() {
   const bool first = m_->reported_end == m_->segment.decision->jet.t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < most_retries; ++retry) {
-    m_->add_counters(counters);
+    count();
     if (h0 == 0.0) h0 = m_->first_step();
     h0 /= 10.0;
     m_->begin(h0);
     m_->counted = Counters{};
     flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
   }
-  m_->add_counters(counters);
   if (flag < 0) {
     char* name = IDAGetReturnFlagName(flag);
     step.kind = BdfStep::Kind::failed;
@@ -216,14 +230,14 @@ BdfStep IdaStepper::advance() {
     return step;
   }
   IDAGetLastOrder(m_->ida, &step.order);
+  IDAGetLastStep(m_->ida, &step.length);
   double end = 0.0;
   IDAGetCurrentTime(m_->ida, &end);
   if (flag == IDA_TSTOP_RETURN) end = t;  // the stop time itself, where IDA's clock is off by a rounding
   step.begin = m_->reported_end;
   step.end = end;
   m_->reported_end = end;
-  ++counters.steps;
-  ++counters.steps_by_order[step.order];
+  ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
   m_->held_time = t;
   if (flag == IDA_ROOT_RETURN) {
     step.kind = BdfStep::Kind::root;
@@ -258,7 +272,7 @@ double IdaStepper::residual() {
   IDAGetDky(m_->ida, end, 0, m_->y);
   N_VLinearSum(cj, m_->y, -cj, y_predicted, m_->yp);
   N_VLinearSum(1.0, m_->yp, 1.0, yp_predicted, m_->yp);
-  m_->problem.residual(end, NV_DATA_S(m_->y), NV_DATA_S(m_->yp), NV_DATA_S(m_->work));
+  m_->problem.residual(end, 0.0, NV_DATA_S(m_->y), NV_DATA_S(m_->yp), NV_DATA_S(m_->work));
   m_->held_time = std::numeric_limits<double>::quiet_NaN();
   double greatest = 0.0;
   const Layout& layout = m_->problem.layout();

@@ -22,13 +22,15 @@ struct BdfStep {
   double begin = 0.0, end = 0.0;  ///< of the accepted step
   double root = 0.0;              ///< Kind::root: where a guard fell, begin < root <= end
   std::vector<Fired> fired;       ///< Kind::root
+  double length = 0.0;            ///< of the step, free of the rounding of its ends
   int order = 1;                  ///< degree of the solution's polynomial on the step
   std::string reason;             ///< Kind::failed
 };
 
 class IdaStepper {
  public:
-  IdaStepper(const Model& model, const Structure& structure, const Settings& settings);
+  /// counters: where to count; complete after count().
+  IdaStepper(const Model& model, const Structure& structure, const Settings& settings, Counters& counters);
   ~IdaStepper();
   IdaStepper(const IdaStepper&) = delete;
   IdaStepper& operator=(const IdaStepper&) = delete;
@@ -38,11 +40,11 @@ class IdaStepper {
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
   [[nodiscard]] double residual();
-
-  Counters counters;
+  void count();
 
  private:
   struct Memory;
+  Counters& counters_;
   std::unique_ptr<Memory> m_;
 };
 

@@ -1,9 +1,9 @@
 #include "engine/klu.hpp"
 
-#include <klu.h>
-
 #include <limits>
 #include <stdexcept>
+
+#include "engine/triangular_factors.hpp"
 
 namespace signorini {
 namespace {
@@ -25,6 +25,7 @@ struct Klu::Handles {
   klu_l_common common{};
   klu_l_symbolic* symbolic = nullptr;
   klu_l_numeric* numeric = nullptr;
+  TriangularFactors factors;
 };
 
 Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::int64_t>& row)
@@ -49,6 +50,7 @@ bool Klu::factor(const std::vector<double>& values) {
   if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) return false;
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   fresh_rcond_ = h_->common.rcond;
+  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, true);
   return fresh_rcond_ >= std::numeric_limits<double>::epsilon();
 }
 
@@ -60,9 +62,11 @@ bool Klu::refactor(const std::vector<double>& values) {
       h_->common.status == KLU_SINGULAR)
     return factor(values);
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
-  return h_->common.rcond >= kept_quality * fresh_rcond_ || factor(values);
+  if (h_->common.rcond < kept_quality * fresh_rcond_) return factor(values);
+  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, false);
+  return true;
 }
 
-void Klu::solve(double* b) { klu_l_solve(h_->symbolic, h_->numeric, h_->symbolic->n, 1, b, &h_->common); }
+void Klu::solve(double* b) { h_->factors.solve(b); }
 
 }  // namespace signorini

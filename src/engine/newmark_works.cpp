@@ -12,7 +12,7 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
   v_ = 0.5 * (a.v + b.v);
   if (forcing.loaded())
     works.loads += 0.5 * factor * (forcing.power(t0, du_.data()) + forcing.power(t1, du_.data()));
-  works.damping += factor * h * structure_.quadratic(structure_.c, v_.data());
+  works.damping += factor * h * structure_.damping_power(v_.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const auto tangent_force = static_cast<Eigen::Index>(2 * k) + 1;

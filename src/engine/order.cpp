@@ -6,8 +6,8 @@ namespace signorini {
 namespace {
 
 // Orders 3 to 5 are unstable near the imaginary axis. At loose tolerances the error test does not see
-// undamped modes grow (case 01b at rtol 1e-3: 142 events instead of 10), and on the pipeline scene order 2
-// takes no more steps there; at tighter ones order 5 resolves those modes and needs far fewer.
+// undamped modes grow (case 01b at rtol 1e-3: 142 events instead of 10), and order 2 takes twice the steps at
+// most; at tighter ones order 5 resolves those modes and needs a third to a ninth (benchmarks/README.md).
 constexpr double loose = 1e-4;
 
 }  // namespace

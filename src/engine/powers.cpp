@@ -6,7 +6,7 @@ namespace signorini {
 
 void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const {
   out[0] = forcing.power(t, point.v.data());
-  out[1] = structure_.quadratic(structure_.c, point.v.data());
+  out[1] = structure_.damping_power(point.v.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     const int s = slip_sign(mode[k].state);

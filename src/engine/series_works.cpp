@@ -67,7 +67,7 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
     const double* v = velocities_.col(static_cast<Eigen::Index>(i)).data();
     const double weight = h * rule.w[i];
     if (loaded) works.loads += weight * forcing.power(from + h * rule.x[i], v);
-    if (damped_) works.damping += weight * structure_.quadratic(structure_.c, v);
+    if (damped_) works.damping += weight * structure_.damping_power(v);
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];

@@ -88,6 +88,7 @@ class Run {
       while (t_ < spec_.t_end && segment()) {
       }
     report_.outcome.t = t_;
+    stepper_->count();
     report_.counters = stepper_->counters;
     report_.counters.time_events = time_events_;
     if (unordered_ > most_unordered)

@@ -1,6 +1,7 @@
 #include "engine/step_history.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini {
 namespace {
@@ -14,10 +15,12 @@ double* StepHistory::restart(double t) {
   return values_.data();
 }
 
-double* StepHistory::push(double t) {
+double* StepHistory::push(double t, double length) {
   std::rotate(slot_.begin(), slot_.end() - 1, slot_.end());
   std::rotate(times_.begin(), times_.end() - 1, times_.end());
+  std::rotate(lengths_.begin(), lengths_.end() - 1, lengths_.end());
   times_[0] = t;
+  lengths_[0] = length;
   filled_ = std::min(filled_ + 1, max_degree + 1);
   return values_.data() + z(slot_[0]) * scalars_;
 }
@@ -25,9 +28,11 @@ double* StepHistory::push(double t) {
 void StepHistory::prepare(int order) {
   degree_ = std::min(order, filled_ - 1);
   // Lagrange polynomials on the nodes x_b, as power coefficients, then as Bernstein coefficients.
-  const double h = times_[0] - times_[1];
-  std::array<double, max_degree + 1> x{};
-  for (int b = 0; b <= degree_; ++b) x[z(b)] = (times_[z(b)] - times_[1]) / h;
+  std::array<double, max_degree + 1> x{1.0};
+  for (int b = 1; b <= degree_; ++b) x[z(b)] = x[z(b - 1)] - lengths_[z(b - 1)] / lengths_[0];
+  if (degree_ == nodes_degree_ && x == nodes_) return;
+  nodes_ = x;
+  nodes_degree_ = degree_;
   for (int b = 0; b <= degree_; ++b) {
     std::array<double, max_degree + 1> a{1.0};
     int degree = 0;
@@ -43,15 +48,29 @@ void StepHistory::prepare(int order) {
     integral_[z(b)] = 0.0;
     for (int i = 0; i <= degree_; ++i) {
       to_bernstein_[z(i)][z(b)] = lagrange.b[z(i)];
-      integral_[z(b)] += h * lagrange.b[z(i)] / (degree_ + 1);
+      integral_[z(b)] += lagrange.b[z(i)] / (degree_ + 1);
     }
   }
+  bend_ = 0.0;
+  for (int i = 0; i <= degree_; ++i) {
+    double sum = 0.0;
+    for (int b = 1; b <= degree_; ++b) sum += std::abs(to_bernstein_[z(i)][z(b)]);
+    bend_ = std::max(bend_, sum);
+  }
+}
+
+bool StepHistory::clearly_positive(std::size_t s) const {
+  const double last = value(0, s);
+  double change = 0.0;
+  for (int b = 1; b <= degree_; ++b) change = std::max(change, std::abs(value(b, s) - last));
+  // Twice, so that the rounding of the sums has no part in it.
+  return last > 2.0 * bend_ * change;
 }
 
 double StepHistory::integral(std::size_t s) const {
   double sum = 0.0;
   for (int b = 0; b <= degree_; ++b) sum += integral_[z(b)] * value(b, s);
-  return sum;
+  return (times_[0] - times_[1]) * sum;
 }
 
 Bernstein StepHistory::polynomial(std::size_t s) const {

@@ -21,9 +21,14 @@ class StepHistory {
   /// Forgets everything and starts at t; returns the place for the scalars' values.
   double* restart(double t);
   /// Adds an accepted step that ends at t; returns the place for the scalars' values.
-  double* push(double t);
+  double* push(double t) { return push(t, t - times_[0]); }
+  /// The same, with the step's length as the integrator has it, free of the rounding of times.
+  double* push(double t, double length);
   /// Prepares polynomials of the given order (of the method) on the last step.
   void prepare(int order);
+  /// True: the polynomial of scalar i is positive, for the last value exceeds what the others can bend it by.
+  /// False says nothing.
+  [[nodiscard]] bool clearly_positive(std::size_t i) const;
   /// Integral of scalar i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const;
   /// The polynomial of scalar i on the last step.
@@ -38,13 +43,18 @@ class StepHistory {
   }
   std::size_t scalars_;
   std::vector<double> values_;
-  std::array<int, max_degree + 1> slot_{};      // slot_[b]: where the values b steps back are kept
-  std::array<double, max_degree + 1> times_{};  // times_[b]: t_n-b
+  std::array<int, max_degree + 1> slot_{};        // slot_[b]: where the values b steps back are kept
+  std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
+  std::array<double, max_degree + 1> lengths_{};  // of the step that ended at times_[b]
   int filled_ = 0;
   int degree_ = 0;
+  // What the weights below were made for: steps of equal lengths need them once.
+  std::array<double, max_degree + 1> nodes_{};
+  int nodes_degree_ = -1;
   // to_bernstein_[i][b]: weight of the value b steps back in Bernstein coefficient i
   std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein_{};
-  std::array<double, max_degree + 1> integral_{};  // weight of the value b steps back in the integral
+  std::array<double, max_degree + 1> integral_{};  // weight of the value b steps back in the mean
+  double bend_ = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
 };
 
 }  // namespace signorini

@@ -52,6 +52,9 @@ class Stepper {
     return none;
   }
 
+  /// Brings `counters` up to date.
+  virtual void count() {}
+
   Counters counters;
   std::vector<std::string> warnings;  ///< of the run so far
 };

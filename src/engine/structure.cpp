@@ -9,13 +9,40 @@ Structure::Structure(const Model& model) : size(model.size()) {
   column_start.push_back(0);
   for (int j = 0; j < size; ++j) {
     for (SparseMatrix::InnerIterator it(pattern, j); it; ++it) {
-      row.push_back(it.row());
+      row.push_back(static_cast<int>(it.row()));
       m.push_back(model.mass.coeff(it.row(), j));
       c.push_back(model.damping.coeff(it.row(), j));
       k.push_back(model.stiffness.coeff(it.row(), j));
     }
     column_start.push_back(static_cast<std::int64_t>(row.size()));
   }
+  const SparseMatrix both = model.damping + SparseMatrix(model.damping.transpose());
+  for (int j = 0; j < size; ++j) {
+    HalfColumn half;
+    half.column = j;
+    for (SparseMatrix::InnerIterator it(both, j); it; ++it) {
+      if (it.row() == j) half.diagonal = 0.5 * it.value();
+      if (it.row() >= j || it.value() == 0.0) continue;
+      half_row_.push_back(static_cast<int>(it.row()));
+      half_value_.push_back(it.value());
+    }
+    half.end = static_cast<int>(half_row_.size());
+    const bool empty = half.end == (half_.empty() ? 0 : half_.back().end);
+    if (half.diagonal != 0.0 || !empty) half_.push_back(half);
+  }
+}
+
+double Structure::damping_power(const double* v) const {
+  double total = 0.0;
+  int p = 0;
+  for (const HalfColumn& half : half_) {
+    const double vj = v[half.column];
+    double sum = half.diagonal * vj;
+    for (; p < half.end; ++p)
+      sum += half_value_[static_cast<std::size_t>(p)] * v[half_row_[static_cast<std::size_t>(p)]];
+    total += sum * vj;
+  }
+  return total;
 }
 
 void Structure::add_product(const double* a, const double* v, const double* u, double* r) const {

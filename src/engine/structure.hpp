@@ -17,15 +17,26 @@ struct Structure {
 
   int size = 0;
   std::vector<std::int64_t> column_start;
-  std::vector<std::int64_t> row;
+  std::vector<int> row;
   std::vector<double> m, c, k;  ///< values of M, C, K, aligned with `row`
 
   /// r += M a + C v + K u
   void add_product(const double* a, const double* v, const double* u, double* r) const;
+  /// v^T C v. Half of the symmetric part, entries that are not zero.
+  [[nodiscard]] double damping_power(const double* v) const;
   /// x^T values x
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
   /// r += values x, for one of m, c, k
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
+
+ private:
+  struct HalfColumn {
+    int column = 0, end = 0;  // end: of its entries in half_row_
+    double diagonal = 0.0;
+  };
+  std::vector<HalfColumn> half_;
+  std::vector<int> half_row_;
+  std::vector<double> half_value_;  // c_ij + c_ji, i < j
 };
 
 }  // namespace signorini

@@ -18,7 +18,7 @@ void Watch::start(const std::vector<GuardStart>& guards, std::vector<double> lev
 std::vector<Fall> Watch::check(const StepHistory& history, double limit) {
   std::vector<Fall> falls;
   for (std::size_t slot = 0; slot < kinds_.size(); ++slot) {
-    if (kinds_[slot] == Guard::none) continue;
+    if (kinds_[slot] == Guard::none || (armed_[slot] && history.clearly_positive(slot))) continue;
     Bernstein p = history.polynomial(slot);
     if (armed_[slot] && p.positive()) continue;
     double from = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "model/eigen_dense.hpp"
@@ -98,6 +99,68 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
   return with_grips(k, forms);
 }
 
+/// Shifted inverse iteration with a whole subspace. Long structures have their lowest frequencies so close
+/// together (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly tells them apart. Once
+/// rough values are known, a shift just below the lowest does.
+class Subspace {
+ public:
+  Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,
+           double shift, int size)
+      : k_(k), mass_(mass), fixed_(fixed), shift_(shift), solver_(SparseMatrix(k + shift * mass), fixed) {
+    std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    x_.resize(k.rows(), size);
+    for (Eigen::Index j = 0; j < x_.cols(); ++j)
+      for (Eigen::Index i = 0; i < x_.rows(); ++i) x_(i, j) = uniform(random);
+  }
+
+  /// False: the matrices do not allow it.
+  bool iterate() {
+    for (Eigen::Index j = 0; j < x_.cols(); ++j) x_.col(j) = solver_.solve(mass_ * x_.col(j));
+    x_ = orthonormal(x_);
+    const Eigen::MatrixXd kx = k_ * x_, mx = mass_ * x_;
+    const EigenPairs pairs = generalized_eigen(x_.transpose() * mx, x_.transpose() * (kx + shift_ * mx));
+    if (pairs.values.size() < x_.cols()) return false;
+    values_ = pairs.values;
+    x_ = (x_ * pairs.vectors).eval();
+    return true;
+  }
+  /// 1 / (omega^2 + shift), ascending: the lowest frequencies last.
+  [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
+  /// The motions, in the same order.
+  [[nodiscard]] const Eigen::MatrixXd& motions() const { return x_; }
+  /// The `wanted` lowest omega^2, the lowest last.
+  [[nodiscard]] Eigen::VectorXd squares(Eigen::Index wanted) const {
+    return (values_.tail(wanted).cwiseInverse().array() - shift_).matrix();
+  }
+  /// Rounding of omega^2 of the lowest motion.
+  [[nodiscard]] double noise() const {
+    const Vector lowest = x_.col(x_.cols() - 1);
+    return std::numeric_limits<double>::epsilon() * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
+  }
+  /// Moves the shift to just below the lowest omega^2, by about what the wanted ones lie apart.
+  void approach(Eigen::Index wanted) {
+    const Eigen::VectorXd found = squares(wanted);
+    const double lowest = found[wanted - 1];
+    double gap = std::max(found[0] - lowest, 1e4 * noise());
+    for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
+      HeldStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
+      if (!closer.definite()) continue;  // Ritz values are too high by more than the gap
+      shift_ = gap - lowest;
+      solver_ = std::move(closer);
+      return;
+    }
+  }
+
+ private:
+  const SparseMatrix &k_, &mass_;
+  const std::vector<Combination>& fixed_;
+  double shift_;
+  HeldStructure solver_;
+  Eigen::MatrixXd x_;
+  Eigen::VectorXd values_;
+};
+
 int degrees_with_mass(const SparseMatrix& mass) {
   return static_cast<int>((mass.diagonal().array() > 0.0).count());
 }
@@ -119,30 +182,24 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
   if (result.free_motions > 0)
     for (int i = 0; i < n; ++i)
       if (mass.coeff(i, i) > 0.0) shift = std::max(shift, 1e-8 * k.coeff(i, i) / mass.coeff(i, i));
-  const HeldStructure solver(SparseMatrix(k + shift * mass), fixed);
-  std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Eigen::MatrixXd x(n, size);
-  for (int j = 0; j < size; ++j)
-    for (int i = 0; i < n; ++i) x(i, j) = uniform(random);
-
+  Subspace space(k, mass, fixed, shift, size);
   const int wanted = std::min(size, result.free_motions + count);
+  const bool approaches = result.free_motions == 0;
   Eigen::VectorXd before = Eigen::VectorXd::Zero(wanted);
-  EigenPairs pairs;
-  for (int round = 0; round < 200; ++round) {
-    Eigen::MatrixXd y(n, size);
-    for (int j = 0; j < size; ++j) y.col(j) = solver.solve(mass * x.col(j));
-    x = orthonormal(y);
-    const Eigen::MatrixXd kx = k * x, mx = mass * x;
-    pairs = generalized_eigen(x.transpose() * mx, x.transpose() * (kx + shift * mx));
-    if (pairs.values.size() < size) return result;
-    const Eigen::VectorXd now = pairs.values.tail(wanted);
-    const bool settled = (now - before).cwiseAbs().maxCoeff() <= 1e-12 * now.cwiseAbs().maxCoeff() &&
-                         ((now - before).cwiseAbs().array() <= 1e-9 * now.array()).all();
-    x = (x * pairs.vectors).eval();
-    if (settled) break;
+  for (int round = 1; round <= 200; ++round) {
+    if (!space.iterate()) return result;
+    const Eigen::VectorXd now = approaches ? space.squares(wanted) : space.values().tail(wanted);
+    const Eigen::ArrayXd change = (now - before).cwiseAbs().array();
     before = now;
+    if (approaches) {
+      if ((change <= 1e-11 * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
+      if (round % 4 == 0) space.approach(std::min(size, std::max(wanted, 5)));
+    } else if (change.maxCoeff() <= 1e-12 * now.cwiseAbs().maxCoeff() &&
+               (change <= 1e-9 * now.array()).all()) {
+      break;
+    }
   }
+  const Eigen::MatrixXd& x = space.motions();
   for (int j = size - 1 - result.free_motions; j >= size - wanted; --j) {
     const Eigen::VectorXd shape = x.col(j);
     const double omega_squared = shape.dot(k * shape) / shape.dot(mass * shape);

@@ -17,6 +17,9 @@ class HeldStructure {
   HeldStructure(const SparseMatrix& k, const std::vector<Combination>& fixed);
 
   [[nodiscard]] Vector solve(const Vector& b) const;
+  /// True: K with the springs along T is positive definite, and so is K on the motions that respect T^T u =
+  /// 0.
+  [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
 
  private:
   SymmetricSolver solver_;

@@ -55,14 +55,16 @@ void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section,
 }  // namespace
 
 int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place, const std::string& key) {
-  for (int i = 0; i < mesh.named; ++i)
-    if (mesh.nodes[static_cast<std::size_t>(i)].name == name) return i;
+  if (const auto found = mesh.by_name.find(name); found != mesh.by_name.end()) return found->second;
   throw SceneError(place, key, fmt::format("no node is named '{}'", name));
 }
 
 Mesh make_mesh(const Scene& scene) {
   Mesh mesh;
-  for (const Node& node : scene.nodes) mesh.nodes.push_back({node.name, node.x, node.y});
+  for (const Node& node : scene.nodes) {
+    mesh.by_name.emplace(node.name, static_cast<int>(mesh.nodes.size()));
+    mesh.nodes.push_back({node.name, node.x, node.y});
+  }
   mesh.named = static_cast<int>(mesh.nodes.size());
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const Member& member = scene.members[i];

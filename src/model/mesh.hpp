@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "signorini/scene.hpp"
@@ -27,7 +28,8 @@ struct MeshElement {
 struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<MeshElement> elements;
-  int named = 0;  ///< the first `named` nodes are those of the file
+  int named = 0;                                 ///< the first `named` nodes are those of the file
+  std::unordered_map<std::string, int> by_name;  ///< of the named ones
 };
 
 [[nodiscard]] Mesh make_mesh(const Scene& scene);

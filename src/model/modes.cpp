@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "model/eigen_dense.hpp"
+#include "model/frequencies.hpp"
+#include "model/held.hpp"
 #include "model/lanczos.hpp"
 #include "model/null_motions.hpp"
 #include "model/static_system.hpp"
@@ -67,41 +69,11 @@ double lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::
   return 1.0 / std::sqrt(mu[mu.size() - 1]);
 }
 
-/// x -> F^T S F x with M = F F^T on the degrees of freedom with mass, S = K^-1 on the motions that
-/// respect T^T u = 0. K is made regular by springs along T, which do not change S.
-double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k0,
-                     const std::vector<Combination>& fixed) {
-  const auto n = static_cast<int>(k0.rows());
-  std::vector<LineSpring> springs;
-  for (const Combination& t : fixed) springs.push_back({t, own_stiffness(k0, t)});
-  const SparseMatrix k = with_springs(k0, springs);
-  if (null_motions(k).cols() > 0) return 0.0;
-  const SymmetricSolver solver(k);
-  const Eigen::MatrixXd t = columns(fixed, n);
-  Eigen::MatrixXd kt(n, t.cols());
-  for (Eigen::Index j = 0; j < t.cols(); ++j) kt.col(j) = solver.solve(t.col(j));
-  const Eigen::MatrixXd g = t.transpose() * kt;
-  const Eigen::MatrixXd correction =
-      t.cols() == 0 ? kt
-                    : Eigen::MatrixXd(kt * solve_dense(g, Eigen::MatrixXd::Identity(t.cols(), t.cols())));
-
-  const Split s = split(mass);
-  const CholeskyFactor factor(part(mass, s.heavy, s.heavy, s.heavies, s.heavies));
-  if (!factor.ok()) return 0.0;
-  auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    const Vector fx = factor.times(x);
-    Vector load = Vector::Zero(n);
-    for (int i = 0; i < n; ++i)
-      if (const int h = s.heavy[static_cast<std::size_t>(i)]; h >= 0) load[i] = fx[h];
-    Vector u = solver.solve(load);
-    if (t.cols() > 0) u -= correction * (t.transpose() * u);
-    Vector heavy(s.heavies);
-    for (int i = 0; i < n; ++i)
-      if (const int h = s.heavy[static_cast<std::size_t>(i)]; h >= 0) heavy[h] = u[i];
-    return factor.transposed_times(heavy);
-  };
-  const double mu = greatest_eigenvalue(s.heavies, apply, 1e-12);
-  return mu > 0.0 ? 1.0 / std::sqrt(mu) : 0.0;
+double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+  if (null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
+  const Frequencies lowest =
+      lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, Holding{{}, fixed}, 1);
+  return lowest.modes.empty() ? 0.0 : lowest.modes[0].omega;
 }
 
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 #include "model/contacts.hpp"
 #include "model/dofs.hpp"
@@ -17,10 +18,6 @@
 
 namespace signorini::checks {
 namespace {
-
-const Node& node_of(const Scene& scene, const std::string& name) {
-  return *std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) { return n.name == name; });
-}
 
 double mass_per_length(const Scene& scene, const std::string& section) {
   return std::find_if(scene.sections.begin(), scene.sections.end(),
@@ -102,6 +99,8 @@ std::string unstable_motion(const Scene& scene, const Model& model,
 MassFacts mass_of(const Scene& scene, const Model& model) {
   MassFacts facts;
   double mx = 0.0, my = 0.0;
+  std::unordered_map<std::string, const Node*> nodes;
+  for (const Node& node : scene.nodes) nodes.emplace(node.name, &node);
   const auto add = [&](double mass, double x, double y) {
     facts.total += mass;
     mx += mass * x;
@@ -109,12 +108,12 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
   };
   for (const Member& member : scene.members)
     for (std::size_t i = 0; i + 1 < member.nodes.size(); ++i) {
-      const Node &a = node_of(scene, member.nodes[i]), &b = node_of(scene, member.nodes[i + 1]);
+      const Node &a = *nodes.at(member.nodes[i]), &b = *nodes.at(member.nodes[i + 1]);
       add(mass_per_length(scene, member.section) * std::hypot(b.x - a.x, b.y - a.y), 0.5 * (a.x + b.x),
           0.5 * (a.y + b.y));
     }
   for (const PointMass& point : scene.masses) {
-    const Node& node = node_of(scene, point.node);
+    const Node& node = *nodes.at(point.node);
     add(point.mass, node.x, node.y);
   }
   if (facts.total > 0.0) facts.x = mx / facts.total, facts.y = my / facts.total;

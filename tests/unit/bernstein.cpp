@@ -86,4 +86,44 @@ TEST_CASE("the polynomial through unequal steps is exact for its degree") {
   CHECK(history.integral(0) == doctest::Approx(0.4 * p.integral(1.0)).epsilon(1e-13));
 }
 
+TEST_CASE("weights that are kept while steps are equal change with the steps") {
+  const auto f = [](double t) { return std::pow(t - 0.7, 3); };
+  StepHistory history(1);
+  *history.restart(0.0) = f(0.0);
+  double t = 0.0;
+  for (double h : {0.1, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05, 0.05, 0.05, 0.05}) {
+    t += h;
+    *history.push(t, h) = f(t);
+    history.prepare(3);
+    if (t < 0.35) continue;  // fewer than four values
+    const Bernstein p = history.polynomial(0);
+    CHECK(p.value(0.4) == doctest::Approx(f(t - 0.6 * h)).epsilon(1e-11));
+    CHECK(history.integral(0) == doctest::Approx((std::pow(t - 0.7, 4) - std::pow(t - h - 0.7, 4)) / 4.0));
+  }
+}
+
+TEST_CASE("a quick proof is never wrong, and holds where little changes") {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int proofs = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    StepHistory history(1);
+    double t = 0.0;
+    const double spread = std::pow(10.0, -4.0 * uniform(random));
+    *history.restart(t) = 1.0;
+    for (int i = 0; i < 6; ++i) {
+      const double h = 0.1 + 0.2 * uniform(random);
+      t += h;
+      *history.push(t, h) = 1.0 + spread * (2.0 * uniform(random) - 1.0);
+    }
+    history.prepare(5);
+    if (!history.clearly_positive(0)) continue;
+    ++proofs;
+    const Bernstein p = history.polynomial(0);
+    for (int i = 0; i <= 50; ++i) CHECK(p.value(i / 50.0) > 0.0);
+  }
+  CHECK(proofs > 500);
+  CHECK(proofs < 2000);
+}
+
 TEST_SUITE_END();

@@ -1,0 +1,183 @@
+// Kernels, by Google Benchmark: each alone, warm, at several sizes. Argument: degrees of freedom of the
+// bedded pipe (scenes.hpp); 51 is models/pipeline.toml.
+//
+//   build/release/signorini_kernels --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+
+#include "engine/bernstein.hpp"
+#include "engine/decide.hpp"
+#include "engine/momentum.hpp"
+#include "engine/newmark_step.hpp"
+#include "engine/step_history.hpp"
+#include "engine/system_matrix.hpp"
+#include "floor.hpp"
+#include "scenes.hpp"
+#include "signorini/simulate.hpp"
+
+namespace {
+
+using namespace signorini;
+using benchmark::DoNotOptimize;
+using benchmark::State;
+
+/// Models are dear to build and shared.
+const Model& model_of(long n) {
+  static std::map<long, Model> models;
+  const auto known = models.find(n);
+  if (known != models.end()) return known->second;
+  return models[n] =
+             build_model(n == 51 ? read_scene(SIGNORINI_MODELS "/pipeline.toml")
+                                 : parse_scene(benchmarks::bedded_pipe(static_cast<int>(n), 2, 1.0), "pipe"));
+}
+
+/// All that stands behind an engine, in the states at t = 0.
+struct Bench {
+  explicit Bench(long n)
+      : model(model_of(n)),
+        structure(model),
+        expander(model, structure),
+        forcing(model, 0.0, Side::after),
+        mode(first_mode(model, forcing, 0.0, model.u0, model.v0)) {}
+  const Model& model;
+  Structure structure;
+  Expander expander;
+  Forcing forcing;
+  Mode mode;
+};
+
+std::vector<Weights> bdf_weights(const Model& model, double cj) {
+  return {static_cast<std::size_t>(model.size()), Weights{cj, 1.0, 1.0 / cj}};
+}
+
+void ida_floor(State& state) {
+  const Model& model = model_of(state.range(0));
+  const auto contacts = static_cast<int>(model.contacts.size());
+  benchmarks::Floor floor(2 * model.size() + 2 * contacts, 3 * contacts, 1e-6, state.range(1) != 0);
+  floor.steps(100);
+  for (auto _ : state) floor.steps(1);
+  state.counters["order"] = floor.order();
+}
+
+void momentum(State& state) {
+  const Bench b(state.range(0));
+  Momentum product(b.model, b.structure);
+  std::vector<double> r(static_cast<std::size_t>(b.model.size()));
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < r.size(); ++i)
+      product.put(i, 1.0, 0.1, b.model.u0[static_cast<Eigen::Index>(i)]);
+    product.apply(r.data());
+    DoNotOptimize(r.data());
+  }
+}
+
+void damping_power(State& state) {
+  const Bench b(state.range(0));
+  const Vector v = Vector::Ones(b.model.size());
+  for (auto _ : state) DoNotOptimize(b.structure.damping_power(v.data()));
+}
+
+void factor(State& state) {
+  const Bench b(state.range(0));
+  SystemMatrix matrix(b.model, b.structure);
+  const auto rows = rows_of(b.model, b.mode);
+  const auto weights = bdf_weights(b.model, 1e6);
+  for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, true));
+}
+
+void refactor(State& state) {
+  const Bench b(state.range(0));
+  SystemMatrix matrix(b.model, b.structure);
+  const auto rows = rows_of(b.model, b.mode);
+  const auto weights = bdf_weights(b.model, 1e6);
+  matrix.set(rows, weights, true);
+  for (auto _ : state) DoNotOptimize(matrix.set(rows, weights, false));
+}
+
+void solve(State& state) {
+  const Bench b(state.range(0));
+  SystemMatrix matrix(b.model, b.structure);
+  matrix.set(rows_of(b.model, b.mode), bdf_weights(b.model, 1e6), true);
+  std::vector<double> x(static_cast<std::size_t>(matrix.size()), 1.0), y = x;
+  for (auto _ : state) {
+    y = x;
+    matrix.solve(y.data());
+    DoNotOptimize(y.data());
+  }
+}
+
+/// Taylor coefficients of one step of engine `exact`, 30 levels.
+void taylor(State& state) {
+  Bench b(state.range(0));
+  Taylor& series = b.expander.taylor();
+  if (!series.set(b.mode)) return state.SkipWithError("singular");
+  Series out;
+  for (auto _ : state) {
+    series.expand(b.forcing, 0.0, b.model.u0, b.model.v0, 30, 3.0 / b.model.omega_max, out);
+    DoNotOptimize(out.u.data());
+  }
+}
+
+void newmark_step(State& state) {
+  Bench b(state.range(0));
+  NewmarkStep step(b.model, b.structure);
+  if (!b.expander.set(b.mode)) return state.SkipWithError("singular");
+  step.set({}, rows_of(b.model, b.mode), b.expander.taylor().kinds());
+  Point from{b.model.u0, b.model.v0, Vector::Zero(2 * static_cast<Eigen::Index>(b.model.contacts.size())),
+             Vector::Zero(b.model.size())};
+  Point to;
+  if (!step.take(b.forcing, from, 1e-5, 1e-5, true, to)) return state.SkipWithError("singular");
+  for (auto _ : state) DoNotOptimize(step.take(b.forcing, from, 1e-5, 1e-5, true, to));
+}
+
+/// The states at an instant, with all that a restart needs but the integrator's own.
+void decide(State& state) {
+  Bench b(state.range(0));
+  Decider decider(b.model, b.expander, 1000, 0.0);
+  for (auto _ : state) {
+    Instant instant;
+    instant.u = b.model.u0;
+    instant.v = b.model.v0;
+    instant.resolution = 1e-15;
+    instant.start = true;
+    instant.mode = b.mode;
+    DoNotOptimize(decider.decide(std::move(instant), b.forcing, b.forcing));
+  }
+}
+
+/// One guard's check at the end of a step: quick proof (0), Bernstein coefficients (1).
+void guard_polynomial(State& state) {
+  StepHistory history(1);
+  *history.restart(0.0) = 1.0;
+  for (int i = 1; i <= 8; ++i) {
+    *history.push(0.1 * i, 0.1) = 1.0 + 0.01 * std::sin(i);
+    history.prepare(5);
+  }
+  for (auto _ : state) {
+    if (state.range(0) == 0)
+      DoNotOptimize(history.clearly_positive(0));
+    else
+      DoNotOptimize(history.polynomial(0).positive());
+  }
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  for (const int n : {51, 1000, 10000, 100000}) b->Arg(n);
+}
+
+BENCHMARK(ida_floor)->ArgsProduct({{51, 1000, 10000, 100000}, {0, 1}});
+BENCHMARK(momentum)->Apply(sizes);
+BENCHMARK(damping_power)->Apply(sizes);
+BENCHMARK(solve)->Apply(sizes);
+BENCHMARK(refactor)->Apply(sizes);
+BENCHMARK(factor)->Apply(sizes);
+BENCHMARK(taylor)->Apply(sizes);
+BENCHMARK(newmark_step)->Apply(sizes);
+BENCHMARK(decide)->Apply(sizes);
+BENCHMARK(guard_polynomial)->Arg(0)->Arg(1);
+
+}  // namespace
+
+BENCHMARK_MAIN();

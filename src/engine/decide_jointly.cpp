@@ -141,7 +141,10 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
+  const Vector moving = instant.v;
   settle_resting(instant, after, touching, participants);
+  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
+  decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
   for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     if (contact.law != Law::slider || !contact.sticks_rigidly() || !decision.visited[c]) continue;

@@ -133,7 +133,7 @@ void IdaEngine::integrate(double from, double to, Works& works) {
     if (a == 0.0 && b == 1.0) {
       integrals_[i] = history_.integral(offset + i);
     } else {
-      const Bernstein p = history_.polynomial(offset + i);
+      const Bernstein p = history_.power(offset + i);
       integrals_[i] = h * (p.integral(b) - (a > 0.0 ? p.integral(a) : 0.0));
     }
   }

@@ -1,0 +1,21 @@
+// generator.hpp: a scene from a seed, as the text of its file.
+//
+//   family    what is drawn
+//   matrices  M diagonal or full, K of any rank, C = alpha M + beta K; forms of contacts at random, or floors
+//   chain     masses between springs, sliders under them, stops between them and at the end
+//   frame     beams on supports and contacts, under gravity from static equilibrium, or thrown
+//   block     a mass between a floor and a wall, on springs; the ground or the floor may move
+//
+//   const Scene scene = parse_scene(draw_scene(7), "seed-7.toml");
+//
+// Units are N, kg, m, s. The same seed means the same text on every machine.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace signorini::differential {
+
+[[nodiscard]] std::string draw_scene(std::uint64_t seed);
+
+}  // namespace signorini::differential

@@ -1,0 +1,19 @@
+// neighbour.hpp: the same scene, disturbed as much as an engine's error may disturb it.
+//
+//   M u'' + C u' + K u = P(t) + d(t) - ...,   d_i = delta M_ii w_i v_i cos(w_i t + phi_i),   gap += delta u r
+//
+// v_i, u: scale plus greatest value (Weights), w_i at random between the length of the run and the highest
+// frequency, r in [-1, 1] for contacts that start open. Each disturbance changes v_i by about delta of its
+// size, again and again over the run, as local errors do. Laws, states and closed gaps stay as they are.
+#pragma once
+
+#include <cstdint>
+
+#include "differential/deviation.hpp"
+
+namespace signorini::differential {
+
+[[nodiscard]] Model neighbour(const Model& model, const Weights& weights, double delta, double t_end,
+                              std::uint64_t seed);
+
+}  // namespace signorini::differential

@@ -1,0 +1,33 @@
+// promise.hpp: what an engine may be off, and whether it was.
+//
+//   |other - reference|(t)  <=  spread(t) + delta       u, v, forces, relative
+//   |t_other - t_reference| <=  spread + blur (t_uncertainty of both) + 1e-10 t_end      events
+//   a split of the sequences only where members of the spread split, or did before, or where events are
+//   closer to each other than `resolution` of their own t_uncertainty
+//
+// `spread` is the deviation of solutions that differ by as much error as the engine may have made.
+#pragma once
+
+#include "differential/deviation.hpp"
+
+namespace signorini::differential {
+
+struct Promise {
+  Deviation spread;
+  double factor = 1.0;  ///< of the spread
+  double delta = 0.0;   ///< accumulated local error, relative
+  double blur = 1.0;    ///< how many local errors an event's guard may be off
+  double resolution = 0.0;
+  double t_end = 0.0;
+};
+
+struct Finding {
+  bool kept = true;
+  bool unresolved = false;  ///< the sequences part, and only the events' own uncertainty explains it
+  double worst = 0.0;       ///< greatest deviation in units of what is allowed, before any split
+  std::string what;         ///< the worst, or the split that nothing explains
+};
+
+[[nodiscard]] Finding check(const Deviation& deviation, const Promise& promise);
+
+}  // namespace signorini::differential

@@ -1,0 +1,73 @@
+#include "differential/track.hpp"
+
+#include <cctype>
+#include <chrono>
+
+namespace signorini::differential {
+namespace {
+
+/// Keeps a run's rows until its time is up.
+class Bounded : public Result {
+ public:
+  explicit Bounded(double seconds)
+      : end_(std::chrono::steady_clock::now() +
+             std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                 std::chrono::duration<double>(seconds))) {}
+  bool progress(double /*t*/) override { return std::chrono::steady_clock::now() < end_; }
+
+ private:
+  std::chrono::steady_clock::time_point end_;
+};
+
+LoggedEvent logged(const Event& event, const Model& model) {
+  LoggedEvent row;
+  row.t = event.t;
+  row.type = to_string(event.type);
+  row.from = to_string(event.from);
+  row.to = to_string(event.to);
+  row.uncertainty = event.t_uncertainty.value_or(0.0);
+  if (event.contact >= 0) row.contact = model.contacts[static_cast<std::size_t>(event.contact)].name;
+  return row;
+}
+
+}  // namespace
+
+std::string reason_class(const std::string& sentence) {
+  std::string kept;
+  bool quoted = false;
+  for (const char c : sentence) {
+    if (c == '\'') quoted = !quoted;
+    if (quoted || c == '\'' || std::isdigit(static_cast<unsigned char>(c)) != 0) continue;
+    if (c == '(' || c == ':' || c == ';') break;
+    kept += c;
+  }
+  while (!kept.empty() && kept.back() == ' ') kept.pop_back();
+  return kept;
+}
+
+Track run(const Model& model, const RunSpec& spec, double seconds) {
+  Track track;
+  Bounded rows(seconds);
+  try {
+    track.report = simulate(model, spec, rows);
+  } catch (const SceneError& error) {
+    track.end = Track::End::refused;
+    track.said = error.what();
+    track.reason = "refused";
+    return track;
+  }
+  const Outcome& outcome = track.report.outcome;
+  track.t = outcome.t;
+  track.said = outcome.reason;
+  track.reason = reason_class(outcome.reason);
+  for (const Event& event : rows.events) track.events.push_back(logged(event, model));
+  track.rows = std::move(rows.rows);
+  if (outcome.kind == Outcome::Kind::interrupted) track.end = Track::End::too_long;
+  if (outcome.kind == Outcome::Kind::stopped) {
+    track.end = Track::End::stopped;
+    track.events.push_back({outcome.t, "(run)", track.reason, "", "", 0.0});
+  }
+  return track;
+}
+
+}  // namespace signorini::differential

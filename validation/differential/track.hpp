@@ -1,0 +1,35 @@
+// track.hpp: one run, as far as it is compared with others.
+//
+//   Track t = run(model, spec, 5.0);        t.events end with the run's own stop, if it stopped early
+//
+// A stop counts as one more event, of the contact "(run)" and with its reason as type: engines must stop at
+// the same place for the same reason, and that is checked like any event.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "signorini/result.hpp"
+#include "signorini/simulate.hpp"
+#include "study/alignment.hpp"
+
+namespace signorini::differential {
+
+struct Track {
+  enum class End { done, stopped, refused, too_long };
+  End end = End::done;
+  std::string reason;  ///< without names and numbers, as stops of different runs are compared; empty: done
+  std::string said;    ///< the whole sentence
+  double t = 0.0;      ///< reached
+  std::vector<LoggedEvent> events;
+  std::vector<Result::Row> rows;
+  Report report;
+};
+
+/// Never throws for what the engine refuses. After `seconds` on the clock the run is given up: too_long.
+[[nodiscard]] Track run(const Model& model, const RunSpec& spec, double seconds);
+
+/// A refusal or a stop without its numbers, names in quotes, and what follows the first of ( : ;
+[[nodiscard]] std::string reason_class(const std::string& sentence);
+
+}  // namespace signorini::differential

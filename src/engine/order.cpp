@@ -2,6 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace signorini {
 namespace {
 
@@ -10,20 +14,46 @@ namespace {
 // most; at tighter ones order 5 resolves those modes and needs a third to a ninth (benchmarks/README.md).
 constexpr double loose = 1e-4;
 
+/// Angle of the sector around the negative real axis in which the formula is stable, degrees.
+struct Stability {
+  int order;
+  double angle;
+};
+constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
+
 }  // namespace
 
-void choose_order(const RunSpec& run, Settings& settings) {
+double least_damping_ratio(const Model& model) {
+  if (!(model.omega1 > 0.0) || !(model.omega_max > 0.0)) return 0.0;
+  double beta = model.beta;
+  for (const Contact& contact : model.contacts)
+    if (contact.normal_stiffness > 0.0 || contact.tangential_stiffness) beta = 0.0;
+  const auto ratio = [&](double omega) { return 0.5 * (model.alpha / omega + beta * omega); };
+  const double least = beta > 0.0 ? std::sqrt(model.alpha / beta) : model.omega_max;
+  return ratio(std::clamp(least, std::min(model.omega1, model.omega_max), model.omega_max));
+}
+
+void choose_order(const Model& model, const RunSpec& run, Settings& settings) {
   if (run.max_order) {
     settings.max_order = *run.max_order;
     settings.max_order_reason = "as given";
-  } else if (run.rtol > loose) {
-    settings.max_order = 2;
-    settings.max_order_reason =
-        fmt::format("auto: above rtol {} orders above 2 may let undamped modes grow", loose);
-  } else {
+    return;
+  }
+  if (run.rtol <= loose) {
     settings.max_order = 5;
     settings.max_order_reason = "auto: the tolerance resolves the modes; orders 3 and 4 are passed quickly";
+    return;
   }
+  const double ratio = least_damping_ratio(model);
+  settings.max_order = 2;
+  for (const Stability& s : stability) {
+    if (ratio < std::cos(s.angle * std::numbers::pi / 180.0)) continue;
+    settings.max_order = s.order;
+    break;
+  }
+  settings.max_order_reason = fmt::format(
+      "auto: above rtol {} the greatest order that is stable for every mode; least damping ratio {:.2g}",
+      loose, ratio);
 }
 
 }  // namespace signorini

@@ -77,7 +77,7 @@ class Run {
       name_fixed_steps(spec, report_.settings);
       stepper_ = std::make_unique<FrictionIteration>(model, structure_, expander_, spec);
     } else {
-      choose_order(spec, report_.settings);
+      choose_order(model, spec, report_.settings);
       stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings, spec.t_end);
     }
   }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include "engine/order.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -51,4 +52,34 @@ TEST_CASE("engine auto: exact unless decay is faster than oscillation or a law i
         "ida auto: a ");
   CHECK(computed_by(oscillator(1e3, "engine = \"exact\"")) == "exact as given");
   CHECK(computed_by(oscillator(0.0, "engine = \"ida\"")) == "ida as given");
+}
+
+TEST_CASE("max_order auto: below rtol 1e-4 always 5; above, what is stable for the least damped mode") {
+  Model model;
+  model.omega1 = 10.0;
+  model.omega_max = 1000.0;
+  RunSpec run;
+  Settings settings;
+  const auto order = [&](double rtol, double alpha, double beta) {
+    run.rtol = rtol;
+    model.alpha = alpha;
+    model.beta = beta;
+    choose_order(model, run, settings);
+    return settings.max_order;
+  };
+  CHECK(order(1e-4, 0.0, 0.0) == 5);
+  CHECK(order(1e-3, 0.0, 0.0) == 2);
+  CHECK(order(1e-3, 0.0, 2.0 * 0.0694 / 10.0) == 3);  // zeta of omega1, the least
+  CHECK(order(1e-3, 0.0, 2.0 * 0.0690 / 10.0) == 2);
+  CHECK(order(1e-3, 0.0, 2.0 * 0.2870 / 10.0) == 4);
+  CHECK(order(1e-3, 0.0, 2.0 * 0.6180 / 10.0) == 5);
+  CHECK(order(1e-3, 2.0 * 0.6180 * 1000.0, 0.0) == 5);  // zeta of omega_max, the least
+  CHECK(least_damping_ratio(model) == doctest::Approx(0.618));
+  model.alpha = 10.0;
+  model.beta = 1e-3;  // least between: sqrt(alpha beta)
+  CHECK(least_damping_ratio(model) == doctest::Approx(0.1));
+  Contact spring;
+  spring.normal_stiffness = 1.0;
+  model.contacts = {spring};  // which beta K does not damp
+  CHECK(least_damping_ratio(model) == doctest::Approx(0.005));
 }

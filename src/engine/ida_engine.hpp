@@ -35,6 +35,7 @@ class IdaEngine final : public Stepper {
     double time;
   };
   void fill(double t, const Point& point, double* out);
+  [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
 
   const Model& model_;
@@ -45,9 +46,6 @@ class IdaEngine final : public Stepper {
   StepHistory history_;
   Watch watch_;
   ShortFlight flights_;
-  // Below the mean of tolerance and scale half of a height's digits are gone: lower flights are left to the
-  // series (04a at rtol 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
-  double lowest_flight_ = 0.0;
   std::optional<Step> flight_;  // the step that a short flight has taken
   Segment segment_;
   Point point_;

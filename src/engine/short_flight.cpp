@@ -20,7 +20,8 @@ ShortFlight::ShortFlight(const Model& model, const Structure& structure, const E
                          double t_end)
     : model_(model), series_(std::make_unique<ExactEngine>(model, structure, expander, t_end)) {}
 
-std::optional<Step> ShortFlight::take(const Segment& segment, double level) {
+std::optional<Step> ShortFlight::take(const Segment& segment,
+                                      const std::function<double(const Contact&)>& level) {
   const Decision& decision = *segment.decision;
   const auto leaves = [&](std::size_t slot) {
     const GuardStart& guard = decision.guards[slot];
@@ -37,10 +38,11 @@ std::optional<Step> ShortFlight::take(const Segment& segment, double level) {
     const std::size_t slot = guards_per_contact * fired.contact;
     if (!leaves(slot)) return std::nullopt;
     const Contact& contact = model_.contacts[fired.contact];
+    const double lowest = level(contact);
     Point point;
     for (int i = 1; i < looks; ++i) {
       series_->evaluate(step.begin + (step.end - step.begin) * i / looks, point);
-      if (contact.gap + contact.normal.dot(point.u) > level) return std::nullopt;
+      if (contact.gap + contact.normal.dot(point.u) > lowest) return std::nullopt;
     }
   }
   return step;

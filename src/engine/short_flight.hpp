@@ -7,6 +7,7 @@
 // Without it a ball at the end of its bounces falls through the floor by a tolerance, and further.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "engine/exact_engine.hpp"
@@ -17,9 +18,10 @@ class ShortFlight {
  public:
   ShortFlight(const Model& model, const Structure& structure, const Expander& expander, double t_end);
 
-  /// The step to the hit, if the segment begins with such a flight. level: gap from which on the integrator
-  /// sees it by itself.
-  [[nodiscard]] std::optional<Step> take(const Segment& segment, double level);
+  /// The step to the hit, if the segment begins with such a flight. level: gap of a contact from which on the
+  /// integrator sees it by itself.
+  [[nodiscard]] std::optional<Step> take(const Segment& segment,
+                                         const std::function<double(const Contact&)>& level);
   /// The motion and the works on the step that was taken.
   [[nodiscard]] ExactEngine& motion() { return *series_; }
 

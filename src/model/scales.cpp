@@ -152,6 +152,8 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
+  // What starts with a velocity moves at least as far as the fastest oscillation would take it.
+  if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
   if (!usable(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))

@@ -111,8 +111,8 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
                          fmt::format("$2 == 1 ? ({}) : NaN):3 with linespoints linewidth 2 pointtype {} "
                                      "pointsize 0.9 linecolor '{}' title {}",
                                      x, symbols[k % symbols.size()], colour, quoted(lines[k].label)));
-      elements.push_back(data + fmt::format("$2 == 0 ? ({}) : NaN):3 with points pointtype {} pointsize 0.9 "
-                                            "linewidth 1.5 linecolor '{}' notitle",
+      elements.push_back(data + fmt::format("$2 == 0 ? ({}) : NaN):3 with points pointtype {} pointsize 1.4 "
+                                            "linewidth 1.1 linecolor '{}' notitle",
                                             x, symbols[k % symbols.size()] - 1, colour));
     }
     s += plot_command(elements);

@@ -169,8 +169,7 @@ class Judge {
     promise.t_end = scene_.run.t_end;
     const Deviation found = deviation(reference_, track, weights_, scene_.run.t_end);
     add(name, track, found, settle(found, promise, promise.delta));
-    if (rtol == settings_.tight)
-      check_audit(track, name, settings_.margin * rtol, std::max(1e-6, promise.delta));
+    if (rtol == settings_.tight) check_audit(track, name, promise.delta, std::max(1e-6, promise.delta));
   }
 
   bool refused(const std::string& name, const Track& track) {

@@ -30,7 +30,7 @@ enum class Verdict { agree, stopped, unresolved, ill_conditioned, refused, too_l
 struct JudgeSettings {
   double seconds = 2.0;         ///< a run may take
   double scene_seconds = 20.0;  ///< all runs of a scene; then it is too long
-  double margin = 20.0;         ///< of delta
+  double margin = 5.0;          ///< of delta: a step may be off by rtol, five times what it should spend
   int directions = 3;           ///< neighbours at first
   int more = 15;                ///< and as many in all before a disagreement is stated
   int halvings = 5;             ///< of newmark's step before the same

@@ -35,9 +35,12 @@ Model neighbour(const Model& model, const Weights& weights, double delta, double
     const double omega = slowest * std::pow(fastest / slowest, draw.real(0.0, 1.0));
     const double phase = draw.real(0.0, 2.0 * std::numbers::pi);
     const double mass = model.mass.coeff(i, i);
-    if (mass > 0.0)
-      near.loads.push_back(
-          disturbance(i, delta * mass * weights.v[static_cast<std::size_t>(i)] * omega, omega, phase));
+    if (!(mass > 0.0)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    near.loads.push_back(disturbance(i, delta * mass * weights.v[k] * omega, omega, phase));
+    const double slow_phase = draw.real(0.0, 2.0 * std::numbers::pi);
+    near.loads.push_back(
+        disturbance(i, delta * mass * weights.u[k] * slowest * slowest, slowest, slow_phase));
   }
   for (Contact& contact : near.contacts) {
     const double share = draw.real(-1.0, 1.0);

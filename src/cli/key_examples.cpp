@@ -28,7 +28,9 @@ Events are found to full accuracy whatever `output_dt` is: it only says which ro
 always one of them.
 
 `engine = "exact"` follows the closed form of the motion between events, to rounding and whatever `rtol` is; it is
-the quicker one too, except where stiff dampers or a fine mesh bring rates that nothing excites.)"},
+the quicker one too, except where stiff dampers or damping beta K on a fine mesh bring decays that are long over.
+`engine = "auto"` takes it but for those, and for laws that are not linear; `summary.json` says what was taken and
+why.)"},
     {"run.atol", "### `run.atol`",
      R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
 motions matter.)"},

@@ -48,8 +48,8 @@ const OwnedFolder& own_folder() {
   return folder;
 }
 
-void begin(const fs::path& path, bool force) {
-  begin_folder(path, own_folder(), force);
+void begin(const fs::path& path) {
+  begin_folder(path, own_folder());
   begin_comparison_plots(path);
 }
 
@@ -93,7 +93,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
   std::vector<Scene> scenes;
   for (const std::string& engine : options.engines) scenes.push_back(scene_for(options, engine));
   (void)build_model(scenes.front());  // what no engine can run is refused before anything is written
-  begin(path, options.force);
+  begin(path);
   Outcomes outcomes;
   for (const Scene& scene : scenes) {
     run_engine(options, path, scene, command_line, outcomes);
@@ -135,7 +135,7 @@ Outcomes read_directories(const CompareOptions& options, const fs::path& path) {
   for (const std::string& name : names_of(options.sources))
     outcomes.report.runs.push_back(read_compared_run(name, name));
   check_units(outcomes.report);
-  begin(path, options.force);
+  begin(path);
   return outcomes;
 }
 
@@ -178,7 +178,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   const std::vector<Limit> limits = parse_limits(options.limits);
   check_sources(options);
   const fs::path path = output_directory(options);
-  check_folder(path, own_folder(), options.force);
+  check_folder(path, own_folder(), options.force, options.sources.front());
   Outcomes outcomes =
       by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
   if (outcomes.interrupted) {

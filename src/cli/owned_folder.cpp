@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include "result/csv.hpp"
@@ -11,7 +12,17 @@ namespace signorini::cli {
 
 namespace fs = std::filesystem;
 
-void check_folder(const fs::path& path, const OwnedFolder& folder, bool force) {
+namespace {
+
+bool lies_in(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const fs::path outer = fs::weakly_canonical(folder, error), inner = fs::weakly_canonical(file, error);
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+}  // namespace
+
+void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, const std::string& scene) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
@@ -24,10 +35,13 @@ void check_folder(const fs::path& path, const OwnedFolder& folder, bool force) {
     throw FileError(path.string(),
                     fmt::format("is not empty and holds no {} (no {}) that --force could replace",
                                 folder.what, folder.marker));
+  if (lies_in(path, scene))
+    throw FileError(
+        scene,
+        fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));
 }
 
-void begin_folder(const fs::path& path, const OwnedFolder& folder, bool force) {
-  check_folder(path, folder, force);
+void begin_folder(const fs::path& path, const OwnedFolder& folder) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw FileError(path.string(), "cannot be created: " + error.message());
@@ -36,8 +50,12 @@ void begin_folder(const fs::path& path, const OwnedFolder& folder, bool force) {
 }
 
 void leave_folder(const fs::path& path, const OwnedFolder& folder) {
-  std::error_code ignored;
-  for (const fs::path& made : {path / folder.marker, path / "plots", path}) fs::remove(made, ignored);
+  std::error_code error;
+  fs::remove(path / "plots", error);
+  for (const auto& entry : fs::directory_iterator(path, error))
+    if (entry.path().filename() != folder.marker) return;
+  fs::remove(path / folder.marker, error);
+  fs::remove(path, error);
 }
 
 }  // namespace signorini::cli

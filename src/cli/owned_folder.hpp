@@ -16,11 +16,13 @@ struct OwnedFolder {
   std::vector<std::string> files;
 };
 
-/// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours.
-void check_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force);
-/// Checks, creates it, removes our files and writes the marker. Errors: FileError.
-void begin_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force);
-/// Takes back what begin_folder() made, and DIR/plots if it is empty; what else is there stays.
+/// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours; then also if the scene
+/// lies in it, which could be lost.
+void check_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force,
+                  const std::string& scene);
+/// Creates it, removes our files and writes the marker. Errors: FileError.
+void begin_folder(const std::filesystem::path& path, const OwnedFolder& folder);
+/// Takes back what begin_folder() made, and DIR/plots if it is empty. Where more is left the marker stays.
 void leave_folder(const std::filesystem::path& path, const OwnedFolder& folder);
 
 }  // namespace signorini::cli

@@ -45,7 +45,8 @@ void check(const StudyOptions& options) {
     if (std::count(options.engines.begin(), options.engines.end(), engine) > 1)
       throw UsageError("--engines: " + engine + " stands twice");
   for (const std::string& engine : options.engines)
-    if (engine.empty()) throw UsageError("--engines: found an empty name, expected such as exact,ida");
+    if (engine.empty() || engine == "auto")
+      throw UsageError("--engines: found \"" + engine + "\", expected engines by name, such as exact,ida");
   if (options.repeats < 1)
     throw UsageError(fmt::format("--repeats {}: expected at least 1", options.repeats));
   if (!(options.time_limit > 0.0))
@@ -78,7 +79,7 @@ void check_settings(const StudyOptions& options) {
     const std::string option = "--set " + change.path;
     if (colon != std::string::npos && colon < change.path.find('.'))
       refuse_key(option, change.path.substr(colon + 1));
-    else if (change.path == "run.dt")
+    else if (change.path == "run.dt" || change.path == "run.rtol")
       refuse_key(option, change.path);
   }
 }
@@ -148,20 +149,13 @@ void clear_runs(const fs::path& path) {
   std::vector<fs::path> folders;
   for (const auto& entry : fs::directory_iterator(runs, error)) folders.push_back(entry.path());
   for (const fs::path& folder : folders) {
-    if (!fs::exists(folder / "summary.json", error)) continue;
+    const std::string name = folder.filename().string();
+    const bool numbered = name.size() > 4 && name[3] == '-' && name.find_first_not_of("0123456789") == 3;
+    if ((!numbered && name != "again") || !fs::exists(folder / "summary.json", error)) continue;
     remove_run(folder);
     fs::remove(folder, error);  // if that left it empty
   }
   fs::remove(runs, error);
-}
-
-/// A scene among the runs would be removed with them.
-void refuse_scene_inside(const fs::path& path, const std::string& scene) {
-  std::error_code error;
-  const fs::path runs = fs::weakly_canonical(path / "runs", error), file = fs::weakly_canonical(scene, error);
-  const auto [end, rest] = std::mismatch(runs.begin(), runs.end(), file.begin(), file.end());
-  if (end == runs.end())
-    throw FileError(scene, "lies among the runs of " + path.string() + ", which this study would replace");
 }
 
 void run_all(WorkStudy& study, const WorkRequest& request, const Progress& progress) {
@@ -183,7 +177,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   check(options);
   WorkRequest request = request_of(options, command_line);
   const fs::path path = request.directory;
-  check_folder(path, own_folder(), options.force);
+  check_folder(path, own_folder(), options.force, options.scene);
   if (!options.dt) {
     const Scene scene = read_scene(options.scene, settings_for(options, ""));
     request.ranges.dt = usual_steps(scene.run.t_end);
@@ -191,8 +185,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
     request.ranges.dt = parse_decades("--dt", *options.dt);
   }
   WorkStudy work(request);
-  refuse_scene_inside(path, options.scene);
-  begin_folder(path, own_folder(), options.force);
+  begin_folder(path, own_folder());
   clear_runs(path);
   remove_work_plots(path);
   {

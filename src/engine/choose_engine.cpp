@@ -10,6 +10,9 @@
 namespace signorini {
 namespace {
 
+/// Of the fastest oscillation: see choose_engine.hpp.
+constexpr double slow = 0.2;
+
 /// The fastest decay, 1/time: what the diagonals say, dashpots and springs of contacts included.
 double fastest_decay(const Model& model) {
   const Vector m = model.mass.diagonal();
@@ -43,13 +46,13 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   } catch (const SceneError&) {
     return {Engine::ida, "auto: a law or a load of the scene has no closed flow"};
   }
-  const double decay = fastest_decay(model);
-  if (model.omega_max > 0.0 && decay > model.omega_max)
+  const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
+  if (decay > slow * oscillation)
     return {Engine::ida,
-            fmt::format("auto: the fastest decay, {:.3g} per unit of time, is faster than the fastest "
-                        "oscillation, {:.3g}",
-                        decay, model.omega_max)};
-  return {Engine::exact, "auto: the laws are linear, and no decay is faster than the fastest oscillation"};
+            fmt::format("auto: the fastest decay, {:.3g} per unit of time, is not slow beside the "
+                        "fastest oscillation, {:.3g}",
+                        decay, oscillation)};
+  return {Engine::exact, "auto: the laws are linear, and every decay is slow beside the fastest oscillation"};
 }
 
 }  // namespace signorini

@@ -35,7 +35,7 @@ constexpr Key table_of_keys[] = {
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
-    {"run", "engine", choice, "", "\"auto\"", "auto ida exact newmark friction-iteration", "Method of time integration; auto: exact where the laws are linear and no decay is faster than the fastest oscillation, else ida."},
+    {"run", "engine", choice, "", "\"auto\"", "auto ida exact newmark friction-iteration", "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},

@@ -47,7 +47,8 @@ std::string frontier_sentence(const std::vector<WorkRow>& rows, const std::strin
   if (best.empty()) {
     const bool complete =
         std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete(); });
-    const bool timed = std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.wall_time(); });
+    const bool timed =
+        std::any_of(rows.begin(), rows.end(), [](const WorkRow& r) { return r.complete() && r.wall_time(); });
     const char* why = !complete ? "no run reached the end with the reference's events"
                       : !timed  ? "no run was timed"
                                 : "no complete run has an error that means anything";

@@ -44,9 +44,10 @@ std::string heading(const std::string& quantity, const std::string& unit) {
 
 std::string sequence(const WorkRow& row) {
   if (!row.events_of_reference) return "";
-  if (row.split.empty()) return fmt::format("all {}", row.alike);
+  if (row.split.empty() && static_cast<long>(row.alike) == *row.events_of_reference)
+    return fmt::format("all {}", row.alike);
   const long more = *row.events - static_cast<long>(row.alike);
-  if (static_cast<long>(row.alike) == *row.events_of_reference)
+  if (more > 0 && static_cast<long>(row.alike) == *row.events_of_reference)
     return fmt::format("{} and {} more", row.alike, more);
   return fmt::format("{} of {}", row.alike, *row.events_of_reference);
 }
@@ -136,7 +137,7 @@ Json row_json(const WorkRow& row) {
 std::string plain_markdown(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '|' || c == '*' || c == '_' || c == '<' || c == '`') result += '\\';
+    if (std::string_view("|*_<`\\[]").find(c) != std::string_view::npos) result += '\\';
     result += c == '\n' || c == '\r' ? ' ' : c;
   }
   return result;
@@ -158,7 +159,7 @@ std::string markdown_table(const WorkTable& table) {
 std::string study_markdown(const WorkReport& report, bool picture) {
   std::string text = "# " + plain_markdown(report.title.empty() ? report.scene : report.title) + "\n\n";
   text += fmt::format("`{}`: {}.\n{}.\n\n", report.scene, work_circumstances(report), work_reference(report));
-  for (const std::string& sentence : work_conclusions(report)) text += sentence + "\n";
+  for (const std::string& sentence : work_conclusions(report)) text += plain_markdown(sentence) + "\n";
   text += "\n" + markdown_table(work_table(report)) + "\n";
   if (picture) text += "![error and time](plots/work-precision.png)\n\n";
   for (const std::string& note : report.notes) text += "- " + plain_markdown(note) + "\n";

@@ -123,7 +123,8 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
 bool is_picture_of_work(const fs::path& file) {
   const std::string stem = file.stem().string();
   return (is_picture(file) && stem == "work-precision") ||
-         (file.extension() == ".csv" && stem.starts_with("line-"));
+         (file.extension() == ".csv" && stem.starts_with("line-") && stem.size() > 5 &&
+          stem.find_first_not_of("0123456789", 5) == std::string::npos);
 }
 
 }  // namespace

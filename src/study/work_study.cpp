@@ -129,7 +129,10 @@ const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkL
   if (found != recorded_.end()) return found->second;
   const Prepared run = prepare(point);
   Recorded recorded;
-  recorded.directory = request_.directory / "runs" / folder_name(recorded_.size() + 1, point.name());
+  std::size_t number = recorded_.size();
+  do  // a folder that holds what is not ours has been left
+    recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
+  while (fs::exists(recorded.directory));
   const WorkOutcome outcome = record_run(run.scene, run.model, recorded.directory, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
   recorded.too_slow = outcome.too_slow;
@@ -217,6 +220,9 @@ void WorkStudy::take_ranges() {
     for (const Quantity& quantity : quantities(doubt, report_.units))
       if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
   }
+  // Roundoff of the time itself.
+  double& floor = report_.range["event_time"].floor;
+  floor = std::max(floor, std::numeric_limits<double>::epsilon() * report_.compared_until);
   double events = 1.0;
   for (const LoggedEvent& event : reference_.events)
     events += event.type != "time" && event.t <= report_.compared_until ? 1.0 : 0.0;

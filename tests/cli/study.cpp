@@ -139,3 +139,33 @@ TEST_CASE("cli study: an interrupt keeps what was measured") {
   CHECK(study["interrupted"] == true);
   CHECK(study["rows"].size() >= 2);
 }
+
+TEST_CASE("cli study: --force removes neither the scene nor what others put there") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  const std::vector<std::string> line = {"study", "belt.toml", "-o", "d",         "--engines",
+                                         "exact", "--repeats", "1",  "--no-plots"};
+  CHECK(shell.run(line).code == 0);
+  shell.write("d/runs/001-exact/notes.txt", "mine");
+  std::filesystem::create_directory(shell / "d/runs/own");
+  shell.write("d/runs/own/summary.json", "mine");
+  std::vector<std::string> again = line;
+  again.emplace_back("--force");
+  CHECK(shell.run(again).code == 0);
+  CHECK(shell.read("d/runs/001-exact/notes.txt") == "mine");
+  CHECK(shell.read("d/runs/own/summary.json") == "mine");
+  CHECK(exists(shell, "d/runs/002-exact/events.csv"));
+  for (const char* place :
+       {"d/study.md", "d/study.json", "d/plots/line-1.csv", "d/runs/002-exact/run.toml"}) {
+    std::filesystem::create_directories((shell / place).parent_path());
+    shell.write(place, belt(10));
+    again[1] = place;
+    const Ending ending = shell.run(again);
+    CAPTURE(place);
+    CHECK(ending.code == 6);
+    CHECK(has(ending.err, "lies in d"));
+    CHECK(shell.read(place) == belt(10));
+    if (std::string(place) == "d/study.json") std::filesystem::remove(shell / place);
+    shell.write("d/study.json", "{}");
+  }
+}

@@ -46,8 +46,8 @@ TEST_SUITE_BEGIN("unit/choose_engine");
 
 TEST_CASE("engine auto: exact unless decay is faster than oscillation or a law is not linear") {
   CHECK(computed_by(oscillator(0.0, "")) == "exact auto: th");
-  CHECK(computed_by(oscillator(9.9, "engine = \"auto\"")) == "exact auto: th");
-  CHECK(computed_by(oscillator(10.1, "")) == "ida auto: th");
+  CHECK(computed_by(oscillator(1.9, "engine = \"auto\"")) == "exact auto: th");
+  CHECK(computed_by(oscillator(2.1, "")) == "ida auto: th");
   CHECK(computed_by(oscillator(0.0, "", "{ static = 0.3, kinetic = 0.2, stribeck_velocity = 0.1 }")) ==
         "ida auto: a ");
   CHECK(computed_by(oscillator(1e3, "engine = \"exact\"")) == "exact as given");

@@ -120,6 +120,7 @@ WorkRequest request_of(const StudyOptions& options, const std::vector<std::strin
         throw UsageError("--vary " + vary.path + ": " + value + " stands twice");
   }
   request.ranges.varied = points(varied);
+  if (!varied.empty()) request.ranges.varied.insert(request.ranges.varied.begin(), std::vector<Override>());
   request.repeats = static_cast<std::size_t>(options.repeats);
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
   request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};

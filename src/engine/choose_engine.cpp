@@ -13,7 +13,8 @@ namespace {
 /// Of the fastest oscillation: see choose_engine.hpp.
 constexpr double slow = 0.2;
 
-/// The fastest decay, 1/time: what the diagonals say, dashpots and springs of contacts included.
+}  // namespace
+
 double fastest_decay(const Model& model) {
   const Vector m = model.mass.diagonal();
   Vector c = model.damping.diagonal(), k = model.stiffness.diagonal();
@@ -25,7 +26,7 @@ double fastest_decay(const Model& model) {
     for (const auto& [dof, t] : contact.tangent.terms)
       k[dof] += t * t * contact.tangential_stiffness.value_or(0.0);
   }
-  double rate = 0.0;
+  double rate = model.alpha + model.beta * model.omega_max * model.omega_max;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (m[i] > 0.0)
       rate = std::max(rate, c[i] / m[i]);
@@ -34,8 +35,6 @@ double fastest_decay(const Model& model) {
   }
   return rate;
 }
-
-}  // namespace
 
 EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, "as given"};

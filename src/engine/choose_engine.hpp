@@ -1,13 +1,14 @@
 // choose_engine.hpp: what computes a scene with engine = "auto".
 //
 //   exact   where the laws are linear and every decay is slow beside the fastest oscillation:
-//           C_ii / M_ii and, where there is no mass, K_ii / C_ii at most 0.2 max(omega_max, 1 / t_end)
+//           alpha + beta omega_max^2, C_ii / M_ii and, where there is no mass, K_ii / C_ii are at most
+//           0.2 max(omega_max, 1 / t_end)
 //   ida     else
 //
 // Why: validation/work-precision. A series takes a step for every 5 radians of the fastest motion, whether
 // anything still moves like that or not; an implicit method steps over what has died out. Where nothing dies
-// out the series is the cheapest for all but rough answers. The two meet at 0.2 (slow loads, few events) to 1.6
-// (many events); 0.2 is the choice that is least wrong.
+// out the series is the cheapest for all but rough answers. The two meet at 0.2 (slow loads, few events)
+// to 1.6 (many events); 0.2 is the choice that is least wrong.
 #pragma once
 
 #include <string>
@@ -23,5 +24,9 @@ struct EngineChoice {
 
 /// What run.engine says, with the reason "as given"; never Engine::automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
+
+/// The fastest decay, 1/time: of damping alpha M + beta K at omega_max, or what the diagonals say, dashpots
+/// and springs of contacts included.
+[[nodiscard]] double fastest_decay(const Model& model);
 
 }  // namespace signorini

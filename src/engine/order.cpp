@@ -24,13 +24,14 @@ constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
 }  // namespace
 
 double least_damping_ratio(const Model& model) {
-  if (!(model.omega1 > 0.0) || !(model.omega_max > 0.0)) return 0.0;
+  if (!(model.omega_max > 0.0)) return 0.0;
   double beta = model.beta;
   for (const Contact& contact : model.contacts)
     if (contact.normal_stiffness > 0.0 || contact.tangential_stiffness) beta = 0.0;
-  const auto ratio = [&](double omega) { return 0.5 * (model.alpha / omega + beta * omega); };
-  const double least = beta > 0.0 ? std::sqrt(model.alpha / beta) : model.omega_max;
-  return ratio(std::clamp(least, std::min(model.omega1, model.omega_max), model.omega_max));
+  // (alpha / omega + beta omega) / 2 is least at sqrt(alpha / beta).
+  const double alpha = model.alpha, omega_max = model.omega_max;
+  if (alpha < beta * omega_max * omega_max) return std::sqrt(alpha * beta);
+  return 0.5 * (alpha / omega_max + beta * omega_max);
 }
 
 void choose_order(const Model& model, const RunSpec& run, Settings& settings) {

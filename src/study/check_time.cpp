@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/choose_engine.hpp"
 #include "study/check_parts.hpp"
 
 namespace signorini::checks {
@@ -52,8 +53,9 @@ Cost cost_of(const Model& model, const Settings& settings, double t_end) {
     for (const Piece& piece : load.history.pieces())
       if (piece.amplitude != 0.0) cost.omega_max = std::max(cost.omega_max, piece.omega);
   if (settings.engine == "exact" && cost.omega_max > 0.0) {
-    cost.steps_per_period = 2.0 * std::numbers::pi / exact_radians;
-    cost.steps = t_end * cost.omega_max / exact_radians;
+    const double fastest = std::max(cost.omega_max, fastest_decay(model));
+    cost.steps_per_period = 2.0 * std::numbers::pi / exact_radians * fastest / cost.omega_max;
+    cost.steps = t_end * fastest / exact_radians;
     cost.seconds = cost.steps * (exact_per_step + exact_per_unknown * static_cast<double>(cost.unknowns));
     return cost;
   }

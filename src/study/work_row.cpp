@@ -27,6 +27,7 @@ void take_comparison(WorkRow& row, const ComparedRun& reference, const ComparedR
     const bool times = quantity.name == "event_time";  // of aligned events, which lie before the split
     const bool part = split && !times;
     if ((part ? deviation.count_until_split : deviation.count) == 0) continue;
+    if (part && comparison.alignment.pairs.empty()) continue;  // until the first event there is little to see
     const Greatest& greatest = part ? deviation.until_split : deviation.whole;
     row.errors.push_back(
         {quantity.name, quantity.unit, greatest.value, greatest.t, greatest.where, deviation.whole.value});

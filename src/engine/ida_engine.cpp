@@ -69,10 +69,12 @@ void IdaEngine::start(const Segment& segment) {
 }
 
 void IdaEngine::evaluate(double t, Point& point) {
-  if (flight_)
-    flights_.motion().evaluate(t, point);
+  if (flight_) return flights_.motion().evaluate(t, point);
+  bdf_.evaluate(t, point);
+  if (accelerations_)
+    expander_.consistent(*segment_.forcing, t, point);
   else
-    bdf_.evaluate(t, point);
+    point.a.resize(0);  // what stands there is of another time
 }
 
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }

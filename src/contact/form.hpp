@@ -30,6 +30,7 @@ struct Form {
            std::abs(vn * m.vn) + std::abs(vt * m.vt) + std::abs(an * m.an) + std::abs(at * m.at) +
            std::abs(pressing * m.pressing) + std::abs(pressing_rate * m.pressing_rate);
   }
+  [[nodiscard]] bool operator==(const Form&) const = default;
   [[nodiscard]] Form operator-() const {
     return {-N, -T, -gap, -ut, -vn, -vt, -an, -at, -pressing, -pressing_rate, -constant};
   }

@@ -165,8 +165,9 @@ void IdaEngine::integrate(double from, double to, Works& works) {
   }
 }
 
-double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t) const {
-  return tolerance(form, motion, settings_);
+/// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.
+double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t contact) const {
+  return tolerance(form, motion, settings_) + (flight_ ? 0.0 : watch_.leeway(contact, form));
 }
 
 }  // namespace signorini

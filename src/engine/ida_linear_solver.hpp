@@ -35,6 +35,7 @@ class IdaLinearSolver {
   /// New mode: the next factorisation chooses fresh pivots.
   void set_mode(const Mode& mode);
   void set_cj(double cj) { cj_ = cj; }
+  [[nodiscard]] double cj() const { return cj_; }
   [[nodiscard]] bool factor();
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }

@@ -140,6 +140,22 @@ struct IdaStepper::Memory {
     return h;
   }
 
+  [[nodiscard]] bool massless() const { return problem.layout().massive < problem.layout().dofs; }
+
+  /// One Newton correction of the velocities of massless degrees of freedom in y' at t, with the matrix of
+  /// the last step. The derivative of a step's polynomial is one order worse than the polynomial, after a
+  /// restart as bad as h u''/2; u itself is as sharp as every other unknown, and C v = P - K u - ... knows v
+  /// from it. Solving for v alone would blow the error of u up by K/C; where h K > C this keeps the
+  /// polynomial.
+  void settle_massless(double t) {
+    double *derivative = NV_DATA_S(yp), *change = NV_DATA_S(work);
+    const double cj = problem.linear().cj();
+    problem.residual(t, 1.0 / cj, NV_DATA_S(y), derivative, change);
+    problem.linear().solve(change, change);
+    for (std::size_t i = 0; i < problem.layout().velocity.size(); ++i)
+      if (problem.layout().velocity[i] < 0) derivative[i] -= cj * change[i];
+  }
+
   void add_counters(Counters& c) {
     long steps = 0, residuals = 0, setups = 0, error_fails = 0, convergence_fails = 0, iterations = 0;
     IDAGetNumSteps(ida, &steps);
@@ -238,7 +254,8 @@ BdfStep IdaStepper::advance() {
   step.end = end;
   m_->reported_end = end;
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
-  m_->held_time = t;
+  // y' as IDA returns it is no velocity of massless degrees of freedom yet: evaluate() makes it one.
+  m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
   if (flag == IDA_ROOT_RETURN) {
     step.kind = BdfStep::Kind::root;
     step.root = t;
@@ -254,8 +271,10 @@ BdfStep IdaStepper::advance() {
 void IdaStepper::evaluate(double t, Point& point) {
   if (t != m_->held_time) {
     check(IDAGetDky(m_->ida, t, 0, m_->y), "IDAGetDky");
-    if (m_->problem.layout().massive < m_->problem.layout().dofs)
+    if (m_->massless()) {
       check(IDAGetDky(m_->ida, t, 1, m_->yp), "IDAGetDky");
+      m_->settle_massless(t);
+    }
     m_->held_time = t;
   }
   m_->problem.read(NV_DATA_S(m_->y), NV_DATA_S(m_->yp), point);

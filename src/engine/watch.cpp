@@ -1,5 +1,7 @@
 #include "engine/watch.hpp"
 
+#include <algorithm>
+
 namespace signorini {
 namespace {
 constexpr double resolution = 1e-12;  // of a step; the engine refines on its dense output
@@ -7,12 +9,21 @@ constexpr double resolution = 1e-12;  // of a step; the engine refines on its de
 
 void Watch::start(const std::vector<GuardStart>& guards, std::vector<double> levels) {
   kinds_.clear();
+  forms_.clear();
   armed_.clear();
   for (const GuardStart& guard : guards) {
     kinds_.push_back(guard.kind);
+    forms_.push_back(guard.form);
     armed_.push_back(guard.kind != Guard::none && !guard.at_zero);
   }
   levels_ = std::move(levels);
+}
+
+double Watch::leeway(std::size_t contact, const Form& form) const {
+  const std::size_t first = guards_per_contact * contact;
+  for (std::size_t slot = first; slot < std::min(first + guards_per_contact, kinds_.size()); ++slot)
+    if (kinds_[slot] != Guard::none && forms_[slot] == form) return armed_[slot] ? 0.0 : levels_[slot];
+  return 0.0;
 }
 
 std::vector<Fall> Watch::check(const StepHistory& history, double limit) {

@@ -29,12 +29,15 @@ class Watch {
   /// levels: re-arming levels, one a slot.
   void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
   [[nodiscard]] bool armed(std::size_t slot) const { return armed_[slot]; }
+  /// How far below zero the contact's guard of this form may sink before it is an event: 0 once it is armed.
+  [[nodiscard]] double leeway(std::size_t contact, const Form& form) const;
   /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.
   /// Guards that have risen enough are armed by it.
   [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);
 
  private:
   std::vector<Guard> kinds_;
+  std::vector<Form> forms_;
   std::vector<bool> armed_;
   std::vector<double> levels_;
 };

@@ -44,6 +44,11 @@ Model neighbour(const Model& model, const Weights& weights, double delta, double
   }
   for (Contact& contact : near.contacts) {
     const double share = draw.real(-1.0, 1.0);
+    const double of_rebound = draw.real(-1.0, 1.0);
+    if (contact.law == Law::rigid) {
+      const double change = contact.restitution < 1.0 ? of_rebound : -std::abs(of_rebound);
+      contact.restitution = std::min(1.0, contact.restitution * (1.0 + delta * change));
+    }
     if (contact.law == Law::slider || contact.gap + contact.normal.dot(model.u0) <= 0.0) continue;
     double reach = 0.0;
     for (const auto& [dof, factor] : contact.normal.terms)

@@ -25,6 +25,8 @@ struct Finding {
   bool kept = true;
   bool unresolved = false;  ///< the sequences part, and only the events' own uncertainty explains it
   double worst = 0.0;       ///< greatest deviation in units of what is allowed, before any split
+  double until = 0.0;       ///< to where both the run and members of the spread were compared
+  bool to_end = false;      ///< which is the end of the run
   std::string what;         ///< the worst, or the split that nothing explains
 };
 

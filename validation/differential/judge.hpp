@@ -31,8 +31,8 @@ enum class Verdict { agree, stopped, unresolved, ill_conditioned, refused, too_l
 [[nodiscard]] const char* to_string(Verdict verdict);
 
 struct JudgeSettings {
-  long steps = 50000;            ///< a run may take, instants of events included
-  long engine_steps = 150000;    ///< an engine's runs and their neighbours
+  long steps = 200000;           ///< a run may take (Bounds); newmark's are cheap, four times as many
+  long engine_steps = 400000;    ///< an engine's runs and their neighbours, likewise
   double seconds = 30.0;         ///< a run may take, whatever its steps: a last resort
   double scene_seconds = 120.0;  ///< all runs of a scene
   double margin = 5.0;           ///< of delta: a step may be off by rtol, five times what it should spend
@@ -48,8 +48,9 @@ struct Comparison {
   Verdict verdict = Verdict::agree;
   double worst = 0.0;  ///< Finding::worst
   std::size_t aligned = 0;
-  double until = 0.0;   ///< to where run, reference and neighbours were compared
-  bool to_end = false;  ///< which is the end of the run
+  std::size_t sharp_times = 0, times = 0;  ///< Finding
+  double until = 0.0;                      ///< to where run, reference and neighbours were compared
+  bool to_end = false;                     ///< which is the end of the run
   std::string what;
 };
 

@@ -74,6 +74,8 @@ class Tally {
       whole_[c.engine] += c.to_end ? 1 : 0;
       ++engines_[c.engine][c.verdict];
       aligned_[c.engine] += c.aligned;
+      times_[c.engine] += c.times;
+      sharp_times_[c.engine] += c.sharp_times;
       worst_[c.engine].push_back(c.worst);
     }
   }
@@ -85,15 +87,16 @@ class Tally {
                events_);
     fmt::print(
         "| engine | agree | unresolved | ill-conditioned | too long | undecided | DISAGREE | to the end |");
-    fmt::print(" events in order | error/allowed: median | greatest |\n");
-    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|\n");
+    fmt::print(" events in order | times sharp, % | error/allowed: median | greatest |\n");
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (auto& [engine, counts] : engines_) {
       std::vector<double>& worst = worst_[engine];
       std::sort(worst.begin(), worst.end());
-      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2g} | {:.2g} |\n", engine,
+      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2g} | {:.2g} |\n", engine,
                  counts[Verdict::agree], counts[Verdict::unresolved], counts[Verdict::ill_conditioned],
                  counts[Verdict::too_long], counts[Verdict::undecided], counts[Verdict::disagree],
-                 whole_[engine], aligned_[engine], worst[worst.size() / 2], worst.back());
+                 whole_[engine], aligned_[engine], 100.0 * sharp_share(engine), worst[worst.size() / 2],
+                 worst.back());
     }
   }
 
@@ -101,11 +104,17 @@ class Tally {
 
  private:
   std::map<Verdict, long> scenes_;
+  [[nodiscard]] double sharp_share(const std::string& engine) {
+    return times_[engine] == 0
+               ? 1.0
+               : static_cast<double>(sharp_times_[engine]) / static_cast<double>(times_[engine]);
+  }
+
   long to_end_ = 0;
   std::size_t events_ = 0;
   std::map<std::string, long> whole_;
   std::map<std::string, std::map<Verdict, long>> engines_;
-  std::map<std::string, std::size_t> aligned_;
+  std::map<std::string, std::size_t> aligned_, times_, sharp_times_;
   std::map<std::string, std::vector<double>> worst_;
 };
 

@@ -6,6 +6,8 @@
 namespace signorini::differential {
 namespace {
 
+constexpr long steps_an_event = 10;  // about what a restart costs
+
 /// Keeps a run's rows until its steps or its time are up.
 class Bounded : public Result {
  public:
@@ -16,6 +18,10 @@ class Bounded : public Result {
                  std::chrono::duration<double>(bounds.seconds))) {}
   bool progress(double /*t*/) override {
     return ++steps_ <= most_ && std::chrono::steady_clock::now() < end_;
+  }
+  void event(const Event& event) override {
+    steps_ += steps_an_event;
+    Result::event(event);
   }
   [[nodiscard]] long steps() const { return steps_; }
 

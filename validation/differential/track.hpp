@@ -18,7 +18,7 @@ namespace signorini::differential {
 
 /// When a run is given up. Steps are counted, so that a verdict is the same on a slow or a busy machine.
 struct Bounds {
-  long steps = 1000000;   ///< steps and instants of events together
+  long steps = 1000000;   ///< steps of the engine; an event counts as ten
   double seconds = 60.0;  ///< on the clock, a last resort
 };
 

@@ -42,15 +42,14 @@ history = { type = "step", start = 1.0 }
 struct Fixture {
   Scene scene = parse_scene(pushed, "pushed.toml", {{"run.engine", "exact"}});
   Model model = build_model(scene);
-  Track reference = run(model, scene.run, 60.0);
+  Track reference = run(model, scene.run);
   Weights weights = weights_of(model, reference);
 
   [[nodiscard]] Promise promise(double delta) const {
     Promise p;
     for (std::uint64_t seed : {1U, 2U, 3U})
-      p.spread.include(compared(run(neighbour(model, weights, delta, 2.0, seed), scene.run, 60.0)));
+      p.spread.include(compared(run(neighbour(model, weights, delta, 2.0, seed), scene.run)));
     p.delta = delta;
-    p.t_end = 2.0;
     return p;
   }
   [[nodiscard]] Deviation compared(const Track& other) const {
@@ -92,7 +91,7 @@ TEST_CASE("differential: every drawn scene can be read") {
 TEST_CASE_FIXTURE(Fixture, "differential: a run keeps its promise, a neighbour within its distance too") {
   REQUIRE(reference.events.size() > 4);
   CHECK(check(compared(reference), promise(1e-8)).kept);
-  const Track near = run(neighbour(model, weights, 1e-9, 2.0, 9), scene.run, 60.0);
+  const Track near = run(neighbour(model, weights, 1e-9, 2.0, 9), scene.run);
   CHECK(check(compared(near), promise(1e-8)).kept);
 }
 

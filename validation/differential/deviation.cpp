@@ -17,18 +17,24 @@ double room_of(const std::vector<LoggedEvent>& events, const std::optional<std::
   double room = Deviation::never;
   if (!i) return room;
   for (const LoggedEvent& other : events) {
-    const double apart = std::abs(other.t - events[*i].t);
+    const double distance = std::abs(other.t - events[*i].t);
     const double blur = std::max(other.uncertainty, events[*i].uncertainty);
-    if (apart > roundoff && blur > 0.0) room = std::min(room, apart / blur);
+    if (distance > roundoff && blur > 0.0) room = std::min(room, distance / blur);
   }
   return room;
+}
+
+/// |a - b|; std::max would drop what is not a number.
+double apart(double a, double b) {
+  const double difference = std::abs(a - b);
+  return std::isfinite(difference) ? difference : Deviation::never;
 }
 
 double greatest(const Vector& a, const Vector& b, const std::vector<double>& weights) {
   double most = 0.0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    most = std::max(most, std::abs(a[at] - b[at]) / weights[i]);
+    most = std::max(most, apart(a[at], b[at]) / weights[i]);
   }
   return most;
 }
@@ -36,8 +42,8 @@ double greatest(const Vector& a, const Vector& b, const std::vector<double>& wei
 double greatest_force(const Result::Row& a, const Result::Row& b, double weight) {
   double most = 0.0;
   for (std::size_t k = 0; k < a.contacts.size(); ++k)
-    most = std::max({most, std::abs(a.contacts[k].N - b.contacts[k].N) / weight,
-                     std::abs(a.contacts[k].T - b.contacts[k].T) / weight});
+    most = std::max({most, apart(a.contacts[k].N, b.contacts[k].N) / weight,
+                     apart(a.contacts[k].T, b.contacts[k].T) / weight});
   return most;
 }
 
@@ -75,6 +81,8 @@ void Deviation::include(const Deviation& other) {
   raise(u, other.u);
   raise(v, other.v);
   raise(force, other.force);
+  reached = std::max(reached, other.reached);
+  complete = complete || other.complete;
   for (const auto& [contact, list] : other.time) raise(time[contact], list);
   for (const auto& [contact, list] : other.uncertainty) raise(uncertainty[contact], list);
   if (other.splits() && (!splits() || other.aligned < aligned)) {
@@ -90,29 +98,36 @@ void Deviation::include(const Deviation& other) {
 Deviation deviation(const Track& reference, const Track& other, const Weights& weights, double t_end) {
   Deviation d;
   const double roundoff = 8.0 * std::numeric_limits<double>::epsilon() * t_end;
+  const auto given_up = [](const Track& track) { return track.end == Track::End::too_long; };
   // A run that was given up ends there; one that stopped has said so by an event.
   for (const Track* track : {&reference, &other})
-    if (track->end == Track::End::too_long) t_end = std::min(t_end, track->t);
+    if (given_up(*track)) t_end = std::min(t_end, track->t);
   const Alignment alignment = align(reference.events, other.events, {t_end, 0.0});
   d.aligned = alignment.pairs.size();
   std::vector<std::pair<double, double>> gaps;  // between the two times of each event
   double latest = 0.0, blurred = 0.0;
   for (const AlignedPair& pair : alignment.pairs) {
     const LoggedEvent &a = reference.events[pair.reference], &b = other.events[pair.other];
-    latest = std::max(latest, std::abs(a.t - b.t));
+    latest = std::max(latest, apart(a.t, b.t));
     d.time[a.contact].push_back(latest);
     blurred = std::max(blurred, a.uncertainty + b.uncertainty);
     d.uncertainty[a.contact].push_back(blurred);
     gaps.emplace_back(std::min(a.t, b.t), std::max(a.t, b.t));
   }
-  if (alignment.split) {
+  double last = std::min({t_end, reference.t, other.t});
+  if (alignment.split && ((!alignment.split->reference && given_up(reference)) ||
+                          (!alignment.split->other && given_up(other)))) {
+    last = std::min(last, alignment.split->t);  // its next event was not made any more
+  } else if (alignment.split) {
     const auto& s = *alignment.split;
     d.until = s.t;
+    last = std::min(last, s.t);
     d.room =
         std::min(room_of(reference.events, s.reference, roundoff), room_of(other.events, s.other, roundoff));
     d.split = side(reference.events, s.reference) + " | " + side(other.events, s.other);
   }
-  const double last = std::min({d.until, t_end, reference.t, other.t});
+  d.reached = last;
+  d.complete = !d.splits() && !given_up(reference) && !given_up(other);
   for (std::size_t i = 0; i < std::min(reference.rows.size(), other.rows.size()); ++i) {
     const Result::Row &a = reference.rows[i], &b = other.rows[i];
     if (a.t != b.t || a.t >= last - roundoff) break;

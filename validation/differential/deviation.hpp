@@ -6,7 +6,7 @@
 //
 // "So far", since errors of an earlier time are carried on: a deviation that passes through zero is no
 // promise. Rows between an event's two times are left out of v and force: one run has jumped, the other not
-// yet.
+// yet. A value that is not finite is infinitely far from any other.
 #pragma once
 
 #include <limits>
@@ -33,13 +33,15 @@ struct Deviation {
   std::map<std::string, std::vector<double>> uncertainty;
   std::size_t aligned = 0;  ///< events with partners
   double until = never;     ///< the split's time
+  double reached = 0.0;     ///< to where rows were compared: the split, or the earlier end
+  bool complete = false;    ///< no split, and neither run was given up
   std::string split;        ///< what stands there; empty: none
   /// How many t_uncertainty lie between the events at the split and their next neighbours in the same run:
   /// few, and what happens there is smaller than the run's tolerance (the last hits before a contact rests).
   double room = never;
 
   [[nodiscard]] bool splits() const { return !split.empty(); }
-  /// The greater of both everywhere; the earlier split.
+  /// The greater of both everywhere; the earlier split, but compared to where either of them was.
   void include(const Deviation& other);
 };
 

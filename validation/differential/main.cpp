@@ -27,7 +27,7 @@ struct Asked {
   std::uint64_t from = 1;
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
-  double run_seconds = JudgeSettings{}.seconds;
+  long run_steps = JudgeSettings{}.steps;
   bool shrink = false, print = false;
   std::string keep, scene;
 };
@@ -35,7 +35,7 @@ struct Asked {
 std::string describe(const Judgement& judgement) {
   std::string text = fmt::format("{:<15} {:4} events", to_string(judgement.verdict), judgement.events);
   for (const Comparison& c : judgement.comparisons)
-    text += fmt::format("  {}: {:.2g} to {:.4g}", c.engine, c.worst, c.until);
+    text += fmt::format("  {}: {:.2g} to {:.4g}{}", c.engine, c.worst, c.until, c.to_end ? "" : " only");
   if (!judgement.what.empty()) text += "  -- " + judgement.what;
   return text;
 }
@@ -67,9 +67,15 @@ class Tally {
   void add(const Judgement& judgement) {
     ++scenes_[judgement.verdict];
     events_ += judgement.events;
-    for (const Comparison& c : judgement.comparisons) {
+    const auto& all = judgement.comparisons;
+    const auto whole = [](const Comparison& c) { return c.to_end; };
+    if (!all.empty() && std::all_of(all.begin(), all.end(), whole)) ++to_end_;
+    for (const Comparison& c : all) {
+      whole_[c.engine] += c.to_end ? 1 : 0;
       ++engines_[c.engine][c.verdict];
       aligned_[c.engine] += c.aligned;
+      times_[c.engine] += c.times;
+      sharp_times_[c.engine] += c.sharp_times;
       worst_[c.engine].push_back(c.worst);
     }
   }
@@ -77,16 +83,20 @@ class Tally {
   void print() {
     fmt::print("\n| verdict | scenes |\n|---|---|\n");
     for (const auto& [verdict, count] : scenes_) fmt::print("| {} | {} |\n", to_string(verdict), count);
-    fmt::print("\n{} events of the reference\n\n", events_);
-    fmt::print("| engine | agree | unresolved | ill-conditioned | too long | DISAGREE |");
+    fmt::print("\n{} scenes compared to the end by all engines; {} events of the reference\n\n", to_end_,
+               events_);
     fmt::print(
-        " events in order | error/allowed: median | greatest |\n|---|---|---|---|---|---|---|---|---|\n");
+        "| engine | agree | unresolved | ill-conditioned | too long | undecided | DISAGREE | to the end |");
+    fmt::print(" events in order | times sharp, % | error/allowed: median | greatest |\n");
+    fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (auto& [engine, counts] : engines_) {
       std::vector<double>& worst = worst_[engine];
       std::sort(worst.begin(), worst.end());
-      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.2g} | {:.2g} |\n", engine, counts[Verdict::agree],
-                 counts[Verdict::unresolved], counts[Verdict::ill_conditioned], counts[Verdict::too_long],
-                 counts[Verdict::disagree], aligned_[engine], worst[worst.size() / 2], worst.back());
+      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.2g} | {:.2g} |\n", engine,
+                 counts[Verdict::agree], counts[Verdict::unresolved], counts[Verdict::ill_conditioned],
+                 counts[Verdict::too_long], counts[Verdict::undecided], counts[Verdict::disagree],
+                 whole_[engine], aligned_[engine], 100.0 * sharp_share(engine), worst[worst.size() / 2],
+                 worst.back());
     }
   }
 
@@ -94,15 +104,23 @@ class Tally {
 
  private:
   std::map<Verdict, long> scenes_;
+  [[nodiscard]] double sharp_share(const std::string& engine) {
+    return times_[engine] == 0
+               ? 1.0
+               : static_cast<double>(sharp_times_[engine]) / static_cast<double>(times_[engine]);
+  }
+
+  long to_end_ = 0;
   std::size_t events_ = 0;
+  std::map<std::string, long> whole_;
   std::map<std::string, std::map<Verdict, long>> engines_;
-  std::map<std::string, std::size_t> aligned_;
+  std::map<std::string, std::size_t> aligned_, times_, sharp_times_;
   std::map<std::string, std::vector<double>> worst_;
 };
 
 void examine(const std::string& name, const std::string& text, const Asked& asked, Tally& tally) {
   JudgeSettings settings;
-  settings.seconds = asked.run_seconds;
+  settings.steps = asked.run_steps;
   Judgement judgement;
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -128,7 +146,7 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
   app.add_option("--from", asked.from, "first seed")->excludes(one);
   app.add_option("--count", asked.count, "how many seeds from there on")->excludes(one);
   app.add_option("--time", asked.seconds, "begin no further scene after so many seconds");
-  app.add_option("--run-time", asked.run_seconds, "seconds that one run of one engine may take");
+  app.add_option("--run-steps", asked.run_steps, "steps and events that one run of one engine may take");
   app.add_flag("--shrink", asked.shrink, "keep the smallest scene that shows the disagreement");
   app.add_option("--keep", asked.keep, "directory for scenes on which engines disagree");
   app.add_flag("--print", asked.print, "print the scenes, run nothing");

@@ -6,16 +6,27 @@
 namespace signorini::differential {
 namespace {
 
-/// Keeps a run's rows until its time is up.
+constexpr long steps_an_event = 10;  // about what a restart costs
+
+/// Keeps a run's rows until its steps or its time are up.
 class Bounded : public Result {
  public:
-  explicit Bounded(double seconds)
-      : end_(std::chrono::steady_clock::now() +
+  explicit Bounded(const Bounds& bounds)
+      : most_(bounds.steps),
+        end_(std::chrono::steady_clock::now() +
              std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                 std::chrono::duration<double>(seconds))) {}
-  bool progress(double /*t*/) override { return std::chrono::steady_clock::now() < end_; }
+                 std::chrono::duration<double>(bounds.seconds))) {}
+  bool progress(double /*t*/) override {
+    return ++steps_ <= most_ && std::chrono::steady_clock::now() < end_;
+  }
+  void event(const Event& event) override {
+    steps_ += steps_an_event;
+    Result::event(event);
+  }
+  [[nodiscard]] long steps() const { return steps_; }
 
  private:
+  long most_, steps_ = 0;
   std::chrono::steady_clock::time_point end_;
 };
 
@@ -45,9 +56,9 @@ std::string reason_class(const std::string& sentence) {
   return kept;
 }
 
-Track run(const Model& model, const RunSpec& spec, double seconds) {
+Track run(const Model& model, const RunSpec& spec, const Bounds& bounds) {
   Track track;
-  Bounded rows(seconds);
+  Bounded rows(bounds);
   try {
     track.report = simulate(model, spec, rows);
   } catch (const SceneError& error) {
@@ -58,6 +69,7 @@ Track run(const Model& model, const RunSpec& spec, double seconds) {
   }
   const Outcome& outcome = track.report.outcome;
   track.t = outcome.t;
+  track.steps = rows.steps();
   track.said = outcome.reason;
   track.reason = reason_class(outcome.reason);
   for (const Event& event : rows.events) track.events.push_back(logged(event, model));

@@ -7,15 +7,23 @@
 // no work on the kept modes (inertia relief of the free motions among them), G_res f solves K u = f_el with
 // Phi^T M u = 0. Source: MacNeal, Computers and Structures 1 (1971) 581; Craig and Kurdila, Fundamentals of
 // Structural Dynamics, chapter 17.
+//
+// Dense up to 400 degrees of freedom with mass, and up to 5000 where a third of the modes or more is kept.
+// Else the modes below the cutoff are counted (model/mode_count.hpp) and found as many
+// (model/lowest_modes.hpp).
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <stdexcept>
 
 #include "model/springs.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
+
+/// Why a structure cannot be reduced so.
+struct NotReducible : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 struct KeptModes {
   Eigen::MatrixXd shapes;       ///< n x m, M-orthonormal; free motions first, then ascending
@@ -26,7 +34,8 @@ struct KeptModes {
   double shift = 0.0;  ///< of omega^2, with which K + shift M is regular; far below the modes left out
 };
 
-/// `free`: all null motions of K, n x f; each must have mass. K must be positive semidefinite.
+/// `free`: all null motions of K, n x f; each must have mass. K must be positive semidefinite. Throws
+/// NotReducible where there are more modes than it can find, or fewer found than counted.
 [[nodiscard]] KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                                     const Eigen::MatrixXd& free);
 
@@ -35,9 +44,9 @@ struct KeptModes {
 
 class ResidualFlexibility {
  public:
-  /// Mass and modes are kept by reference.
+  /// Mass and modes are kept by reference. Throws NotReducible where K is singular beyond the free motions.
   ResidualFlexibility(const SparseMatrix& mass, const SparseMatrix& stiffness, const KeptModes& modes);
-  /// G_res f; n.
+  /// G_res f; n. Exactly 0 where no mode is left out and all degrees of freedom have mass.
   [[nodiscard]] Vector answer(const Vector& f) const;
 
  private:
@@ -45,7 +54,9 @@ class ResidualFlexibility {
 
   const SparseMatrix& mass_;
   const KeptModes& modes_;
-  double shift_;  // of omega^2: what is left of it is taken out by iteration
+  Eigen::MatrixXd inertia_, inertia_size_;  // M Phi, and its magnitudes
+  double shift_;                            // of omega^2: what is left of it is taken out by iteration
+  bool complete_;
   SymmetricSolver solver_;
 };
 

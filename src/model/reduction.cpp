@@ -10,6 +10,7 @@
 #include "model/growth.hpp"
 #include "model/kept_modes.hpp"
 #include "model/null_motions.hpp"
+#include "model/selection.hpp"
 #include "model/springs.hpp"
 #include "model/static_shapes.hpp"
 
@@ -29,8 +30,8 @@ void check_reducible(const Scene& scene, const Model& model) {
   for (int i = 0; i < model.size(); ++i)
     if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
   if (!light.empty()) {
-    const Eigen::MatrixXd k = Eigen::MatrixXd(model.stiffness)(light, light);
-    const Eigen::MatrixXd null = null_motions(k.sparseView());
+    const SparseMatrix only = selection(light, model.size());
+    const Eigen::MatrixXd null = null_motions(only.transpose() * model.stiffness * only);
     if (null.cols() > 0) {
       Eigen::Index greatest = 0;
       null.col(0).cwiseAbs().maxCoeff(&greatest);
@@ -212,9 +213,12 @@ void reduce_state(const Basis& b, Eigen::Index modes, Model& model, const std::v
   const Vector du = model.u0 - b.shapes * q, dv = model.v0 - b.shapes * w;
   for (int i = 0; i < model.size(); ++i) {
     const Dof& dof = model.dofs[static_cast<std::size_t>(i)];
-    if (dof.rotation) continue;
-    facts.initial_displacement_lost = std::max(facts.initial_displacement_lost, std::abs(du[i]));
-    if (!dof.massless) facts.initial_velocity_lost = std::max(facts.initial_velocity_lost, std::abs(dv[i]));
+    const Scales& size_of = model.scales;
+    const double arm = dof.rotation ? size_of.displacement / size_of.rotation : 1.0;
+    const double rate_arm = dof.rotation ? size_of.velocity / size_of.angular_velocity : 1.0;
+    facts.initial_displacement_lost = std::max(facts.initial_displacement_lost, arm * std::abs(du[i]));
+    if (!dof.massless)
+      facts.initial_velocity_lost = std::max(facts.initial_velocity_lost, rate_arm * std::abs(dv[i]));
   }
   model.u0 = q;
   model.v0 = w;
@@ -282,8 +286,14 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
 void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   check_reducible(scene, model);
   const double cutoff = scene.reduction->cutoff_omega;
-  const KeptModes modes = modes_up_to(cutoff, model.mass, model.stiffness, null_motions(model.stiffness));
-  const StaticShapes shapes = static_shapes(model.mass, model.stiffness, modes, acting_forces(scene, model));
+  KeptModes modes;
+  StaticShapes shapes;
+  try {
+    modes = modes_up_to(cutoff, model.mass, model.stiffness, null_motions(model.stiffness));
+    shapes = static_shapes(model.mass, model.stiffness, modes, acting_forces(scene, model));
+  } catch (const NotReducible& e) {
+    refuse(scene, e.what());
+  }
   Basis b = basis_of(modes, shapes, dampers, model.alpha, model.beta);
   if (b.heavy == 0) refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise it");
   scale(model, b);

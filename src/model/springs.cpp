@@ -44,6 +44,10 @@ double SymmetricSolver::smallest_pivot() const {
   return impl_->ldlt.vectorD().size() == 0 ? 0.0 : impl_->ldlt.vectorD().minCoeff();
 }
 
+int SymmetricSolver::negative_pivots() const {
+  return static_cast<int>((impl_->ldlt.vectorD().array() < 0.0).count());
+}
+
 // Eigen factors P A P^T = L L^T, so that F = P^T L.
 struct CholeskyFactor::Impl {
   Eigen::SimplicialLLT<SparseMatrix> llt;

@@ -38,6 +38,8 @@ class SymmetricSolver {
   [[nodiscard]] Vector solve(const Vector& b) const;
   /// The smallest pivot.
   [[nodiscard]] double smallest_pivot() const;
+  /// Number of negative eigenvalues (Sylvester's law of inertia).
+  [[nodiscard]] int negative_pivots() const;
 
  private:
   struct Impl;

@@ -55,9 +55,120 @@ double apart(const Result& a, const Result& b) {
   return greatest;
 }
 
+/// The reduced scene moves as the full one does, wherever the cutoff lies.
+void check_same_motion(const std::string& text) {
+  const auto moved = [&](const Changes& changes) {
+    const Scene scene = parse_scene(text, "test.toml", changes);
+    Result result = simulate(build_model(scene), scene.run);
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    return result;
+  };
+  const Result whole = moved({{"run.engine", "exact"}});
+  double scale = 0.0;
+  for (const Result::Row& row : whole.rows) scale = std::max(scale, row.u.cwiseAbs().maxCoeff());
+  REQUIRE(scale > 1e-3);
+  for (const std::string cutoff : {"1.0", "1e5"})
+    CHECK(apart(whole, moved({{"run.engine", "exact"}, {"reduction.cutoff_omega", cutoff}})) < 1e-8 * scale);
+}
+
+const std::string head =
+    "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n";
+
 }  // namespace
 
 TEST_SUITE_BEGIN("behaviour/reduction");
+
+TEST_CASE("all modes with mass are free motions: the reduced structure is the full one") {
+  SUBCASE("a block on a spring without mass, above a contact") {
+    check_same_motion(head + R"(
+gravity = [0.0, -9.81]
+[run]
+t_end = 0.5
+output_dt = 0.01
+[nodes]
+block = [0.0, 0.3]
+foot = [0.0, 0.0]
+[[masses]]
+node = "block"
+mass = 10.0
+[[supports]]
+node = "block"
+fix = ["ux"]
+[[supports]]
+node = "foot"
+fix = ["ux"]
+[[springs]]
+node = "block"
+against = "foot"
+direction = [0.0, 1.0]
+stiffness = 2e4
+[[contacts]]
+name = "ground"
+node = "foot"
+normal = [0.0, 1.0]
+law = "compliant"
+gap = 0.01
+normal_stiffness = 1e6
+)");
+  }
+  SUBCASE("the same in matrices, driven at the end without mass") {
+    check_same_motion(head + R"(
+[run]
+t_end = 1.0
+output_dt = 0.01
+[matrices]
+dofs = ["a", "b"]
+stiffness = [[300.0, -300.0], [-300.0, 300.0]]
+mass = [[2.0, 0.0], [0.0, 0.0]]
+[[contacts]]
+name = "stop"
+normal = { b = -1.0 }
+gap = 0.05
+law = "compliant"
+normal_stiffness = 1e3
+[[loads]]
+direction = { b = 1.0 }
+amplitude = 3.0
+history = { type = "harmonic", omega = 6.0 }
+)");
+  }
+  SUBCASE("two masses and no stiffness at all") {
+    check_same_motion(head + R"(
+gravity = [0.0, -10.0]
+[run]
+t_end = 0.5
+output_dt = 0.01
+[nodes]
+m0 = [0.0, 0.0]
+m1 = [1.0, 0.0]
+[[masses]]
+node = "m0"
+mass = 1.0
+[[masses]]
+node = "m1"
+mass = 2.0
+[[contacts]]
+name = "c"
+node = "m1"
+law = "compliant"
+normal = [0.0, 1.0]
+normal_stiffness = 1e4
+)");
+  }
+}
+
+TEST_CASE("masses in contact with each other, no stiffness: nothing is left out, no share is made up") {
+  const Scene scene =
+      read_scene(SIGNORINI_TEST_DATA "/scenes/good/touching.toml", {{"reduction.cutoff_omega", "1.0"}});
+  const Model model = build_model(scene);
+  CHECK(model.reduction->free_modes == 8);
+  CHECK(model.reduction->left_out == 0);
+  CHECK(model.reduction->massless_shapes + model.reduction->massive_shapes == 0);
+  for (const ComplianceShare& share : model.reduction->shares) {
+    CHECK(share.compliance == 0.0);
+    CHECK(share.residual == 0.0);
+  }
+}
 
 TEST_CASE("above all frequencies the events are those of the full model") {
   const Changes until{{"run.t_end", "0.2"}};

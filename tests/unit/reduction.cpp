@@ -310,6 +310,69 @@ TEST_CASE("a large structure: Lanczos iteration finds the modes that a dense dec
   CHECK(model.reduction->first_left_out == doctest::Approx(*kept).epsilon(1e-4));
 }
 
+namespace {
+
+/// `count` equal cantilevers that nothing joins, each of three elements, a contact at the end of each.
+Scene equal_cantilevers(int count) {
+  Scene s = empty_scene();
+  s.sections = {{"s", 9e6, 2e6, 0.4}};
+  for (int i = 0; i < count; ++i) {
+    const std::string from = "A" + std::to_string(i), to = "B" + std::to_string(i);
+    s.nodes.push_back({from, 0.0, 20.0 * i, {}});
+    s.nodes.push_back({to, 12.0, 20.0 * i, {}});
+    s.members.push_back(member({from, to}, "s", {3}));
+    s.supports.push_back(support(from, true, true, true));
+    s.contacts.push_back(support_contact("c" + std::to_string(i), to, 1e5));
+  }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a large structure of equal parts: each repeated mode is found as often as it is there") {
+  const Model one = build_model(equal_cantilevers(1)), all = build_model(cut(equal_cantilevers(1), 1e9));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(one.stiffness),
+                                                                        Eigen::MatrixXd(one.mass));
+  const Vector omega = modes.eigenvalues().cwiseSqrt();
+  for (int kept = 1; kept <= 2; ++kept) {
+    const Model model = build_model(cut(equal_cantilevers(60), 0.5 * (omega[kept - 1] + omega[kept])));
+    const Reduction& r = *model.reduction;
+    CHECK(r.dofs.size() == 540);
+    CHECK(r.modes == 60 * kept);
+    CHECK(r.left_out == 60 * (9 - kept));
+    CHECK(r.highest_kept == doctest::Approx(omega[kept - 1]).epsilon(1e-9));
+    CHECK(r.first_left_out == doctest::Approx(omega[kept]).epsilon(1e-9));
+    for (const std::size_t c : {0u, 1u, 40u, 119u})  // normals and tangents: alike at all of them
+      CHECK(r.shares[c].compliance == doctest::Approx(all.reduction->shares[c % 2].compliance).epsilon(1e-9));
+  }
+}
+
+TEST_CASE(
+    "a large free structure, a cutoff far below its modes: the first left out is that of other cutoffs") {
+  Scene scene = beam(12.0, 150, 9e6, 2e6, 0.4);
+  const double first = build_model(cut(scene, 100.0)).reduction->first_left_out;
+  CHECK(first ==
+        doctest::Approx(4.730040744862704 * 4.730040744862704 * std::sqrt(2e6 / 0.4) / 144.0).epsilon(1e-6));
+  for (const double cutoff : {1e-2, 1.0, 10.0}) {
+    INFO(cutoff);
+    const Model model = build_model(cut(scene, cutoff));
+    CHECK(model.reduction->modes == 3);
+    CHECK(model.reduction->first_left_out == doctest::Approx(first).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("only rotations that the modes cannot represent are reported, too") {
+  Scene scene = cantilever();
+  scene.initial.components = {{"R", "rz", 0.01, {}}};
+  Scene beside = cantilever();
+  beside.initial.components = {{"R", "wz", 0.5, {}}};
+  const Model turned = build_model(cut(scene, 100.0)), turning = build_model(cut(beside, 100.0));
+  const double arm = turned.scales.displacement / turned.scales.rotation;
+  CHECK(turned.reduction->initial_displacement_lost > 1e-3 * arm);
+  CHECK(turning.reduction->initial_velocity_lost >
+        0.05 * turning.scales.velocity / turning.scales.angular_velocity);
+}
+
 TEST_CASE("an initial state that the modes cannot represent is reported") {
   Scene scene = cantilever();
   scene.initial.components = {{"R", "uy", 0.001, {}}, {"P", "vx", 0.5, {}}};

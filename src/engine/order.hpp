@@ -5,7 +5,8 @@
 //                  alpha_3 = 86.03, alpha_4 = 73.35, alpha_5 = 51.84 degrees; order 2 always is
 //
 // zeta: least damping ratio of any frequency up to the highest, in whatever state the contacts are; contact
-// springs have no part in the damping beta K. Source of the angles: Hairer, Wanner, Solving Ordinary Differential Equations II, V.2.
+// springs have no part in the damping beta K. Source of the angles: Hairer, Wanner, Solving Ordinary
+// Differential Equations II, V.2.
 #pragma once
 
 #include "signorini/model.hpp"

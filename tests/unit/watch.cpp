@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -37,6 +38,31 @@ TEST_CASE("a fall and rise inside one step is found, though both ends are positi
   const auto found = falls([](double t) { return (t - 0.52) * (t - 0.58); }, false, 1e-9, 0.1, 8);
   REQUIRE(found.size() == 1);
   CHECK(found[0] == doctest::Approx(0.52).epsilon(1e-9));
+}
+
+TEST_CASE("an event is late by the level of a guard that has not risen, and of no other") {
+  GuardStart at_zero, clear, idle;
+  at_zero.kind = clear.kind = Guard::separation;
+  at_zero.form.N = -1.0;
+  at_zero.at_zero = true;
+  clear.form.T = 1.0;
+  std::vector<GuardStart> guards(2 * guards_per_contact, idle);
+  guards[guards_per_contact] = at_zero;
+  guards[guards_per_contact + 1] = clear;
+  Watch watch;
+  CHECK(watch.leeway(1, at_zero.form) == 0.0);  // before any segment
+  watch.start(guards, std::vector<double>(guards.size(), 1e-6));
+  CHECK(watch.leeway(1, at_zero.form) == 1e-6);
+  CHECK(watch.leeway(0, at_zero.form) == 0.0);
+  CHECK(watch.leeway(1, clear.form) == 0.0);
+  StepHistory history(guards.size());
+  double* start = history.restart(0.0);
+  std::fill_n(start, guards.size(), 1.0);
+  start[guards_per_contact] = 0.0;
+  std::fill_n(history.push(1.0), guards.size(), 1.0);  // rises above its level
+  history.prepare(1);
+  CHECK(watch.check(history, 1.0).empty());
+  CHECK(watch.leeway(1, at_zero.form) == 0.0);
 }
 
 TEST_CASE("a guard that starts at zero and rises fires only after it has clearly risen") {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <set>
 
@@ -116,6 +117,27 @@ TEST_CASE_FIXTURE(Fixture, "differential: a run that was tampered with does not"
   CHECK_FALSE(found.kept);
   CHECK(found.what.find("sequences part") != std::string::npos);
 
+  for (const double bad : {std::nan(""), Deviation::never}) {
+    Track broken = reference;
+    broken.rows[150].v[0] = bad;
+    CHECK(compared(broken).v[149] < 1e-12);
+    CHECK(compared(broken).v[150] == Deviation::never);
+    CHECK_FALSE(check(compared(broken), allowed).kept);
+    broken = reference;
+    broken.rows[150].u[0] = bad;
+    CHECK_FALSE(check(compared(broken), allowed).kept);
+    broken = reference;
+    broken.rows[150].contacts[0].N = bad;
+    CHECK_FALSE(check(compared(broken), allowed).kept);
+    broken = reference;
+    broken.rows[150].contacts[0].T = bad;
+    const Deviation of_neighbour = compared(broken);
+    CHECK(of_neighbour.force[150] == Deviation::never);
+    Promise excused = allowed;  // a neighbour that is not finite excuses nothing
+    excused.spread.include(of_neighbour);
+    CHECK_FALSE(check(compared(reference), excused).kept);
+  }
+
   stops.events.push_back({1.99, "(run)", "time does not advance", "", "", 0.0});
   CHECK_FALSE(check(compared(stops), allowed).kept);
 }
@@ -138,6 +160,76 @@ TEST_CASE_FIXTURE(Fixture,
   const Finding finding = check(compared(blurred), allowed);
   CHECK(finding.kept);
   CHECK(finding.unresolved);
+}
+
+TEST_CASE_FIXTURE(Fixture, "differential: what neighbours do not reach is not compared") {
+  const Deviation same = compared(reference);
+  CHECK(same.complete);
+  CHECK(same.reached == doctest::Approx(2.0));
+  const Finding whole = check(same, promise(1e-8));
+  CHECK(whole.to_end);
+  CHECK(whole.until == doctest::Approx(2.0));
+  CHECK(whole.times == same.aligned);
+  CHECK(whole.times > 3);
+  CHECK(whole.sharp_times == whole.times);
+
+  Promise short_of_it;
+  Track parts = reference;
+  parts.events.erase(parts.events.begin() + 3);
+  short_of_it.spread.include(compared(parts));
+  short_of_it.delta = 1e-8;
+  Finding found = check(same, short_of_it);
+  CHECK(found.kept);
+  CHECK_FALSE(found.to_end);
+  CHECK(found.until == doctest::Approx(reference.events[3].t));
+  // Another neighbour that goes on is enough.
+  short_of_it.spread.include(same);
+  CHECK(check(same, short_of_it).to_end);
+}
+
+TEST_CASE_FIXTURE(Fixture,
+                  "differential: a run that is given up is compared up to there, and has not parted") {
+  const Track part = run(model, scene.run, {reference.steps / 2, 60.0});
+  CHECK(part.end == Track::End::too_long);
+  CHECK(part.t < 2.0);
+  CHECK(part.steps <= reference.steps / 2 + 20);
+  const Deviation d = compared(part);
+  CHECK_FALSE(d.splits());
+  CHECK_FALSE(d.complete);
+  CHECK(d.reached <= part.t);
+  CHECK(run(model, scene.run, {reference.steps / 2, 60.0}).t == part.t);
+}
+
+TEST_CASE_FIXTURE(Fixture, "differential: a broken promise without neighbours enough is undecided") {
+  JudgeSettings settings;
+  settings.margin = 1e-12;
+  CHECK(judge(scene, settings).verdict == Verdict::disagree);
+  RunSpec tight = scene.run;
+  tight.engine = Engine::ida;
+  tight.rtol = settings.tight;
+  settings.engine_steps = run(model, tight).steps + reference.steps / 2;  // half a neighbour
+  CHECK(judge(scene, settings).verdict == Verdict::undecided);
+}
+
+TEST_CASE("differential: neighbours rebound a little differently, never with more than all of it") {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    Model model = build_model(read_scene(SIGNORINI_TEST_DATA "/scenes/differential/hit-at-start.toml"));
+    Contact& contact = model.contacts.at(0);
+    contact.law = Law::rigid;
+    contact.restitution = e;
+    const auto n = static_cast<std::size_t>(model.size());
+    const Weights weights{std::vector<double>(n, 1.0), std::vector<double>(n, 1.0), 1.0};
+    double least = 2.0, most = -1.0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const double near = neighbour(model, weights, 1e-3, 2.0, seed).contacts[0].restitution;
+      least = std::min(least, near);
+      most = std::max(most, near);
+    }
+    CHECK(most <= std::min(1.0, e * 1.001));
+    CHECK(least >= e * 0.999);
+    CHECK((least < e) == (e > 0.0));
+    CHECK((most > e) == (e == 0.5));
+  }
 }
 
 TEST_CASE("differential: reasons are compared without names and numbers") {

@@ -39,7 +39,7 @@ class Judge {
     fix_capture();
     if (!find_reference()) return result_;
     weights_ = weights_of(model_, reference_);
-    check_audit(reference_, "reference", linear_ ? 1e-10 : settings_.margin * reference_spec_.rtol, 1e-6);
+    check_audit(reference_, "reference", linear_ ? 1e-10 : delta_of(reference_, reference_spec_.rtol), 1e-6);
     compare_ida(fmt::format("ida {:g}", settings_.tight), settings_.tight);
     compare_ida(fmt::format("ida {:g}", settings_.loose), settings_.loose);
     if (linear_) compare_newmark();
@@ -114,10 +114,11 @@ class Judge {
     const auto claim = [&](const char* what, double value, double limit) {
       if (value <= limit) return;
       Comparison c;
-      c.engine = name;
+      c.engine = "audit of " + name;
+      c.to_end = true;
       c.verdict = Verdict::disagree;
       c.until = track.t;
-      c.what = fmt::format("audit of {}: {:.2e}, allowed {:.2e}", what, value, limit);
+      c.what = fmt::format("{}: {:.2e}, allowed {:.2e}", what, value, limit);
       result_.comparisons.push_back(c);
     };
     double length = a.length_scale;
@@ -178,15 +179,19 @@ class Judge {
     result_.comparisons.push_back(c);
   }
 
+  /// What all steps of ida may have been off together, relative.
+  [[nodiscard]] double delta_of(const Track& track, double rtol) const {
+    const double errors = static_cast<double>(track.report.counters.steps) / steps_per_tolerance;
+    return settings_.margin * rtol * std::max(1.0, errors);
+  }
+
   void compare_ida(const std::string& name, double rtol) {
     steps_left_ = settings_.engine_steps;
     const Track track = run_of(model_, spec(Engine::ida, rtol));
     if (refused(name, track)) return;
-    const double errors =
-        std::max(1.0, static_cast<double>(track.report.counters.steps) / steps_per_tolerance);
     Promise promise;
-    promise.delta = settings_.margin * rtol * errors;
-    promise.blur = settings_.margin * errors;
+    promise.delta = delta_of(track, rtol);
+    promise.blur = promise.delta / rtol;
     promise.resolution = settings_.margin;
     promise.least_time = roundoff * scene_.run.t_end;
     const Deviation found = deviation(reference_, track, weights_, scene_.run.t_end);

@@ -106,7 +106,7 @@ struct Reduction {
   std::vector<ComplianceShare> shares;          ///< contacts, then loads
   /// Amplitude at named nodes of what the modes left out would ring with after the loads' jumps; length.
   double ringing = 0.0;
-  /// Greatest part of the initial displacement (velocity) that the reduced model cannot represent.
+  /// Greatest part of the initial displacement (velocity) that is lost; rotations as lengths, by the scales.
   double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
 
   [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }

@@ -7,8 +7,8 @@
 //
 // Why: validation/work-precision. A series takes a step for every 5 radians of the fastest motion, whether
 // anything still moves like that or not; an implicit method steps over what has died out. Where nothing dies
-// out the series is the cheapest for all but rough answers. The two meet at 0.2 (slow loads, few events)
-// to 1.6 (many events); 0.2 is the choice that is least wrong.
+// out the series is the cheapest for all but rough answers. The two meet at 0.1 (slow loads, few events)
+// to 0.5 (many events); 0.2 is the choice that is least wrong.
 #pragma once
 
 #include <string>

@@ -286,7 +286,9 @@ normal_force = 3.0
       [](const std::string& candidate) {
         try {
           const Scene s = parse_scene(candidate, "smaller.toml");
-          return s.initial.v.back() == 2.0 && s.matrices->mass.entries.back().value == 7.0;
+          const auto& masses = s.matrices->mass.entries;
+          return !s.initial.v.empty() && s.initial.v.back() == 2.0 && !masses.empty() &&
+                 masses.back().value == 7.0;
         } catch (const Error&) {
           return false;
         }

@@ -138,7 +138,8 @@ Tables plainer_pairs(const toml::table& scene) {
   Tables list;
   for (const char* kind : {"mass", "damping", "stiffness"}) {
     const toml::array* matrix = scene["matrices"][kind].as_array();
-    const std::size_t n = matrix != nullptr ? matrix->size() : 0;
+    if (matrix == nullptr) continue;
+    const std::size_t n = matrix->size();
     const auto changed = [&](const auto& change) {
       toml::table copy = scene;
       toml::array& rows = *copy["matrices"][kind].as_array();

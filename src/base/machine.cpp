@@ -1,12 +1,15 @@
 #include "base/machine.hpp"
 
+#include <sched.h>
+
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
 namespace signorini {
 
 Machine this_machine() {
-  Machine machine{"unknown processor", std::max(1U, std::thread::hardware_concurrency()), "g++ " __VERSION__};
+  Machine machine{"unknown processor", processors(), "g++ " __VERSION__};
 #ifdef __OPTIMIZE__
   machine.compiler += ", optimised";
 #else
@@ -20,6 +23,14 @@ Machine this_machine() {
     break;
   }
   return machine;
+}
+
+std::size_t processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    return std::max<std::size_t>(1, static_cast<std::size_t>(CPU_COUNT(&set)));
+  return std::max(1U, std::thread::hardware_concurrency());
 }
 
 }  // namespace signorini

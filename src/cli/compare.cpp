@@ -178,7 +178,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   const std::vector<Limit> limits = parse_limits(options.limits);
   check_sources(options);
   const fs::path path = output_directory(options);
-  check_folder(path, own_folder(), options.force, options.sources.front());
+  check_folder(path, own_folder(), options.force, by_engine(options) ? options.sources.front() : "");
   Outcomes outcomes =
       by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
   if (outcomes.interrupted) {

@@ -35,7 +35,7 @@ void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, c
     throw FileError(path.string(),
                     fmt::format("is not empty and holds no {} (no {}) that --force could replace",
                                 folder.what, folder.marker));
-  if (lies_in(path, scene))
+  if (!scene.empty() && lies_in(path, scene))
     throw FileError(
         scene,
         fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));

@@ -17,7 +17,7 @@ struct OwnedFolder {
 };
 
 /// Errors: FileError unless the folder is absent, empty or, with `force`, one of ours; then also if the scene
-/// lies in it, which could be lost.
+/// lies in it, which could be lost; `scene`: empty if there is none.
 void check_folder(const std::filesystem::path& path, const OwnedFolder& folder, bool force,
                   const std::string& scene);
 /// Creates it, removes our files and writes the marker. Errors: FileError.

@@ -124,7 +124,6 @@ WorkRequest request_of(const StudyOptions& options, const std::vector<std::strin
   request.repeats = static_cast<std::size_t>(options.repeats);
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
   request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};
-  (void)read_scene(options.scene, settings_for(options, ""));
   try_engines(options, varied);
   return request;
 }
@@ -179,13 +178,9 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   WorkRequest request = request_of(options, command_line);
   const fs::path path = request.directory;
   check_folder(path, own_folder(), options.force, options.scene);
-  if (!options.dt) {
-    const Scene scene = read_scene(options.scene, settings_for(options, ""));
-    request.ranges.dt = usual_steps(scene.run.t_end);
-  } else {
-    request.ranges.dt = parse_decades("--dt", *options.dt);
-  }
+  if (options.dt) request.ranges.dt = parse_decades("--dt", *options.dt);
   WorkStudy work(request);
+  if (!options.dt) request.ranges.dt = usual_steps(work.report().t_end);
   begin_folder(path, own_folder());
   clear_runs(path);
   remove_work_plots(path);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/machine.hpp"
 #include "base/number.hpp"
 #include "cli/command.hpp"
 #include "cli/gnuplot.hpp"

@@ -1,6 +1,5 @@
 #include "cli/workers.hpp"
 
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +12,6 @@
 #include <map>
 #include <new>
 #include <system_error>
-#include <thread>
 
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"
@@ -136,14 +134,6 @@ bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs,
     if (signal == SIGINT || signal == SIGTERM) return false;
   }
   return true;
-}
-
-std::size_t processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) == 0)
-    return std::max<std::size_t>(1, static_cast<std::size_t>(CPU_COUNT(&set)));
-  return std::max(1U, std::thread::hardware_concurrency());
 }
 
 }  // namespace signorini::cli

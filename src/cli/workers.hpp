@@ -29,7 +29,4 @@ struct WorkerEnd {
                                const std::function<bool(const WorkerEnd&)>& ended,
                                const std::function<void(std::size_t)>& idle);
 
-/// How many processors this process may use.
-[[nodiscard]] std::size_t processors();
-
 }  // namespace signorini::cli

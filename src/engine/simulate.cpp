@@ -14,11 +14,7 @@
 #include "engine/breakpoints.hpp"
 #include "engine/choose_engine.hpp"
 #include "engine/clock.hpp"
-#include "engine/exact_engine.hpp"
-#include "engine/friction_iteration.hpp"
-#include "engine/ida_engine.hpp"
-#include "engine/newmark_engine.hpp"
-#include "engine/order.hpp"
+#include "engine/make_stepper.hpp"
 #include "engine/refusals.hpp"
 #include "engine/tolerance.hpp"
 
@@ -33,16 +29,6 @@ std::optional<EventType> classify(State from, State to, bool dropped) {
   return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
 }
 
-/// Settings of the engines whose steps have a given length.
-void name_fixed_steps(const RunSpec& spec, Settings& settings) {
-  if (!spec.dt)
-    throw SceneError(spec.place, "run.dt",
-                     fmt::format("engine \"{}\" needs it: its step", to_string(spec.engine)));
-  settings.max_order = 2;
-  settings.max_order_reason = "average acceleration";
-  settings.dt = *spec.dt;
-}
-
 // A bouncing ball with e = 0.99 passes its accumulation point with 2000 events; an e = 0.999 takes 20000, in
 // a time that is no longer short.
 constexpr int watched_events = 10000;
@@ -53,33 +39,19 @@ constexpr int most_unordered = 5;        // warnings about one and the same thin
 
 class Run {
  public:
-  Run(const Model& model, const RunSpec& spec, Recorder& recorder)
+  Run(const Model& model, const RunSpec& spec, Settings settings, Recorder& recorder)
       : model_(model),
         spec_(spec),
         recorder_(recorder),
         structure_(model),
         expander_(model, structure_),
-        decider_(model, expander_, spec.max_events_at_once, settings_for(model, spec).capture_velocity),
+        decider_(model, expander_, spec.max_events_at_once, settings.capture_velocity),
         auditor_(model, structure_),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
         breakpoints_(breakpoints(model, spec.t_end)) {
-    report_.settings = settings_for(model, spec);
-    report_.settings.engine = to_string(spec.engine);
-    if (spec.engine == Engine::exact) {
-      report_.settings.max_order = most_levels;
-      report_.settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
-      stepper_ = std::make_unique<ExactEngine>(model, structure_, expander_, spec.t_end);
-    } else if (spec.engine == Engine::newmark) {
-      name_fixed_steps(spec, report_.settings);
-      stepper_ = std::make_unique<NewmarkEngine>(model, structure_, expander_, spec, report_.settings);
-    } else if (spec.engine == Engine::friction_iteration) {
-      name_fixed_steps(spec, report_.settings);
-      stepper_ = std::make_unique<FrictionIteration>(model, structure_, expander_, spec);
-    } else {
-      choose_order(model, spec, report_.settings);
-      stepper_ = std::make_unique<IdaEngine>(model, structure_, expander_, report_.settings, spec.t_end);
-    }
+    stepper_ = make_stepper(model, structure_, expander_, spec, settings);
+    report_.settings = std::move(settings);
   }
 
   Report go() {
@@ -424,9 +396,9 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder)
   RunSpec spec = settings;
   spec.engine = choice.engine;
   refuse_what_engine_cannot(model, spec);
-  Report report = Run(model, spec, recorder).go();
-  report.settings.engine_reason = choice.reason;
-  return report;
+  Settings run = settings_for(model, spec);
+  run.engine_reason = choice.reason;
+  return Run(model, spec, std::move(run), recorder).go();
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

@@ -9,6 +9,7 @@
 #include "model/growth.hpp"
 #include "model/held.hpp"
 #include "model/null_motions.hpp"
+#include "model/selection.hpp"
 
 namespace signorini {
 namespace {
@@ -160,10 +161,6 @@ class Subspace {
   Eigen::MatrixXd x_;
   Eigen::VectorXd values_;
 };
-
-int degrees_with_mass(const SparseMatrix& mass) {
-  return static_cast<int>((mass.diagonal().array() > 0.0).count());
-}
 
 Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k0,
                    const std::vector<Combination>& fixed, int count) {

@@ -122,7 +122,7 @@ SymmetricSolver regular(const SparseMatrix& a) {
 
 KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                       const Eigen::MatrixXd& free) {
-  const auto heavies = static_cast<int>((mass.diagonal().array() > 0.0).count());
+  const int heavies = degrees_with_mass(mass);
   Eigen::MatrixXd rigid = free;
   orthonormalise(rigid, mass);
   const ElasticModes found = elastic_modes(cutoff, mass, stiffness, rigid, heavies);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "model/selection.hpp"
 #include "model/springs.hpp"
 
 namespace signorini {
@@ -167,8 +168,7 @@ EigenPairs lowest_modes(int below, double limit, const SparseMatrix& mass, const
   const SymmetricSolver solver(SparseMatrix(stiffness + shift * mass));
   EigenPairs found{Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) return found;
-  const auto heavies =
-      static_cast<int>((mass.diagonal().array() > 0.0).count()) - static_cast<int>(free.cols());
+  const int heavies = degrees_with_mass(mass) - static_cast<int>(free.cols());
   found = sorted(lanczos(below + 1, solver, mass, free, shift, heavies), limit);
   const auto complete = [&] {
     return found.values.size() == below + 1 && number_below(found, limit) == below;

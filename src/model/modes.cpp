@@ -8,6 +8,7 @@
 #include "model/held.hpp"
 #include "model/lanczos.hpp"
 #include "model/null_motions.hpp"
+#include "model/selection.hpp"
 #include "model/static_system.hpp"
 
 namespace signorini {
@@ -15,50 +16,12 @@ namespace {
 
 constexpr int dense_up_to = 200;
 
-Eigen::MatrixXd columns(const std::vector<Combination>& forms, int n) {
-  Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
-  for (std::size_t j = 0; j < forms.size(); ++j) t.col(static_cast<Eigen::Index>(j)) = full(forms[j], n);
-  return t;
-}
-
-/// Rows and columns of the numbered degrees of freedom (number -1: left out).
-SparseMatrix part(const SparseMatrix& a, const std::vector<int>& rows, const std::vector<int>& cols, int m,
-                  int n) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int k = 0; k < a.outerSize(); ++k)
-    for (SparseMatrix::InnerIterator it(a, k); it; ++it) {
-      const int i = rows[static_cast<std::size_t>(it.row())], j = cols[static_cast<std::size_t>(k)];
-      if (i >= 0 && j >= 0) entries.emplace_back(i, j, it.value());
-    }
-  SparseMatrix b(m, n);
-  b.setFromTriplets(entries.begin(), entries.end());
-  return b;
-}
-
-struct Split {
-  std::vector<int> heavy, massless;  ///< new numbers, -1 for the others
-  int heavies = 0, massless_count = 0;
-};
-
-Split split(const SparseMatrix& mass) {
-  const auto n = static_cast<int>(mass.rows());
-  Vector size = Vector::Zero(n);
-  for (int k = 0; k < n; ++k)
-    for (SparseMatrix::InnerIterator it(mass, k); it; ++it) size[it.row()] += std::abs(it.value());
-  Split s;
-  for (int i = 0; i < n; ++i) {
-    s.heavy.push_back(size[i] > 0.0 ? s.heavies++ : -1);
-    s.massless.push_back(size[i] > 0.0 ? -1 : s.massless_count++);
-  }
-  return s;
-}
-
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
 double lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
   Eigen::MatrixXd m(mass), stiff(k);
   if (!fixed.empty()) {
-    const Eigen::MatrixXd free = orthogonal_complement(columns(fixed, static_cast<int>(k.rows())));
+    const Eigen::MatrixXd free = orthogonal_complement(form_columns(fixed, static_cast<int>(k.rows())));
     m = (free.transpose() * m * free).eval();
     stiff = (free.transpose() * stiff * free).eval();
     if (free.cols() == 0) return 0.0;
@@ -77,13 +40,13 @@ double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std:
 }
 
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {
-  const Split s = split(mass);
-  const int h = s.heavies, l = s.massless_count;
+  const SparseMatrix heavy = select_by_mass(mass, true), light = select_by_mass(mass, false);
+  const auto h = static_cast<int>(heavy.cols()), l = static_cast<int>(light.cols());
   if (h == 0) return 0.0;
-  const SparseMatrix m = part(mass, s.heavy, s.heavy, h, h);
-  const SparseMatrix kdd = part(k, s.heavy, s.heavy, h, h);
-  const SparseMatrix kmm = part(k, s.massless, s.massless, l, l);
-  const SparseMatrix kmd = part(k, s.massless, s.heavy, l, h);
+  const SparseMatrix m = heavy.transpose() * mass * heavy;
+  const SparseMatrix kdd = heavy.transpose() * k * heavy;
+  const SparseMatrix kmm = light.transpose() * k * light;
+  const SparseMatrix kmd = light.transpose() * k * heavy;
   // A massless motion without stiffness (dampers only) cannot be condensed; held, it gives a bound.
   const bool condense = l > 0 && null_motions(kmm).cols() == 0;
   const SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));

@@ -16,4 +16,8 @@ SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass) {
   return selection(indices, n);
 }
 
+int degrees_with_mass(const SparseMatrix& mass) {
+  return static_cast<int>((mass.diagonal().array() > 0.0).count());
+}
+
 }  // namespace signorini

@@ -15,4 +15,7 @@ namespace signorini {
 /// Degrees of freedom whose mass is > 0, or the others.
 [[nodiscard]] SparseMatrix select_by_mass(const SparseMatrix& mass, bool with_mass);
 
+/// How many degrees of freedom have mass.
+[[nodiscard]] int degrees_with_mass(const SparseMatrix& mass);
+
 }  // namespace signorini

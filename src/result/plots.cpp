@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/file_name.hpp"
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
@@ -29,12 +30,7 @@ std::vector<std::string> make_slugs(const std::vector<RunFacts::Contact>& contac
   std::vector<std::string> slugs;
   std::set<std::string> taken;
   for (const auto& contact : contacts) {
-    std::string slug;
-    for (const char c : contact.name.substr(0, 80)) {
-      const bool plain =
-          (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-      slug += plain ? c : '_';
-    }
+    const std::string slug = file_name(contact.name, 80, "-_", '_');
     std::string unique = slug;
     for (int n = 2; !taken.insert(unique).second; ++n) unique = slug + "-" + std::to_string(n);
     slugs.push_back(unique);

@@ -7,6 +7,7 @@
 #include "base/version.hpp"
 #include "contact/law.hpp"
 #include "result/reduction_json.hpp"
+#include "result/units_json.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -40,13 +41,11 @@ int exit_code(Outcome::Kind kind) {
 }
 
 Json unit_json(const Units& units) {
-  return {{"force", units.force},
-          {"mass", units.mass},
-          {"length", units.length},
-          {"time", units.time},
-          {"energy", units.force + " " + units.length},
-          {"power", units.force + " " + units.length + "/" + units.time},
-          {"angle", "rad"}};
+  Json json = units_json(units);
+  json["energy"] = units.force + " " + units.length;
+  json["power"] = units.force + " " + units.length + "/" + units.time;
+  json["angle"] = "rad";
+  return json;
 }
 
 Json version_json() {

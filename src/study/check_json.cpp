@@ -2,6 +2,7 @@
 
 #include "contact/law.hpp"
 #include "result/reduction_json.hpp"
+#include "result/units_json.hpp"
 #include "study/check.hpp"
 
 namespace signorini {
@@ -32,12 +33,9 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
 
 std::string check_json(const Scene& scene, const Model& model, const CheckReport& report) {
   const Units& u = model.units;
-  Json json = {{"scene", scene.file},
-               {"title", model.title},
-               {"units", {{"force", u.force}, {"mass", u.mass}, {"length", u.length}, {"time", u.time}}},
-               {"degrees_of_freedom", report.degrees_of_freedom},
-               {"massless", report.massless},
-               {"static_start", model.static_start}};
+  Json json = {{"scene", scene.file},         {"title", model.title},
+               {"units", units_json(u)},      {"degrees_of_freedom", report.degrees_of_freedom},
+               {"massless", report.massless}, {"static_start", model.static_start}};
   if (report.mass) {
     const MassFacts& m = *report.mass;
     json["mass"] = {{"total", m.total},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "result/csv.hpp"
+#include "result/units_json.hpp"
 
 namespace signorini {
 
@@ -187,11 +188,7 @@ std::string split_text(const ComparedRun& reference, const ComparedRun& other,
 std::string comparison_json(const ComparisonReport& report) {
   const RunFacts& facts = report.runs.front().figures.facts;
   Json json = {{"title", facts.title},
-               {"units",
-                {{"force", facts.units.force},
-                 {"mass", facts.units.mass},
-                 {"length", facts.units.length},
-                 {"time", facts.units.time}}},
+               {"units", units_json(facts.units)},
                {"reference", report.runs.front().figures.name}};
   json["runs"] = Json::array();
   for (const ComparedRun& run : report.runs) json["runs"].push_back(run_json(run.figures));

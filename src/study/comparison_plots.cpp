@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/file_name.hpp"
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
@@ -28,14 +29,7 @@ std::string look(std::size_t run) {
   return fmt::format("linewidth 1.3 dashtype {} linecolor '{}'", run + 1, colour);
 }
 
-std::string plain(const std::string& name) {
-  std::string slug;
-  for (const char c : name.substr(0, 60)) {
-    const bool keep = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-    slug += keep ? c : '_';
-  }
-  return slug;
-}
+std::string plain(const std::string& name) { return file_name(name, 60, "-", '_'); }
 
 PlottedRun plotted(const RunFigures& figures, double t_end) {
   PlottedRun run;

@@ -13,6 +13,7 @@
 #include "base/version.hpp"
 #include "result/csv.hpp"
 #include "result/run_directory.hpp"
+#include "result/units_json.hpp"
 #include "study/sweep_plots.hpp"
 #include "study/sweep_table.hpp"
 
@@ -30,11 +31,7 @@ Json spec_json(const SweepSpec& spec) {
                {"scene", spec.scene},
                {"fingerprint", spec.fingerprint},
                {"title", spec.title},
-               {"units",
-                {{"force", spec.units.force},
-                 {"mass", spec.units.mass},
-                 {"length", spec.units.length},
-                 {"time", spec.units.time}}},
+               {"units", units_json(spec.units)},
                {"settings", spec.settings}};
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary)

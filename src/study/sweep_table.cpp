@@ -4,6 +4,7 @@
 #include <set>
 
 #include "result/csv.hpp"
+#include "result/units_json.hpp"
 
 namespace signorini {
 
@@ -69,16 +70,9 @@ std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
 
 std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
   using Json = nlohmann::ordered_json;
-  Json json = {{"title", spec.title},
-               {"scene", spec.scene},
-               {"units",
-                {{"force", spec.units.force},
-                 {"mass", spec.units.mass},
-                 {"length", spec.units.length},
-                 {"time", spec.units.time}}},
-               {"settings", spec.settings},
-               {"share", spec.share.text()},
-               {"rows_in_all", points(spec.vary).size()}};
+  Json json = {
+      {"title", spec.title},       {"scene", spec.scene},        {"units", units_json(spec.units)},
+      {"settings", spec.settings}, {"share", spec.share.text()}, {"rows_in_all", points(spec.vary).size()}};
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary) json["vary"].push_back({{"path", vary.path}, {"values", vary.values}});
   json["rows"] = Json::array();

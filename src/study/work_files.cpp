@@ -9,6 +9,7 @@
 #include "base/number.hpp"
 #include "base/version.hpp"
 #include "result/csv.hpp"
+#include "result/units_json.hpp"
 #include "study/frontier.hpp"
 
 namespace signorini {
@@ -238,11 +239,7 @@ std::string work_json(const WorkReport& report) {
   Json json = {
       {"scene", report.scene},
       {"title", report.title},
-      {"units",
-       {{"force", report.units.force},
-        {"mass", report.units.mass},
-        {"length", report.units.length},
-        {"time", report.units.time}}},
+      {"units", units_json(report.units)},
       {"t_end", report.t_end},
       {"degrees_of_freedom", report.unknowns},
       {"contacts", report.contacts},

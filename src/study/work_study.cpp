@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/file_name.hpp"
 #include "base/number.hpp"
 #include "result/csv_read.hpp"
 #include "study/decades.hpp"
@@ -29,12 +30,7 @@ constexpr double patience = 10.0;
 
 /// Folders are numbered: names that differ in odd characters only stay apart.
 std::string folder_name(std::size_t number, const std::string& name) {
-  std::string slug;
-  for (const char c : name.substr(0, 80)) {
-    const bool keep = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.';
-    slug += keep ? c : '-';
-  }
-  return fmt::format("{:03}-{}", number, slug);
+  return fmt::format("{:03}-{}", number, file_name(name, 80, ".", '-'));
 }
 
 std::vector<Override> capture_velocities(const Scene& scene, const Model& model) {

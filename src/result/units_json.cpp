@@ -1,0 +1,11 @@
+#include "result/units_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace signorini {
+
+nlohmann::ordered_json units_json(const Units& units) {
+  return {{"force", units.force}, {"mass", units.mass}, {"length", units.length}, {"time", units.time}};
+}
+
+}  // namespace signorini

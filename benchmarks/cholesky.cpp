@@ -14,7 +14,7 @@
 #endif
 
 #include "clock.hpp"
-#include "engine/klu.hpp"
+#include "linear/klu.hpp"
 #include "scenes.hpp"
 #include "signorini/simulate.hpp"
 

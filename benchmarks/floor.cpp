@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "engine/fast_vector.hpp"
+#include "engine/ida/fast_vector.hpp"
 
 namespace signorini::benchmarks {
 

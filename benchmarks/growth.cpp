@@ -13,7 +13,7 @@
 #include "clock.hpp"
 #include "scenes.hpp"
 #include "signorini/simulate.hpp"
-#include "study/check.hpp"
+#include "study/check/check.hpp"
 
 namespace {
 

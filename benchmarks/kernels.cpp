@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 
-#include "engine/bernstein.hpp"
-#include "engine/decide.hpp"
-#include "engine/momentum.hpp"
-#include "engine/newmark_step.hpp"
-#include "engine/step_history.hpp"
-#include "engine/system_matrix.hpp"
+#include "decide/decide.hpp"
+#include "engine/falls/bernstein.hpp"
+#include "engine/falls/step_history.hpp"
+#include "engine/newmark/newmark_step.hpp"
 #include "floor.hpp"
+#include "linear/momentum.hpp"
+#include "linear/system_matrix.hpp"
 #include "scenes.hpp"
 #include "signorini/simulate.hpp"
 

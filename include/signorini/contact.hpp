@@ -10,7 +10,7 @@
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
 //
 // A rigid contact has the row g'' = 0 in place of N = kn g, and ut'' = surface acceleration in stick; where
-// it closes with g' < 0 it is hit (engine/impact.hpp). Stribeck friction: fk of the slip rate,
+// it closes with g' < 0 it is hit (decide/impact.hpp). Stribeck friction: fk of the slip rate,
 // sliding_friction().
 //
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0

@@ -52,7 +52,7 @@ struct Direction {
   std::vector<std::pair<std::string, double>> against = {};
 };
 
-/// automatic: exact or ida, whichever the scene is cheaper with (engine/choose_engine.hpp).
+/// automatic: exact or ida, whichever the scene is cheaper with (run/choose_engine.hpp).
 enum class Engine { automatic, ida, newmark, friction_iteration, exact };
 
 /// newmark: how the time of an event is found. root: the step redone until the guard at its end is zero;
@@ -109,7 +109,7 @@ struct DampingSpec {
   SourcePlace place;
 };
 
-/// Modes up to the cutoff are kept, of the others their static compliance (model/reduction.hpp).
+/// Modes up to the cutoff are kept, of the others their static compliance (model/reduce/reduction.hpp).
 struct ReductionSpec {
   double cutoff_omega = 0.0;  ///< rad per time
   SourcePlace place;

@@ -5,7 +5,7 @@
 #include "cli/command.hpp"
 #include "cli/settings.hpp"
 #include "cli/terminal.hpp"
-#include "study/check.hpp"
+#include "study/check/check.hpp"
 
 namespace signorini::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/check.hpp"
+#include "study/check/check.hpp"
 
 namespace signorini::cli {
 

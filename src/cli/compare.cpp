@@ -17,7 +17,7 @@
 #include "result/csv.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
-#include "study/comparison_plots.hpp"
+#include "study/compare/comparison_plots.hpp"
 
 namespace signorini::cli {
 

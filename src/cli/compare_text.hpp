@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/comparison_files.hpp"
+#include "study/compare/comparison_files.hpp"
 
 namespace signorini::cli {
 

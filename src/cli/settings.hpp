@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "signorini/scene.hpp"
-#include "study/vary.hpp"
+#include "study/sweep/vary.hpp"
 
 namespace signorini::cli {
 

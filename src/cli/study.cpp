@@ -14,9 +14,9 @@
 #include "cli/study_text.hpp"
 #include "cli/terminal.hpp"
 #include "result/run_directory.hpp"
-#include "study/decades.hpp"
-#include "study/work_files.hpp"
-#include "study/work_plots.hpp"
+#include "study/speed/decades.hpp"
+#include "study/speed/work_files.hpp"
+#include "study/speed/work_plots.hpp"
 
 namespace signorini::cli {
 

@@ -1,7 +1,7 @@
 #include "cli/study_text.hpp"
 
 #include "cli/table.hpp"
-#include "study/work_files.hpp"
+#include "study/speed/work_files.hpp"
 
 namespace signorini::cli {
 

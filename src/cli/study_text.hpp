@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/work_study.hpp"
+#include "study/speed/work_study.hpp"
 
 namespace signorini::cli {
 

@@ -17,8 +17,8 @@
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
-#include "study/fingerprint.hpp"
-#include "study/sweep_plots.hpp"
+#include "study/speed/fingerprint.hpp"
+#include "study/sweep/sweep_plots.hpp"
 
 namespace signorini::cli {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/sweep_table.hpp"
+#include "study/sweep/sweep_table.hpp"
 
 namespace signorini::cli {
 

@@ -2,15 +2,15 @@
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
-// The loop (engine/simulate.cpp) decides, applies and records; a stepper advances, finds the instant at
+// The loop (run/simulate.cpp) decides, applies and records; a stepper advances, finds the instant at
 // which the first guard falls, and integrates works over what it has passed.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "engine/decide.hpp"
-#include "engine/powers.hpp"
+#include "decide/decide.hpp"
+#include "motion/powers.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {

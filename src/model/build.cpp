@@ -4,18 +4,18 @@
 //   -> reduction -> shear elements
 #include <fmt/core.h>
 
-#include "model/assembly.hpp"
-#include "model/contacts.hpp"
-#include "model/dofs.hpp"
-#include "model/drawing.hpp"
+#include "model/assembly/assembly.hpp"
+#include "model/assembly/contacts.hpp"
+#include "model/assembly/dofs.hpp"
+#include "model/assembly/drawing.hpp"
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
-#include "model/modes.hpp"
-#include "model/reduction.hpp"
+#include "model/modes/modes.hpp"
+#include "model/reduce/reduction.hpp"
 #include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
 #include "model/shear.hpp"
-#include "model/statics.hpp"
+#include "model/statics/statics.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

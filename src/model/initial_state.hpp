@@ -1,7 +1,7 @@
 // initial_state.hpp: u(0), v(0) as the scene gives them.
 #pragma once
 
-#include "model/dofs.hpp"
+#include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "model/motion_names.hpp"
-#include "model/null_motions.hpp"
-#include "model/springs.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/null_motions.hpp"
 
 namespace signorini {
 namespace {

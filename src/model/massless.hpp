@@ -3,7 +3,7 @@
 //   M = [M_dd 0; 0 0],   M_dd positive definite,   C_mm u' + K_mm u = ... solvable for u' or u
 #pragma once
 
-#include "model/assembly.hpp"
+#include "model/assembly/assembly.hpp"
 
 namespace signorini {
 

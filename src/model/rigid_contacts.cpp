@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/springs.hpp"
+#include "model/assembly/springs.hpp"
 
 namespace signorini {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/held.hpp"
-#include "model/history_internal.hpp"
-#include "model/modes.hpp"
-#include "model/motion_names.hpp"
-#include "model/null_motions.hpp"
-#include "model/springs.hpp"
+#include "base/history/history_internal.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/modes/held.hpp"
+#include "model/modes/modes.hpp"
+#include "model/statics/null_motions.hpp"
 
 namespace signorini {
 namespace {

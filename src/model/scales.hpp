@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "model/dofs.hpp"
+#include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "model/springs.hpp"
+#include "model/assembly/springs.hpp"
 
 namespace signorini {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "base/history/history_internal.hpp"
 #include "base/number.hpp"
-#include "model/history_from_spec.hpp"
-#include "model/history_internal.hpp"
+#include "scene/history_from_spec.hpp"
 #include "scene/readers.hpp"
 #include "scene/touched_segment.hpp"
 

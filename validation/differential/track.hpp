@@ -12,7 +12,7 @@
 
 #include "signorini/result.hpp"
 #include "signorini/simulate.hpp"
-#include "study/alignment.hpp"
+#include "study/compare/alignment.hpp"
 
 namespace signorini::differential {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "engine/fast_vector.hpp"
-#include "engine/ida_linear_solver.hpp"
+#include "engine/ida/fast_vector.hpp"
+#include "engine/ida/ida_linear_solver.hpp"
 #include "integrator.hpp"
 #include "parts.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/fast_vector.hpp"
+#include "engine/ida/fast_vector.hpp"
 #include "integrator.hpp"
 #include "parts.hpp"
 

@@ -4,14 +4,14 @@
 //   (I - g J) x = b:   (M + g C + g^2 K) x_v + n g dN + t g dT = M b_v - g K b_u,   x_u = b_u + g x_v
 //
 // Both are one solve with the matrix of the structure and two rows a contact, the one behind all engines
-// (engine/system_matrix.hpp). Vectors y = [u, v] of length 2 n; degrees of freedom without mass are not
+// (linear/system_matrix.hpp). Vectors y = [u, v] of length 2 n; degrees of freedom without mass are not
 // treated.
 #pragma once
 
 #include <optional>
 
-#include "engine/forcing.hpp"
-#include "engine/system_matrix.hpp"
+#include "linear/system_matrix.hpp"
+#include "motion/forcing.hpp"
 
 namespace signorini::esdirk {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "contact/law.hpp"
-#include "engine/mode.hpp"
+#include "contact/mode.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::esdirk {

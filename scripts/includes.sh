@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Which folder of src/ includes which; fails where two include each other, directly or round about.
+# includes.sh [--list]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../src"
+
+arrows() {
+  grep -rHoE '^#include "[^"]+/[^"/]+"' --include='*.[ch]pp' . | sed -E 's|^\./||; s|/[^/:]+:#include "| |; s|/[^/]+"$||' |
+    awk '$1 != $2 && $2 !~ /^signorini/' | sort -u
+}
+
+[[ "${1:-}" == --list ]] && arrows
+if ! cycles=$(arrows | tsort 2>&1 >/dev/null) || [[ -n "$cycles" ]]; then
+  echo "includes.sh: folders that include each other:" >&2
+  echo "$cycles" | sed -E 's/^tsort: //; /input contains a loop|^-$/d' >&2
+  exit 1
+fi

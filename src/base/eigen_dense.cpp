@@ -1,0 +1,70 @@
+#include "base/eigen_dense.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace signorini {
+
+EigenPairs symmetric_eigen(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+namespace {
+
+/// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. Scaled to a unit diagonal of B first:
+/// translations and rotations differ by powers of the length.
+struct Reduced {
+  Eigen::VectorXd s;  ///< 1 / D; empty when B is not positive definite
+  Eigen::LLT<Eigen::MatrixXd> llt;
+  Eigen::MatrixXd c;
+
+  Reduced(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    const Eigen::VectorXd diagonal = b.diagonal();
+    if (diagonal.size() == 0 || diagonal.minCoeff() <= 0.0) return;
+    const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+    llt.compute(scale.asDiagonal() * b * scale.asDiagonal());
+    if (llt.info() != Eigen::Success) return;
+    s = scale;
+    c = s.asDiagonal() * a * s.asDiagonal();
+    llt.matrixL().solveInPlace(c);
+    c.transposeInPlace();
+    llt.matrixL().solveInPlace(c);
+  }
+};
+
+}  // namespace
+
+Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Reduced reduced(a, b);
+  if (reduced.s.size() == 0) return {};
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced.c, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Reduced reduced(a, b);
+  if (reduced.s.size() == 0) return {};
+  EigenPairs pairs = symmetric_eigen(reduced.c);
+  reduced.llt.matrixU().solveInPlace(pairs.vectors);
+  pairs.vectors = (reduced.s.asDiagonal() * pairs.vectors).eval();
+  return pairs;
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());
+}
+
+Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.rows());
+  return q.rightCols(a.rows() - qr.rank());
+}
+
+Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.fullPivLu().solve(b);
+}
+
+}  // namespace signorini

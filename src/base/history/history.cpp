@@ -1,0 +1,187 @@
+#include "signorini/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/history/history_internal.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+bool has_sine(const Piece& p) { return p.amplitude != 0.0; }
+
+/// Degree of the polynomial part, -1 when it is zero.
+int degree(const Piece& p) {
+  for (std::size_t j = p.coefficients.size(); j > 0; --j)
+    if (p.coefficients[j - 1] != 0.0) return static_cast<int>(j) - 1;
+  return -1;
+}
+
+bool is_constant_piece(const Piece& p) { return degree(p) <= 0 && (!has_sine(p) || p.omega == 0.0); }
+
+/// An antiderivative. With a sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
+Piece antiderivative(const Piece& p) {
+  Piece q;
+  q.origin = p.origin;
+  q.coefficients.assign(p.coefficients.size() + 1, 0.0);
+  for (std::size_t j = 0; j < p.coefficients.size(); ++j)
+    q.coefficients[j + 1] = p.coefficients[j] / static_cast<double>(j + 1);
+  if (!has_sine(p)) return q;
+  if (p.omega == 0.0) {
+    q.coefficients.resize(std::max<std::size_t>(q.coefficients.size(), 2), 0.0);
+    q.coefficients[1] += p.amplitude * std::sin(p.phase);
+    return q;
+  }
+  q.amplitude = p.amplitude / p.omega;
+  q.omega = p.omega;
+  q.phase = p.phase - pi / 2.0;
+  return q;
+}
+
+}  // namespace
+
+void Piece::taylor(double t, double scale, std::size_t count, double* out) const {
+  std::fill(out, out + count, 0.0);
+  const double s = t - origin;
+  double power = 1.0;  // scale^k
+  for (std::size_t k = 0; k < std::min(count, coefficients.size()); ++k, power *= scale) {
+    double sum = 0.0;
+    for (std::size_t j = coefficients.size(); j > k; --j) {
+      double binomial = 1.0;
+      for (std::size_t i = 1; i <= k; ++i) binomial *= static_cast<double>(j - i) / static_cast<double>(i);
+      sum = sum * s + binomial * coefficients[j - 1];
+    }
+    out[k] = sum * power;
+  }
+  if (amplitude == 0.0) return;
+  const double sine = std::sin(omega * s + phase), cosine = std::cos(omega * s + phase);
+  double factor = amplitude;  // a (w scale)^k / k!
+  for (std::size_t k = 0; k < count; ++k) {
+    const double turned = k % 4 == 0 ? sine : k % 4 == 1 ? cosine : k % 4 == 2 ? -sine : -cosine;
+    out[k] += factor * turned;
+    factor *= omega * scale / static_cast<double>(k + 1);
+  }
+}
+
+double Piece::value(double t, int order) const {
+  const double s = t - origin;
+  const auto k = static_cast<std::size_t>(order);
+  double sum = 0.0;
+  for (std::size_t j = coefficients.size(); j > k; --j) {
+    double c = coefficients[j - 1];
+    for (std::size_t i = 0; i < k; ++i) c *= static_cast<double>(j - 1 - i);
+    sum = sum * s + c;
+  }
+  if (amplitude == 0.0) return sum;
+  const double angle = omega * s + phase;
+  double sine = (order % 2 == 0) ? std::sin(angle) : std::cos(angle);
+  if (order % 4 >= 2) sine = -sine;
+  for (int i = 0; i < order; ++i) sine *= omega;
+  return sum + amplitude * sine;
+}
+
+double roundoff(const Piece& piece, double t) {
+  const double s = std::abs(t - piece.origin);
+  double size = 0.0, slope = 0.0, power = 1.0, lower = 0.0;
+  for (std::size_t j = 0; j < piece.coefficients.size(); ++j) {
+    const double c = std::abs(piece.coefficients[j]);
+    size += c * power;
+    slope += static_cast<double>(j) * c * lower;
+    lower = power;
+    power *= s;
+  }
+  const double a = std::abs(piece.amplitude);
+  size += a * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
+  slope += a * std::abs(piece.omega);
+  return 64.0 * std::numeric_limits<double>::epsilon() *
+         (size + (std::abs(t) + std::abs(piece.origin)) * slope);
+}
+
+double roundoff_of_rate(const Piece& piece, double t) {
+  const double s = std::abs(t - piece.origin);
+  double size = 0.0, power = 1.0;
+  for (std::size_t j = 1; j < piece.coefficients.size(); ++j, power *= s)
+    size += static_cast<double>(j) * std::abs(piece.coefficients[j]) * power;
+  size += std::abs(piece.amplitude * piece.omega) * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
+  return 64.0 * std::numeric_limits<double>::epsilon() * size;
+}
+
+History::History(std::vector<double> starts, std::vector<Piece> pieces)
+    : starts_(std::move(starts)), pieces_(std::move(pieces)) {
+  if (pieces_.size() != starts_.size() + 1)
+    throw std::invalid_argument("History: one piece more than starts is needed");
+  for (std::size_t i = 0; i < starts_.size(); ++i)
+    if (!std::isfinite(starts_[i]) || (i > 0 && starts_[i] <= starts_[i - 1]))
+      throw std::invalid_argument("History: starts must be finite and ascend strictly");
+}
+
+History History::constant(double value) {
+  Piece piece;
+  if (value != 0.0) piece.coefficients = {value};
+  return History(piece);
+}
+
+const Piece& History::piece(double t) const {
+  const auto next = std::upper_bound(starts_.begin(), starts_.end(), t);
+  return pieces_[static_cast<std::size_t>(next - starts_.begin())];
+}
+
+const Piece& History::piece_before(double t) const {
+  const auto next = std::lower_bound(starts_.begin(), starts_.end(), t);
+  return pieces_[static_cast<std::size_t>(next - starts_.begin())];
+}
+
+std::vector<Breakpoint> History::breakpoints() const {
+  std::vector<Breakpoint> result;
+  for (std::size_t i = 0; i < starts_.size(); ++i) {
+    const double t = starts_[i];
+    const Piece &left = pieces_[i], &right = pieces_[i + 1];
+    const double change = std::abs(right.value(t) - left.value(t));
+    // A constant that goes on is no breakpoint (a load of amplitude zero, two equal steps).
+    if (change == 0.0 && is_constant_piece(left) && is_constant_piece(right)) continue;
+    result.push_back({t, change > roundoff(left, t) + roundoff(right, t)});
+  }
+  return result;
+}
+
+History History::scaled(double factor, double offset) const {
+  History result = *this;
+  for (Piece& p : result.pieces_) {
+    for (double& c : p.coefficients) c *= factor;
+    p.amplitude *= factor;
+    if (offset == 0.0) continue;
+    if (p.coefficients.empty()) p.coefficients.push_back(0.0);
+    p.coefficients[0] += offset;
+  }
+  return result;
+}
+
+History History::integrated() const {
+  History result = *this;
+  for (Piece& p : result.pieces_) p = antiderivative(p);
+  auto shift = [](Piece& p, double t, double target) {
+    const double by = target - p.value(t);
+    if (by != 0.0) p.coefficients[0] += by;
+  };
+  auto& pieces = result.pieces_;
+  const auto first =
+      static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), 0.0) - starts_.begin());
+  shift(pieces[first], 0.0, 0.0);
+  for (std::size_t i = first; i < starts_.size(); ++i)
+    shift(pieces[i + 1], starts_[i], pieces[i].value(starts_[i]));
+  for (std::size_t i = first; i > 0; --i)
+    shift(pieces[i - 1], starts_[i - 1], pieces[i].value(starts_[i - 1]));
+  return result;
+}
+
+bool History::is_constant() const {
+  const double value = pieces_.front().value(0.0);
+  return std::all_of(pieces_.begin(), pieces_.end(),
+                     [&](const Piece& p) { return is_constant_piece(p) && p.value(0.0) == value; });
+}
+
+}  // namespace signorini

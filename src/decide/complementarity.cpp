@@ -1,0 +1,132 @@
+#include "decide/complementarity.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// The system w - M z - d z0 = q in the present basis. Columns: w, z, z0, right side.
+class Tableau {
+ public:
+  Tableau(const Eigen::MatrixXd& M, const Eigen::VectorXd& q)
+      : n_(q.size()), t_(n_, 2 * n_ + 2), basis_(static_cast<std::size_t>(n_)) {
+    t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -Eigen::VectorXd::Ones(n_), q;
+    for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
+    // What an elimination leaves of a zero.
+    zero_ = 64.0 * epsilon * std::max(1.0, M.cwiseAbs().maxCoeff());
+  }
+
+  [[nodiscard]] Eigen::Index artificial() const { return 2 * n_; }
+  [[nodiscard]] Eigen::Index complement(Eigen::Index variable) const {
+    return variable < n_ ? variable + n_ : variable - n_;
+  }
+  [[nodiscard]] const std::vector<Eigen::Index>& basis() const { return basis_; }
+
+  /// The row that is most negative first makes the start feasible.
+  [[nodiscard]] Eigen::Index first_row() const {
+    Eigen::Index best = 0;
+    for (Eigen::Index i = 1; i < n_; ++i)
+      if (lexicographically_less(i, 1.0, best, 1.0)) best = i;
+    return best;
+  }
+
+  /// The row that blocks the entering column, -1: none does. z0 leaves as soon as it can.
+  [[nodiscard]] Eigen::Index blocking_row(Eigen::Index column) const {
+    Eigen::Index best = -1;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const double pivot = t_(i, column);
+      if (!(pivot > zero_)) continue;
+      if (best < 0 || lexicographically_less(i, pivot, best, t_(best, column))) best = i;
+    }
+    if (best < 0) return best;
+    const double least = t_(best, t_.cols() - 1) / t_(best, column);
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (basis_[static_cast<std::size_t>(i)] == artificial() && t_(i, column) > zero_ &&
+          t_(i, t_.cols() - 1) / t_(i, column) <= least + zero_ * (1.0 + std::abs(least)))
+        return i;
+    return best;
+  }
+
+  /// Exchanges; returns the variable that left.
+  Eigen::Index pivot(Eigen::Index row, Eigen::Index column) {
+    t_.row(row) /= t_(row, column);
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (i != row && t_(i, column) != 0.0) {
+        const double factor = t_(i, column);
+        t_.row(i) -= factor * t_.row(row);
+        t_(i, column) = 0.0;
+      }
+    return std::exchange(basis_[static_cast<std::size_t>(row)], column);
+  }
+
+  [[nodiscard]] Eigen::VectorXd solution() const {
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(n_);
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (const Eigen::Index v = basis_[static_cast<std::size_t>(i)]; v >= n_ && v < artificial())
+        z[v - n_] = std::max(0.0, t_(i, t_.cols() - 1));
+    return z;
+  }
+
+ private:
+  /// Row i over its pivot before row j over its own: right side first, then the columns of w, which hold the
+  /// inverse of the basis.
+  [[nodiscard]] bool lexicographically_less(Eigen::Index i, double pi, Eigen::Index j, double pj) const {
+    const Eigen::Index rhs = t_.cols() - 1;
+    for (Eigen::Index k = -1; k < n_; ++k) {
+      const Eigen::Index column = k < 0 ? rhs : k;
+      const double a = t_(i, column) / pi, b = t_(j, column) / pj;
+      if (std::abs(a - b) > zero_ * (std::abs(a) + std::abs(b))) return a < b;
+    }
+    return i < j;
+  }
+
+  Eigen::Index n_;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> t_;
+  std::vector<Eigen::Index> basis_;
+  double zero_ = 0.0;
+};
+
+/// The same basis solved afresh, without the rounding of all the exchanges.
+Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Tableau& tableau,
+                        const Eigen::VectorXd& z) {
+  std::vector<Eigen::Index> active;
+  for (const Eigen::Index v : tableau.basis())
+    if (v >= q.size() && v < 2 * q.size()) active.push_back(v - q.size());
+  if (active.empty()) return z;
+  const Eigen::MatrixXd block = M(active, active);
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(block);
+  if (!lu.isInvertible()) return z;
+  const Eigen::VectorXd values = lu.solve(Eigen::VectorXd(-q(active)));
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(q.size());
+  for (std::size_t i = 0; i < active.size(); ++i)
+    result[active[i]] = std::max(0.0, values[static_cast<Eigen::Index>(i)]);
+  return result;
+}
+
+}  // namespace
+
+std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+  const Eigen::Index n = q.size();
+  if (n == 0 || q.minCoeff() >= 0.0) return Eigen::VectorXd::Zero(n);
+  Tableau tableau(M, q);
+  Eigen::Index left = tableau.pivot(tableau.first_row(), tableau.artificial());
+  // Lexicographic pivots never return to a basis; rounding might, so there is an end all the same.
+  const Eigen::Index most = 100 + 50 * n;
+  for (Eigen::Index i = 0; i < most; ++i) {
+    const Eigen::Index entering = tableau.complement(left);
+    const Eigen::Index row = tableau.blocking_row(entering);
+    if (row < 0) return std::nullopt;
+    left = tableau.pivot(row, entering);
+    if (left == tableau.artificial()) return refined(M, q, tableau, tableau.solution());
+  }
+  return std::nullopt;
+}
+
+}  // namespace signorini

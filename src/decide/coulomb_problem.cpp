@@ -1,0 +1,277 @@
+#include "decide/coulomb_problem.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "decide/complementarity.hpp"
+
+namespace signorini {
+namespace {
+
+using Kind = JointItem::Kind;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// How far a solution may miss its conditions, of the problem's size: some roundings of a small elimination.
+constexpr double misses = 1e3 * epsilon;
+constexpr double same_solution = 1e-9;
+
+Index normal(std::size_t i) { return static_cast<Index>(2 * i); }
+Index tangent(std::size_t i) { return static_cast<Index>(2 * i) + 1; }
+
+/// The problem in units that make the diagonal of W one.
+struct Scaled {
+  VectorXd unit;  // response / unit, force * unit
+  MatrixXd W;
+  VectorXd b;
+  std::vector<double> ratio;  // unit of the normal over that of the tangent: f l is a force along t
+};
+
+Scaled scaled(const JointProblem& p) {
+  Scaled s;
+  const Index n = p.b.size();
+  s.unit = VectorXd::Ones(n);
+  for (Index i = 0; i < n; ++i)
+    if (p.W(i, i) > 0.0) s.unit[i] = std::sqrt(p.W(i, i));
+  const VectorXd inverse = s.unit.cwiseInverse();
+  s.W = inverse.asDiagonal() * p.W * inverse.asDiagonal();
+  s.b = inverse.cwiseProduct(p.b);
+  for (std::size_t i = 0; i < p.items.size(); ++i) s.ratio.push_back(s.unit[tangent(i)] / s.unit[normal(i)]);
+  return s;
+}
+
+double friction(const JointItem& item, bool kinetic) {
+  return kinetic ? item.kinetic_friction : item.static_friction;
+}
+
+/// The linear complementarity problem: forces = F z, given ones apart; w = rows of response, or of cones.
+std::optional<VectorXd> by_lemke(const JointProblem& p, const Scaled& s, const std::vector<bool>& kinetic) {
+  Index size = 0;
+  for (const JointItem& item : p.items)
+    size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
+  const Index n = s.b.size();
+  MatrixXd F = MatrixXd::Zero(n, size);  // forces of a unit of each variable
+  MatrixXd G = MatrixXd::Zero(size, n);  // w = G response + H z + h
+  MatrixXd H = MatrixXd::Zero(size, size);
+  VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
+  Index at = 0;
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const JointItem& item = p.items[i];
+    const Index ni = normal(i), ti = tangent(i);
+    // In scaled units: force_t = physical * unit_t; f l * unit_t = f (l unit_n) unit_t / unit_n.
+    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    switch (item.kind) {
+      case Kind::normal:
+      case Kind::sliding:
+        F(ni, at) = 1.0;
+        if (item.kind == Kind::sliding) F(ti, at) = -item.sign * f;
+        G(at, ni) = 1.0;
+        ++at;
+        break;
+      case Kind::limit:
+        F(ti, at) = item.sign;
+        G(at, ti) = item.sign;
+        ++at;
+        break;
+      case Kind::frictional:
+        F(ni, at) = 1.0;
+        G(at, ni) = 1.0;
+        H(at + 3, at) = f;
+        ++at;
+        [[fallthrough]];
+      case Kind::pressed:
+        F(ti, at) = 1.0;
+        F(ti, at + 1) = -1.0;
+        G(at, ti) = 1.0;
+        G(at + 1, ti) = -1.0;
+        H(at, at + 2) = H(at + 1, at + 2) = 1.0;
+        H(at + 2, at) = H(at + 2, at + 1) = -1.0;
+        if (item.kind == Kind::pressed) {
+          // The given l acts already in b; only its cone counts here.
+          h[at + 2] = f * item.pressing * s.unit[ni];
+        }
+        at += 3;
+        break;
+    }
+  }
+  const MatrixXd M = G * s.W * F + H;
+  const VectorXd q = G * s.b + h;
+  const double size_of_q = q.cwiseAbs().maxCoeff();
+  if (!(size_of_q > 0.0)) return VectorXd::Zero(n);
+  const auto z = solve_complementarity(M, q / size_of_q);
+  if (!z) return std::nullopt;
+  return VectorXd(F * *z * size_of_q);
+}
+
+/// What an item may do, for trying all states. sign: of slipping.
+enum class Try : unsigned char { open, stick, slip_plus, slip_minus };
+
+std::vector<Try> choices(const JointItem& item) {
+  switch (item.kind) {
+    case Kind::normal:
+      return {Try::open, Try::stick};  // stick: closed
+    case Kind::sliding:
+      return {Try::open, item.sign > 0 ? Try::slip_plus : Try::slip_minus};
+    case Kind::frictional:
+      return {Try::open, Try::stick, Try::slip_plus, Try::slip_minus};
+    case Kind::pressed:
+      return {Try::stick, Try::slip_plus, Try::slip_minus};
+    case Kind::limit:
+      return {Try::stick, Try::slip_plus};  // slip_plus: along its own sign
+  }
+  return {};
+}
+
+/// The forces (scaled) of one combination of states, if it fulfils all conditions.
+std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const std::vector<Try>& states,
+                                  const std::vector<bool>& kinetic) {
+  const Index n = s.b.size();
+  const Index m = static_cast<Index>(p.items.size());
+  // One unknown or none a row; A x = c with x the 2m forces.
+  MatrixXd A = MatrixXd::Zero(n, n);
+  VectorXd c = VectorXd::Zero(n);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
+    const JointItem& item = p.items[i];
+    const Index ni = normal(i), ti = tangent(i);
+    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
+    const auto respond = [&](Index row) {
+      A.row(row) = s.W.row(row);
+      c[row] = -s.b[row];
+    };
+    const auto no_force = [&](Index row) { A(row, row) = 1.0; };
+    const bool own_normal = item.kind != Kind::pressed && item.kind != Kind::limit;
+    if (own_normal && states[i] != Try::open)
+      respond(ni);
+    else
+      no_force(ni);
+    const bool may_stick = item.kind != Kind::normal && item.kind != Kind::sliding;
+    if (states[i] == Try::stick && may_stick) {
+      respond(ti);
+    } else {
+      no_force(ti);
+      if (item.kind == Kind::pressed) c[ti] = -sign * f * item.pressing * s.unit[ni];
+      if (own_normal && sign != 0) A(ti, ni) = sign * f;
+    }
+  }
+  const Eigen::FullPivLU<MatrixXd> lu(A);
+  VectorXd x = lu.solve(c);
+  const double size = s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff();
+  const double zero = misses * size;
+  if (!((A * x - c).cwiseAbs().maxCoeff() <= zero)) return std::nullopt;
+  const VectorXd r = s.b + s.W * x;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
+    const JointItem& item = p.items[i];
+    const Index ni = normal(i), ti = tangent(i);
+    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
+    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[ni] : x[ni];
+    bool good = true;
+    if (item.kind == Kind::limit) {
+      good = states[i] == Try::stick ? item.sign * x[ti] >= -zero : item.sign * r[ti] >= -zero;
+    } else {
+      good = l >= -zero && (item.kind == Kind::pressed || r[ni] >= -zero);
+      if (states[i] == Try::stick && item.kind != Kind::normal)
+        good = good && std::abs(x[ti]) <= f * l + zero;
+      if (sign != 0 && item.kind != Kind::sliding) good = good && sign * r[ti] >= -zero;
+    }
+    if (!good) return std::nullopt;
+  }
+  return x;
+}
+
+JointSolution finished(const JointProblem& p, const Scaled& s, const VectorXd& force,
+                       std::vector<bool> kinetic) {
+  JointSolution solution;
+  solution.force = s.unit.cwiseInverse().cwiseProduct(force);
+  solution.response = p.b + p.W * solution.force;
+  solution.kinetic = std::move(kinetic);
+  return solution;
+}
+
+/// Items that slip although their coefficient is still the static one.
+bool mark_slipping(const JointProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
+  const VectorXd r = s.b + s.W * x;
+  const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
+  bool changed = false;
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const JointItem& item = p.items[i];
+    if (kinetic[i] || item.static_friction == item.kinetic_friction) continue;
+    if (item.kind != Kind::frictional && item.kind != Kind::pressed) continue;
+    const double l = item.kind == Kind::pressed ? item.pressing : x[normal(i)];
+    if (l > zero && std::abs(r[tangent(i)]) > zero) kinetic[i] = changed = true;
+  }
+  return changed;
+}
+
+}  // namespace
+
+std::vector<JointSolution> all_solutions(const JointProblem& p) {
+  std::vector<JointSolution> found;
+  if (p.items.size() > most_enumerated) return found;
+  const Scaled s = scaled(p);
+  std::vector<std::vector<Try>> options;
+  std::size_t combinations = 1;
+  for (const JointItem& item : p.items) {
+    options.push_back(choices(item));
+    combinations *= options.back().size();
+  }
+  std::vector<Try> states(p.items.size());
+  for (std::size_t code = 0; code < combinations; ++code) {
+    std::size_t rest = code;
+    // What slips has the kinetic coefficient, what sticks the static one.
+    std::vector<bool> kinetic(p.items.size(), false);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      states[i] = options[i][rest % options[i].size()];
+      rest /= options[i].size();
+      kinetic[i] = states[i] == Try::slip_plus || states[i] == Try::slip_minus;
+    }
+    const auto x = forces_of(p, s, states, kinetic);
+    if (!x) continue;
+    JointSolution solution = finished(p, s, *x, kinetic);
+    const bool known = std::any_of(found.begin(), found.end(), [&](const JointSolution& other) {
+      const VectorXd inverse = s.unit.cwiseInverse();
+      const double size =
+          s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
+      return inverse.cwiseProduct(solution.response - other.response).cwiseAbs().maxCoeff() <=
+             same_solution * size;
+    });
+    if (!known) found.push_back(std::move(solution));
+  }
+  return found;
+}
+
+std::optional<JointSolution> solve(const JointProblem& p) {
+  const Scaled s = scaled(p);
+  std::vector<bool> kinetic(p.items.size(), false);
+  for (;;) {  // ends: each round marks one more item
+    const auto x = by_lemke(p, s, kinetic);
+    if (!x) break;
+    if (!mark_slipping(p, s, *x, kinetic)) return finished(p, s, *x, kinetic);
+  }
+  std::vector<JointSolution> all = all_solutions(p);
+  if (all.empty()) return std::nullopt;
+  return all.front();
+}
+
+bool may_have_many(const JointProblem& p) {
+  const Scaled s = scaled(p);
+  const auto m = static_cast<Index>(p.items.size());
+  MatrixXd nt(m, m);  // what friction at its limit does to the normal responses
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      nt(i, j) = s.W(2 * i, 2 * j + 1) * p.items[at].static_friction * s.ratio[at];
+    }
+  const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
+  const double least =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return !(least > 2.0 * nt.norm());
+}
+
+}  // namespace signorini

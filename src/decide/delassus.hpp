@@ -1,0 +1,36 @@
+// delassus.hpp: what forces at contacts do to the accelerations of all of them.
+//
+//   W = H^T A^-1 H,   H = (n_1, t_1, n_2, ...),   A: the system of the mode, solved for accelerations
+//
+// Impulses change velocities by the same matrix. Unit: 1/mass.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "motion/jet.hpp"
+
+namespace signorini {
+
+/// The columns of H for the given contacts, their effect on all degrees of freedom, and on each other.
+struct Delassus {
+  Eigen::MatrixXd effect;  ///< n x 2m: accelerations for unit forces (l along n, k along t); 0 without mass
+  Eigen::MatrixXd W;       ///< 2m x 2m
+};
+
+/// A velocity along n or t of one of the contacts that is known exactly. row: 2 i, 2 i + 1.
+struct Fixed {
+  Eigen::Index row;
+  const Combination* form;
+  double value;
+};
+/// v has these velocities exactly.
+[[nodiscard]] bool settled(const std::vector<Fixed>& fixed, const Vector& v);
+/// v with these velocities to the last digit, by the smallest change in the norm of M: what computed v has
+/// them to the rounding of an elimination only.
+void settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
+
+/// In the mode that the expander has in force.
+[[nodiscard]] Delassus delassus(const Model& model, const Expander& expander,
+                                const std::vector<std::size_t>& contacts);
+
+}  // namespace signorini

@@ -1,0 +1,57 @@
+// impact.hpp: what happens to velocities where rigid contacts close.
+//
+//   M (v+ - v-) = sum_k ( n_k Pn_k + t_k Pt_k )      over all rigid contacts with g = 0
+//   0 <= Pn  _|_  vn+ + e min(vn-, 0) >= 0           Newton's restitution
+//   |Pt| <= f Pn,  Pt = -f Pn sign(vt+) where vt+ is not 0      Coulomb's law on the impulse
+//   loss = -sum ( Pn (vn- + vn+) + Pt (vt- + vt+) )/2           vt relative to the surface
+//
+// M couples all contacts, so they are solved together (decide/coulomb_problem.hpp). A rebound slower than
+// capture_velocity is solved again with e = 0 for that contact: it rests, and a ball that would bounce for
+// ever comes to its end. Sliders and contact elements take no impulse.
+// Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
+#pragma once
+
+#include "decide/coulomb_problem.hpp"
+#include "decide/delassus.hpp"
+
+namespace signorini {
+
+/// What an impact does at one contact. Unit: force * time.
+struct Impulse {
+  bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
+  double normal = 0.0, tangent = 0.0;
+  bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
+};
+
+struct Impact {
+  bool solved = false;
+  std::string reason;             ///< why not
+  Vector u, v;                    ///< after; g = 0 at all that touch
+  std::vector<Impulse> impulses;  ///< one a contact of the model
+  double loss = 0.0;              ///< energy that it dissipates
+  double surface_work = 0.0;      ///< work of moving surfaces
+  bool gains = false;             ///< the loss is negative: Newton's law with friction does that at times
+};
+
+class Impacts {
+ public:
+  Impacts(const Model& model, Expander& expander, double capture_velocity)
+      : model_(model), expander_(expander), capture_velocity_(capture_velocity) {}
+
+  /// u with the gaps of all that touch closed, by the smallest change in the norm of M; mode: of all others.
+  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching,
+                             const Vector& u) const;
+  /// u, v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
+  [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
+                             const std::vector<std::size_t>& touching, const Vector& u,
+                             const Vector& v) const;
+
+ private:
+  [[nodiscard]] Vector closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const;
+
+  const Model& model_;
+  Expander& expander_;
+  double capture_velocity_;  // where a contact has none of its own
+};
+
+}  // namespace signorini

@@ -1,0 +1,236 @@
+#include "decide/levels.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+using Kind = JointItem::Kind;
+
+constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
+constexpr double noise_of_solution = 2.0;  // over that which its right side passes on
+
+State slip(int sign) { return sign > 0 ? State::slip_plus : State::slip_minus; }
+int sign_of(double x) { return x > 0.0 ? 1 : -1; }
+
+/// What noise in b makes of forces and responses, with the solution's own contacts in force.
+struct Noise {
+  Eigen::VectorXd force, response;
+};
+
+Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::VectorXd& noise) {
+  const Eigen::Index n = noise.size();
+  // Columns: forces that answer to a response of zero; a slipping contact's k goes with its l.
+  std::vector<Eigen::Index> rows;
+  Eigen::MatrixXd columns(n, 0);
+  const auto answer = [&](Eigen::Index row, const Eigen::VectorXd& column) {
+    rows.push_back(row);
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols(1) = column;
+  };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const JointItem& item = p.items[i];
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    const double l = s.force[row], k = s.force[row + 1];
+    const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
+    const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
+    const bool sticks = item.kind == Kind::limit     ? k != 0.0
+                        : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
+                                                     : item.kind == Kind::frictional && std::abs(k) < f * l;
+    if (presses) answer(row, p.W.col(row) + (sticks ? 0.0 : k / l) * p.W.col(row + 1));
+    if (sticks) answer(row + 1, p.W.col(row + 1));
+  }
+  // The problem is solved to the rounding of its greatest entry, in units that make the diagonal of W one.
+  double greatest = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (p.W(i, i) > 0.0) greatest = std::max(greatest, std::abs(p.b[i]) / std::sqrt(p.W(i, i)));
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * greatest;
+  // At least what a contact alone would make of it.
+  Noise result{Eigen::VectorXd::Zero(n), noise};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(p.W(i, i) > 0.0)) continue;
+    const double unit = std::sqrt(p.W(i, i));
+    result.response[i] += rounding * unit;
+    result.force[i] = noise[i] / p.W(i, i) + rounding / unit;
+  }
+  if (rows.empty()) return result;
+  const Eigen::MatrixXd inverse =
+      Eigen::MatrixXd(columns(rows, Eigen::all)).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd forces = inverse.cwiseAbs() * noise(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    result.force[rows[i]] = std::max(result.force[rows[i]], forces[static_cast<Eigen::Index>(i)]);
+  result.response += columns.cwiseAbs() * forces;
+  return result;
+}
+
+}  // namespace
+
+JointItem JointDecision::item_of(const Entry& entry, const Forcing& forcing, double t) const {
+  const std::size_t c = entry.who.contact;
+  const Contact& contact = model_.contacts[c];
+  JointItem item;
+  item.sign = entry.who.sign;
+  item.kinetic_friction = entry.who.sliding_friction;
+  item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.static_friction;
+  if (entry.standing == Standing::limit) {
+    item.kind = Kind::limit;
+  } else if (contact.law == Law::slider) {
+    item.kind = Kind::pressed;
+    item.pressing = forcing.pressing(c, t, 0);
+  } else if (!contact.has_friction()) {
+    item.kind = Kind::normal;
+  } else {
+    item.kind = entry.who.slipping ? Kind::sliding : Kind::frictional;
+  }
+  return item;
+}
+
+std::string JointDecision::refusal(const JointProblem& problem, const std::vector<std::size_t>& contacts,
+                                   bool several) const {
+  std::string text =
+      several ? "several motions continue this one (Painleve's paradox: friction is so strong that "
+                "a contact may as well press as let go)"
+              : "no motion continues this one (Painleve's paradox: friction is so strong that "
+                "pressing a sliding contact pushes it into what it slides on)";
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const JointItem& item = problem.items[i];
+    const auto n = static_cast<Eigen::Index>(2 * i);
+    text += fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
+                        model_.contacts[contacts[i]].name, problem.b[n], problem.b[n + 1], problem.W(n, n));
+    if (item.kind == Kind::sliding)
+      text += fmt::format(", with friction {:.6g} while it slips ({})",
+                          problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1),
+                          to_string(slip(item.sign)));
+    else if (item.kind == Kind::frictional)
+      text += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}", problem.W(n, n + 1),
+                          item.static_friction);
+  }
+  return text;
+}
+
+std::string JointDecision::decide(const Instant& instant, const Forcing& forcing,
+                                  const std::vector<Participant>& participants, const Mode& old,
+                                  Mode& mode) const {
+  std::vector<Entry> entries;
+  for (const Participant& who : participants) {
+    entries.push_back({who});
+    mode[who.contact] = {State::open, 0.0};
+  }
+  std::vector<MotionJet> jets;
+  // An order is solved again as long as it decides somebody: with the great forces in force the small ones
+  // stand out from the rounding.
+  bool again = false;
+  for (std::size_t order = 0; order < MotionJet::orders; order += again ? 0 : 1) {
+    again = false;
+    std::vector<std::size_t> undecided, contacts;  // entries, and their contacts
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (entries[i].standing != Standing::decided) {
+        undecided.push_back(i);
+        contacts.push_back(entries[i].who.contact);
+      }
+    if (undecided.empty()) break;
+    if (!expander_.set(mode)) return dependent_rows;
+    (void)expander_.expand(forcing, instant.t, instant.u, instant.v, jets);
+
+    const auto size = static_cast<Eigen::Index>(2 * undecided.size());
+    JointProblem problem;
+    problem.b = Eigen::VectorXd::Zero(size);
+    Eigen::VectorXd noise(size);
+    for (std::size_t i = 0; i < undecided.size(); ++i) {
+      const MotionJet& jet = jets[contacts[i]];
+      const ContactMotion &now = jet.motion[order], &zero = jet.noise[order];
+      const bool last = order + 1 == MotionJet::orders;
+      const double an = last ? 0.0 : jet.motion[order + 1].an, at = last ? 0.0 : jet.motion[order + 1].at;
+      const auto n = static_cast<Eigen::Index>(2 * i);
+      noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
+      noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
+      if (std::abs(now.an) > noise[n]) problem.b[n] = now.an;
+      if (std::abs(now.at) > noise[n + 1]) problem.b[n + 1] = now.at;
+      problem.items.push_back(item_of(entries[undecided[i]], forcing, instant.t));
+    }
+    const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
+                                     [](const JointItem& item) { return item.kind == Kind::pressed; });
+    if (problem.b.isZero(0.0) && !pressed) continue;
+    problem.W = delassus(model_, expander_, contacts).W;
+    const auto solution = solve(problem);
+    if (!solution) return refusal(problem, contacts, false);
+    if (undecided.size() <= most_compared && may_have_many(problem)) {
+      // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
+      JointProblem settled = problem;
+      for (std::size_t i = 0; i < settled.items.size(); ++i) {
+        JointItem& item = settled.items[i];
+        (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
+            solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+      }
+      if (all_solutions(settled).size() > 1) return refusal(problem, contacts, true);
+    }
+
+    const Noise passed = pass_on(problem, *solution, noise);
+    const auto is_zero_response = [&](Eigen::Index i) {
+      return std::abs(solution->response[i]) <= noise_of_solution * passed.response[i];
+    };
+    const auto zero_force = [&](Eigen::Index i) { return noise_of_solution * passed.force[i]; };
+    for (std::size_t i = 0; i < undecided.size(); ++i) {
+      Entry& entry = entries[undecided[i]];
+      const JointItem& item = problem.items[i];
+      ContactState& state = mode[entry.who.contact];
+      const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+      const double rt = solution->response[t];
+      if (item.kind == Kind::limit) {
+        if (item.sign * solution->force[t] > zero_force(t))
+          state.state = State::stick;
+        else if (is_zero_response(t))
+          continue;  // still at its limit
+        entry.standing = Standing::decided;
+        again = true;
+        continue;
+      }
+      const bool presses = item.kind == Kind::pressed || solution->force[n] > zero_force(n);
+      if (!presses) {
+        if (!is_zero_response(n)) {
+          entry.standing = Standing::decided;  // open
+          again = true;
+        } else if (item.kind == Kind::frictional && !is_zero_response(t)) {
+          entry.who.slipping = true;
+          entry.who.sign = sign_of(rt);
+        }
+        continue;
+      }
+      entry.standing = Standing::decided;
+      again = true;
+      if (item.kind == Kind::normal) {
+        state.state = State::closed;
+      } else if (item.kind == Kind::sliding) {
+        state.state = slip(item.sign);
+      } else if (!is_zero_response(t)) {
+        state.state = slip(sign_of(rt));
+      } else {
+        const double l = item.kind == Kind::pressed ? item.pressing : solution->force[n];
+        const double k = solution->force[t];
+        const double f = solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+        // At its limit: with one coefficient the next derivative decides; with two it sticks until the
+        // guard of the static limit falls.
+        const bool inside = f * l - std::abs(k) > zero_force(t) + f * zero_force(n);
+        state.state = State::stick;
+        if (!inside && item.static_friction == item.kinetic_friction && std::abs(k) > zero_force(t)) {
+          entry.standing = Standing::limit;
+          entry.who.sign = -sign_of(k);
+          state.state = slip(entry.who.sign);
+        }
+      }
+    }
+  }
+  // No known derivative says more: what touches stays as it was, what is at its limit sticks.
+  for (const Entry& entry : entries) {
+    if (entry.standing == Standing::limit) mode[entry.who.contact].state = State::stick;
+    if (entry.standing == Standing::apex) mode[entry.who.contact] = old[entry.who.contact];
+  }
+  return {};
+}
+
+}  // namespace signorini

@@ -1,0 +1,376 @@
+#include "engine/exact/exact_engine.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "motion/clock.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int fewest_levels = 12, more_levels = 6;
+constexpr int probe_levels = 20;
+constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
+constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
+constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
+constexpr double flights_a_step = 3.0;
+constexpr double most_cancelled = 0.9;            // greatest later term over the greatest first one
+constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr int most_touches = 5;                   // warnings about one and the same thing
+
+}  // namespace
+
+ExactEngine::ExactEngine(const Model& model, const Structure& structure, const Expander& expander,
+                         double t_end)
+    : model_(model),
+      structure_(structure),
+      expander_(expander),
+      taylor_(expander.taylor()),
+      t_end_(t_end),
+      norm_(model),
+      contacts_(model.contacts.size()),
+      watches_(guards_per_contact * model.contacts.size()),
+      sizes_(most_levels + 3),
+      guard_(most_levels + 1),
+      works_(model, structure),
+      turns_(model.contacts.size()) {
+  for (const Dof& dof : model.dofs)
+    scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
+  weights_ = scales_;
+  fastest_ = std::max(model.omega_max, 1.0 / t_end);
+  for (int i = 0; i < model.size(); ++i) {
+    const double m = model.mass.coeff(i, i), c = model.damping.coeff(i, i), k = model.stiffness.coeff(i, i);
+    if (m > 0.0)
+      fastest_ = std::max(fastest_, c / m);
+    else if (c > 0.0)
+      fastest_ = std::max(fastest_, k / c);
+  }
+}
+
+/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
+double ExactEngine::growth_of(const Mode& mode) {
+  const std::vector<State> states = states_of(mode);
+  const auto known = growth_.find(states);
+  if (known != growth_.end()) return known->second;
+  const Eigen::Index n = model_.size();
+  Vector u(n), v(n);
+  std::mt19937_64 random(1);  // the same motion in every run
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    u[i] = uniform(random) / scales_[static_cast<std::size_t>(i)];
+    v[i] = fastest_ * uniform(random) / scales_[static_cast<std::size_t>(i)];
+  }
+  Series series;
+  taylor_.expand(Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
+  double greatest = 0.0;
+  for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
+    const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
+    if (a > 0.0)
+      greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
+  }
+  return growth_[states] = growth_margin * greatest;
+}
+
+void ExactEngine::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  t_ = decision.jet.t;
+  end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
+  last_ = first_step();
+  polynomial_ = segment.forcing->greatest_degree();
+  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    GuardWatch& watch = watches_[slot];
+    watch.leading = 0;
+    if (guard.kind == Guard::none) {
+      watch.arming = Arming::idle;
+    } else if (!guard.at_zero) {
+      watch.arming = Arming::armed;
+    } else {
+      watch.arming = guard.leading > 0 ? Arming::leaving : Arming::unknown;
+      watch.leading = std::max(guard.leading, 0);
+    }
+  }
+  turns_.start(decision);
+  ++counters.restarts;
+}
+
+/// A first step of a few times the shortest flight that lies ahead, 0: none does. What rounding makes of a
+/// gap grows with the whole step's motion, and must stay small beside the flight's height.
+double ExactEngine::first_step() const {
+  const Decision& decision = *segment_.decision;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < decision.mode.size(); ++c) {
+    const ContactMotion& m = decision.after[c];
+    if (model_.contacts[c].law != Law::rigid || decision.mode[c].state != State::open || !(m.an < 0.0))
+      continue;
+    const double height = std::max(m.gap, 0.0);
+    shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
+  }
+  if (!std::isfinite(shortest) || !(shortest > 0.0)) return 0.0;
+  return flights_a_step * shortest;
+}
+
+/// Weights of the degrees of freedom from their own motion, so that each keeps its digits.
+void ExactEngine::weigh() {
+  const std::size_t n = scales_.size();
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double size = 0.0;
+    for (std::size_t k = 0; k < first_terms; ++k)
+      size = std::max(size, std::abs(series_.u.data()[k * n + i]));
+    weights_[i] = scales_[i] * size;
+    greatest = std::max(greatest, weights_[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    weights_[i] = greatest > 0.0 ? scales_[i] / std::max(weights_[i], least_share * greatest) : scales_[i];
+}
+
+/// Sizes of the coefficients first .. last, relative to the first ones of their degrees of freedom.
+void ExactEngine::measure(std::size_t first, std::size_t last) {
+  for (std::size_t k = first; k <= last; ++k) {
+    const double* u = series_.u.data() + k * weights_.size();
+    double size = 0.0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) size = std::max(size, weights_[i] * std::abs(u[i]));
+    sizes_[k] = size;
+  }
+}
+
+/// Do the coefficients 0 .. last make a series that stands up to x when cut after `degree_`: what follows
+/// below rounding, no term much greater than the first ones that are not zero?
+bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
+  double first = 0.0, power = 1.0;
+  std::size_t begin = last + 1;
+  for (std::size_t k = 0; k <= last; ++k, power *= x) {
+    const double term = std::abs(a[k]) * power;
+    if (k > degree_) {
+      if (term > 0.25 * epsilon * first) return false;
+      continue;
+    }
+    if (begin > last && term > 0.0) begin = k;
+    if (k < begin + first_terms)
+      first = std::max(first, term);
+    else if (term > most_cancelled * first)
+      return false;
+  }
+  return true;
+}
+
+/// The motion's series and those of all that drives it: with a block that sticks, T follows its load alone.
+bool ExactEngine::stands(double x) const {
+  if (!stands(sizes_.data(), degree_ + 2, x)) return false;
+  const ForcingSeries& f = series_.forcing;
+  for (const std::vector<double>* rows : {&f.loads, &f.pressing, &f.surface})
+    for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count)
+      if (!stands(rows->data() + i, f.count - 1, x)) return false;
+  return true;
+}
+
+/// Expands to as many levels as a step of the given scale needs, all at most; returns the part of it that
+/// the series then reaches.
+double ExactEngine::expand(double scale) {
+  const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
+  taylor_.begin(*segment_.forcing, t_, end_.u, end_.v, most_levels, scale, series_);
+  std::size_t measured = 0;
+  for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
+    taylor_.extend(*segment_.forcing, level, series_);
+    degree_ = static_cast<std::size_t>(level - late);
+    if (measured == 0) weigh();
+    measure(measured, degree_ + 2);
+    measured = static_cast<std::size_t>(std::max(0, level - late - 2));
+    // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
+    if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
+        stands(1.0))
+      break;
+    if (level == most_levels) break;
+  }
+  counters.solves += series_.levels + 1;
+  double x = std::min(1.0, 0.5 * static_cast<double>(degree_ + 2) / (growth_now_ * scale));
+  while (x > std::numeric_limits<double>::min() && !stands(x)) x *= 0.9;
+  return x;
+}
+
+/// Bound on what the polynomial of a form leaves out on [0, x]; rest: of the displacements, in norm_.
+double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double rest) const {
+  const Contact& contact = model_.contacts[c];
+  const double rate = static_cast<double>(degree_ + 3) / (series_.scale * x);
+  const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
+  double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
+  const State state = segment_.decision->mode[c].state;
+  if (contact.law == Law::rigid && state != State::open) N = rate * rate * rest / norm_.normal(c);
+  if (slip_sign(state) != 0)
+    T = contact.kinetic_friction * N;
+  else if (contact.tangential_stiffness)
+    T = *contact.tangential_stiffness * ut;
+  else if (state == State::stick && norm_.tangent(c) > 0.0)
+    T = rate * rate * rest / norm_.tangent(c);
+  return std::abs(form.N) * N + std::abs(form.T) * T + std::abs(form.gap) * gap + std::abs(form.ut) * ut +
+         std::abs(form.vn) * rate * gap + std::abs(form.vt) * rate * ut +
+         std::abs(form.an) * rate * rate * gap;
+}
+
+FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
+  const GuardStart& guard = segment_.decision->guards[slot];
+  const std::size_t c = slot / guards_per_contact;
+  contacts_[c].combine(guard.form, guard_.data());
+  double power = 1.0, terms = 0.0;
+  for (std::size_t k = 0; k <= degree_; ++k, power *= x) {
+    guard_[k] *= power;
+    terms += std::abs(guard_[k]);
+  }
+  const double rounding = 4.0 * epsilon * terms;
+  const double slack = rest_of(guard.form, c, x, rest) + rounding + rounding_of_guard * guard.noise;
+  switch (watches_[slot].arming) {
+    case Arming::idle:
+      return {};
+    case Arming::armed:
+      return first_fall(guard_.data(), degree_, slack);
+    case Arming::leaving: {
+      // The decision found the lower derivatives to be zero, so they are.
+      const auto m = static_cast<std::size_t>(watches_[slot].leading);
+      return first_fall(guard_.data() + m, degree_ - m, 4.0 * epsilon * std::abs(guard_[m]));
+    }
+    case Arming::unknown:
+      guard_[0] += guard.noise + slack;
+      return first_fall(guard_.data(), degree_, 0.0);
+  }
+  return {};
+}
+
+Step ExactEngine::advance() {
+  const double remaining = segment_.end - t_;
+  const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
+  const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
+  const bool too_fast = growth_now_ * resolution_at(t_, 0.0) > 1.0;
+  if (!(scale > 0.0) || too_fast || !end_.u.allFinite()) {
+    step_ = {};
+    step_.kind = Step::Kind::failed;
+    step_.begin = step_.end = t_;
+    step_.reason = "the step has fallen below the resolution of time";
+    if (!end_.u.allFinite()) step_.reason = "the motion overflows";
+    if (too_fast)
+      step_.reason = fmt::format(
+          "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this "
+          "time",
+          growth_now_ / growth_margin);
+    return step_;
+  }
+  ++counters.steps;
+  double x = expand(scale);
+  last_ = scale * x;
+  double end = t_ + scale * x;
+  if (end > segment_.end || segment_.end - end < 0.01 * scale * x) end = segment_.end;
+  x = (end - t_) / scale;
+  for (std::size_t c = 0; c < contacts_.size(); ++c)
+    contacts_[c].fill(model_.contacts[c], c, series_, degree_);
+
+  // From |x_k| on the series is below a geometric one with ratio 1/2.
+  double rest = 0.0;
+  for (int k = 1; k <= 2; ++k) {
+    const auto order = static_cast<Eigen::Index>(degree_) + k;
+    rest = std::max(rest, 2.0 * norm_.of(series_.u.col(order)) * std::pow(x, static_cast<double>(order)));
+  }
+  step_ = {};
+  step_.begin = t_;
+  std::optional<std::size_t> first;
+  std::vector<std::pair<std::size_t, double>> touches;  // slot, place in the step
+  double at = 1.0;
+  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+    if (watches_[slot].arming == Arming::idle) continue;
+    const FirstFall fall = fall_of(slot, x, rest);
+    if (fall.kind == FirstFall::Kind::fall && (!first || fall.x < at)) {
+      first = slot;
+      at = fall.x;
+    } else if (fall.kind == FirstFall::Kind::touch && watches_[slot].arming == Arming::armed) {
+      touches.emplace_back(slot, fall.x);
+    }
+  }
+  for (const auto& [slot, where] : touches)
+    if (where < at && ++touches_ <= most_touches)
+      warnings.push_back(
+          fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
+                      "at this precision, and it was taken not to",
+                      model_.contacts[slot / guards_per_contact].name,
+                      to_string(segment_.decision->guards[slot].kind), t_ + where * x * scale));
+    else if (where < at && touches_ == most_touches + 1)
+      warnings.emplace_back("more guards touch zero; these are not listed");
+  if (first) {
+    step_.kind = Step::Kind::event;
+    step_.fired = {{*first / guards_per_contact, segment_.decision->guards[*first].kind}};
+    x *= at;
+    end = t_ + scale * x;
+  } else {
+    for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
+      GuardWatch& watch = watches_[slot];
+      if (watch.arming != Arming::leaving && watch.arming != Arming::unknown) continue;
+      const GuardStart& guard = segment_.decision->guards[slot];
+      contacts_[slot / guards_per_contact].combine(guard.form, guard_.data());
+      watch.arming =
+          value_at(guard_.data(), degree_, x) > 4.0 * guard.noise ? Arming::armed : Arming::unknown;
+    }
+  }
+  step_.end = end;
+  step_.resolution = resolution_at(end, end - t_);
+  turns_.find(contacts_, series_, x);
+  evaluate_at(x, end_);  // sharper than at the rounded time
+  t_ = end;
+  // Roundoff in g'' adds up twice over a long phase.
+  expander_.hold(*segment_.forcing, t_, segment_.decision->mode, end_.u, end_.v);
+  return step_;
+}
+
+void ExactEngine::evaluate(double t, Point& point) {
+  if (t == t_ && end_.u.size() > 0) {
+    point = end_;
+    return;
+  }
+  evaluate_at((t - series_.t) / series_.scale, point);
+}
+
+void ExactEngine::evaluate_at(double x, Point& point) const {
+  const auto n = static_cast<std::size_t>(series_.u.rows());
+  point.u.setZero(series_.u.rows());
+  point.v.setZero(series_.u.rows());
+  point.a.setZero(series_.u.rows());
+  point.forces.setZero(series_.forces.rows());
+  double *u = point.u.data(), *v = point.v.data(), *a = point.a.data(), *f = point.forces.data();
+  const auto forces = static_cast<std::size_t>(series_.forces.rows());
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* c0 = series_.u.data() + k * n;
+    const double *c1 = c0 + n, *c2 = c1 + n;
+    const double first = static_cast<double>(k + 1) / series_.scale;
+    const double second = first * static_cast<double>(k + 2) / series_.scale;
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = u[i] * x + c0[i];
+      v[i] = v[i] * x + first * c1[i];
+      a[i] = a[i] * x + second * c2[i];
+    }
+    const double* g = series_.forces.data() + k * forces;
+    for (std::size_t i = 0; i < forces; ++i) f[i] = f[i] * x + g[i];
+  }
+}
+
+void ExactEngine::integrate(double from, double to, Works& works) {
+  works_.add(segment_.decision->mode, *segment_.forcing, series_, contacts_, degree_, from, to, works);
+}
+
+double ExactEngine::residual() {
+  const Point& point = end_;
+  Vector r = Vector::Zero(model_.size());
+  segment_.forcing->add_load(t_, 0, r.data());
+  r = -r;
+  structure_.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    model_.contacts[k].normal.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k)]);
+    model_.contacts[k].tangent.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k) + 1]);
+  }
+  return r.cwiseAbs().maxCoeff();
+}
+
+}  // namespace signorini

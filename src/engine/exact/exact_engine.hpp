@@ -1,0 +1,82 @@
+// exact_engine.hpp: engine `exact`: the flow of each mode in closed form, and no event unseen.
+//
+//   u(t + s x) = sum_k u_k x^k        motion/taylor.hpp; h = s x chosen so that the rest is below rounding
+//   guard(x)   = sum_k g_k x^k        first fall by interval bounds, engine/falls/first_fall.hpp
+//
+// Between events the system of a mode is linear with constant coefficients, so its Taylor series has the
+// radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
+// A step is as long as the series still converges to rounding with that bound, and short enough that its
+// terms do not cancel. docs/theory.md gives the argument that no event is missed.
+#pragma once
+
+#include "engine/exact/flow_norm.hpp"
+#include "engine/exact/series_works.hpp"
+#include "engine/falls/first_fall.hpp"
+#include "engine/falls/turning_points.hpp"
+#include "engine/stepper.hpp"
+#include "motion/contact_series.hpp"
+
+namespace signorini {
+
+/// Terms of a series at most.
+inline constexpr int most_levels = 30;
+
+class ExactEngine final : public Stepper {
+ public:
+  /// The expander stands for the mode of the segment while it runs.
+  ExactEngine(const Model& model, const Structure& structure, const Expander& expander, double t_end);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override;
+  /// The guard is exact but for rounding, which the decision knows.
+  [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
+    return 0.0;
+  }
+  [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
+
+ private:
+  enum class Arming : unsigned char { idle, armed, leaving, unknown };
+  struct GuardWatch {
+    Arming arming = Arming::idle;
+    int leading = 0;  // leaving: the guard is x^leading times a polynomial that is positive at 0
+  };
+
+  [[nodiscard]] double growth_of(const Mode& mode);
+  [[nodiscard]] double first_step() const;
+  void weigh();
+  void measure(std::size_t first, std::size_t last);
+  [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
+  [[nodiscard]] bool stands(double x) const;
+  [[nodiscard]] double expand(double scale);
+  [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
+  void evaluate_at(double x, Point& point) const;
+
+  const Model& model_;
+  const Structure& structure_;
+  const Expander& expander_;
+  Taylor& taylor_;
+  const double t_end_;
+  FlowNorm norm_;
+  std::size_t degree_ = 0;  // of all polynomials on the last step
+  std::map<std::vector<State>, double> growth_;
+  Segment segment_;
+  Series series_;
+  std::vector<ContactSeries> contacts_;
+  std::vector<GuardWatch> watches_;
+  std::vector<double> scales_, weights_, sizes_, guard_;
+  double fastest_ = 0.0;        // bound on all rates of the structure, for scaling
+  std::size_t polynomial_ = 0;  // greatest degree in the forcing
+  int touches_ = 0;
+  Point end_;  // of the last step
+  double t_ = 0.0, growth_now_ = 0.0;
+  double last_ = 0.0;  // length of the last step of the segment
+  Step step_;
+  SeriesWorks works_;
+  TurningPoints turns_;
+};
+
+}  // namespace signorini

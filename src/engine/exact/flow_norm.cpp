@@ -1,0 +1,46 @@
+#include "engine/exact/flow_norm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/assembly/springs.hpp"
+
+namespace signorini {
+FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
+  const double w = model.omega_max > 0.0 ? model.omega_max : 1.0;
+  const int n = model.size();
+  std::vector<LineSpring> springs;
+  for (const Contact& c : model.contacts) {
+    if (c.law == Law::compliant) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
+  }
+  const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
+  g_ = model.mass + damping / w + with_springs(model.stiffness, springs) / (w * w);
+  Eigen::SimplicialLDLT<SparseMatrix> solver(g_);
+  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) {
+    // A stiffness or damping that is not positive: the diagonal's magnitudes make a norm all the same.
+    std::vector<Eigen::Triplet<double>> diagonal;
+    for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
+    g_.setZero();
+    g_.setFromTriplets(diagonal.begin(), diagonal.end());
+    solver.compute(g_);
+  }
+  const auto greatest = [&](const Combination& form) {
+    Vector x = Vector::Zero(n);
+    form.add_to(x, 1.0);
+    return std::sqrt(std::max(0.0, x.dot(Vector(solver.solve(x)))));
+  };
+  for (const Contact& c : model.contacts) {
+    normal_.push_back(greatest(c.normal));
+    tangent_.push_back(greatest(c.tangent));
+  }
+}
+
+double FlowNorm::of(const Eigen::Ref<const Vector>& x) const {
+  const double size = x.cwiseAbs().maxCoeff();  // squares must not overflow
+  if (!(size > 0.0) || !std::isfinite(size)) return size;
+  product_.noalias() = g_ * (x / size);
+  return size * std::sqrt(std::max(0.0, x.dot(product_) / size));
+}
+
+}  // namespace signorini

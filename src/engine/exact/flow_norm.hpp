@@ -1,0 +1,31 @@
+// flow_norm.hpp: a norm for Taylor coefficients, in which the rest of a series is bounded.
+//
+//   |x|^2 = x^T G x,   G = M + C / W + K_c / W^2,   W the highest circular frequency
+//   |n . x| <= sqrt(n^T G^-1 n) |x|
+//
+// K_c holds all contact springs, so that G is regular wherever the motion is decided.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+
+#include "contact/mode.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+class FlowNorm {
+ public:
+  explicit FlowNorm(const Model& model);
+
+  [[nodiscard]] double of(const Eigen::Ref<const Vector>& x) const;
+  /// Of contact k: greatest |n . x| and |t . x| among |x| = 1.
+  [[nodiscard]] double normal(std::size_t k) const { return normal_[k]; }
+  [[nodiscard]] double tangent(std::size_t k) const { return tangent_[k]; }
+
+ private:
+  SparseMatrix g_;
+  std::vector<double> normal_, tangent_;
+  mutable Vector product_;
+};
+
+}  // namespace signorini

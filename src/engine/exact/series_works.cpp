@@ -1,0 +1,107 @@
+#include "engine/exact/series_works.hpp"
+
+#include <gsl/gsl_integration.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "contact/law.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t nodes = SeriesWorks::nodes;
+
+struct GaussRule {
+  std::array<double, nodes> x{}, w{};  // on [0, 1]
+  GaussRule() {
+    const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
+        gsl_integration_glfixed_table_alloc(nodes), gsl_integration_glfixed_table_free);
+    for (std::size_t i = 0; i < nodes; ++i)
+      gsl_integration_glfixed_point(0.0, 1.0, i, &x[i], &w[i], table.get());
+  }
+};
+
+}  // namespace
+
+SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
+    : model_(model),
+      structure_(structure),
+      damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })) {}
+
+void SeriesWorks::velocities_at(const Nodes& x, const Series& series, std::size_t degree) {
+  const auto count = static_cast<Eigen::Index>(degree + 1);
+  const Eigen::Index n = series.u.rows();
+  if (n < 4) {
+    velocities_.setZero(n, nodes);
+    for (Eigen::Index k = count; k >= 1; --k)
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const double v = static_cast<double>(k) / series.scale * series.u(j, k);
+        for (std::size_t i = 0; i < nodes; ++i) {
+          double& sum = velocities_(j, static_cast<Eigen::Index>(i));
+          sum = sum * x[i] + v;
+        }
+      }
+  } else {
+    powers_.resize(count, nodes);
+    for (std::size_t i = 0; i < nodes; ++i) {
+      double power = 1.0 / series.scale;
+      for (Eigen::Index k = 0; k < count; ++k, power *= x[i])
+        powers_(k, static_cast<Eigen::Index>(i)) = static_cast<double>(k + 1) * power;
+    }
+    velocities_.noalias() = series.u.middleCols(1, count) * powers_;
+  }
+}
+
+void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& series,
+                      const std::vector<ContactSeries>& contacts, std::size_t degree, double from, double to,
+                      Works& works) {
+  static const GaussRule rule;
+  const double h = to - from;
+  if (!(h > 0.0)) return;
+  Nodes x{};
+  for (std::size_t i = 0; i < nodes; ++i) x[i] = (from + h * rule.x[i] - series.t) / series.scale;
+  const bool loaded = forcing.loaded();
+  if (damped_ || loaded) velocities_at(x, series, degree);
+  for (std::size_t i = 0; i < nodes && (damped_ || loaded); ++i) {
+    const double* v = velocities_.col(static_cast<Eigen::Index>(i)).data();
+    const double weight = h * rule.w[i];
+    if (loaded) works.loads += weight * forcing.power(from + h * rule.x[i], v);
+    if (damped_) works.damping += weight * structure_.damping_power(v);
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactState& state = mode[c];
+    if (state.inside) {
+      const auto gap = [&](double t) {
+        return contacts[c].value(ContactSeries::gap, (t - series.t) / series.scale);
+      };
+      works.damping += inside_loss(contact, gap(from), gap(to));
+    }
+    if (state.state == State::open) continue;
+    if (contact.law != Law::slider) {
+      const auto pressed = [&](double time) {
+        return contacts[c].integral(ContactSeries::N, (time - series.t) / series.scale);
+      };
+      works.pressing[c] -= series.scale * (pressed(to) - pressed(from));
+    }
+    const int s = slip_sign(state.state);
+    const bool moved = forcing.moves(c);
+    if (s == 0 && !moved && contact.normal_damping == 0.0) continue;
+    slide_rate_.resize(degree + 1);
+    if (s != 0) contacts[c].combine(slip_rate(contact, s), slide_rate_.data());
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const double weight = h * rule.w[i];
+      if (s != 0 || moved) {
+        const double T = contacts[c].value(ContactSeries::T, x[i]);
+        if (s != 0) works.friction[c] += weight * T * value_at(slide_rate_.data(), degree, x[i]);
+        if (moved) works.surface[c] -= weight * T * forcing.surface(c, from + h * rule.x[i], 1);
+      }
+      if (contact.normal_damping == 0.0) continue;
+      const double vn = contacts[c].value(ContactSeries::vn, x[i]);
+      works.damping += weight * contact.normal_damping * vn * vn;
+    }
+  }
+}
+
+}  // namespace signorini

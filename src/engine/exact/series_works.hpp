@@ -1,0 +1,35 @@
+// series_works.hpp: works and dissipations on a step of the exact flow.
+//
+//   integral of P . v, v^T C v, T p', -T s'    Gauss-Legendre on the step's polynomials (motion/powers.hpp)
+#pragma once
+
+#include <array>
+
+#include "motion/contact_series.hpp"
+#include "motion/powers.hpp"
+
+namespace signorini {
+
+class SeriesWorks {
+ public:
+  SeriesWorks(const Model& model, const Structure& structure);
+
+  static constexpr std::size_t nodes = 10;  ///< exact to degree 19
+
+  /// Adds the integrals over [from, to] of the series, whose contacts are given as polynomials.
+  void add(const Mode& mode, const Forcing& forcing, const Series& series,
+           const std::vector<ContactSeries>& contacts, std::size_t degree, double from, double to,
+           Works& works);
+
+ private:
+  using Nodes = std::array<double, nodes>;
+  void velocities_at(const Nodes& x, const Series& series, std::size_t degree);
+
+  const Model& model_;
+  const Structure& structure_;
+  bool damped_;
+  Eigen::MatrixXd powers_, velocities_;  // one column a node
+  std::vector<double> slide_rate_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,28 @@
+#include "engine/falls/root.hpp"
+
+#include <gsl/gsl_roots.h>
+
+#include <memory>
+
+namespace signorini {
+namespace {
+
+double call(double t, void* f) { return (*static_cast<const std::function<double(double)>*>(f))(t); }
+
+}  // namespace
+
+double root_between(const std::function<double(double)>& f, double lo, double hi, double width) {
+  gsl_function function{&call, const_cast<std::function<double(double)>*>(&f)};
+  const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
+      gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
+  gsl_root_fsolver_set(solver.get(), &function, lo, hi);
+  for (int i = 0; i < 100; ++i) {
+    gsl_root_fsolver_iterate(solver.get());
+    lo = gsl_root_fsolver_x_lower(solver.get());
+    hi = gsl_root_fsolver_x_upper(solver.get());
+    if (hi - lo <= width) break;
+  }
+  return gsl_root_fsolver_root(solver.get());
+}
+
+}  // namespace signorini

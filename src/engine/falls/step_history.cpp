@@ -1,0 +1,89 @@
+#include "engine/falls/step_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+double* StepHistory::restart(double t) {
+  filled_ = 1;
+  for (int b = 0; b <= max_degree; ++b) slot_[z(b)] = b;
+  times_[0] = t;
+  return values_.data();
+}
+
+double* StepHistory::push(double t, double length) {
+  std::rotate(slot_.begin(), slot_.end() - 1, slot_.end());
+  std::rotate(times_.begin(), times_.end() - 1, times_.end());
+  std::rotate(lengths_.begin(), lengths_.end() - 1, lengths_.end());
+  times_[0] = t;
+  lengths_[0] = length;
+  filled_ = std::min(filled_ + 1, max_degree + 1);
+  return values_.data() + z(slot_[0]) * scalars_;
+}
+
+void StepHistory::prepare(int order) {
+  prepare(of_powers_, filled_ - 1);
+  same_ = order >= of_powers_.degree;
+  if (!same_) prepare(of_order_, order);
+}
+
+void StepHistory::prepare(Basis& basis, int degree) const {
+  // Lagrange polynomials on the nodes x_b, as power coefficients, then as Bernstein coefficients.
+  std::array<double, max_degree + 1> x{1.0};
+  for (int b = 1; b <= degree; ++b) x[z(b)] = x[z(b - 1)] - lengths_[z(b - 1)] / lengths_[0];
+  if (degree == basis.degree && x == basis.nodes) return;
+  basis.nodes = x;
+  basis.degree = degree;
+  for (int b = 0; b <= degree; ++b) {
+    std::array<double, max_degree + 1> a{1.0};
+    int reached = 0;
+    double denominator = 1.0;
+    for (int j = 0; j <= degree; ++j) {
+      if (j == b) continue;
+      for (int i = ++reached; i > 0; --i) a[z(i)] = a[z(i - 1)] - x[z(j)] * a[z(i)];
+      a[0] *= -x[z(j)];
+      denominator *= x[z(b)] - x[z(j)];
+    }
+    for (double& c : a) c /= denominator;
+    const Bernstein lagrange = Bernstein::from_powers(degree, a);
+    basis.integral[z(b)] = 0.0;
+    for (int i = 0; i <= degree; ++i) {
+      basis.to_bernstein[z(i)][z(b)] = lagrange.b[z(i)];
+      basis.integral[z(b)] += lagrange.b[z(i)] / (degree + 1);
+    }
+  }
+  basis.bend = 0.0;
+  for (int i = 0; i <= degree; ++i) {
+    double sum = 0.0;
+    for (int b = 1; b <= degree; ++b) sum += std::abs(basis.to_bernstein[z(i)][z(b)]);
+    basis.bend = std::max(basis.bend, sum);
+  }
+}
+
+bool StepHistory::clearly_positive(std::size_t s) const {
+  const double last = value(0, s);
+  double change = 0.0;
+  for (int b = 1; b <= of_order().degree; ++b) change = std::max(change, std::abs(value(b, s) - last));
+  // Twice, so that the rounding of the sums has no part in it.
+  return last > 2.0 * of_order().bend * change;
+}
+
+double StepHistory::integral(std::size_t s) const {
+  double sum = 0.0;
+  for (int b = 0; b <= of_powers_.degree; ++b) sum += of_powers_.integral[z(b)] * value(b, s);
+  return (times_[0] - times_[1]) * sum;
+}
+
+Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {
+  Bernstein p;
+  p.degree = basis.degree;
+  for (int i = 0; i <= basis.degree; ++i)
+    for (int b = 0; b <= basis.degree; ++b) p.b[z(i)] += basis.to_bernstein[z(i)][z(b)] * value(b, s);
+  return p;
+}
+
+}  // namespace signorini

@@ -1,0 +1,71 @@
+// step_history.hpp: scalars at the last accepted steps, and the polynomial through them.
+//
+//   p(x) interpolates f(t_n), f(t_n-1), ..., f(t_n-q),   t = t_n-1 + x (t_n - t_n-1)
+//
+// A BDF step of order q defines y between its ends as the polynomial through the last q + 1 accepted
+// values; a scalar that is linear in y is therefore exactly this polynomial, at the price of a few
+// numbers. Powers are products: their polynomial goes through all values that are kept. (Under a load that is
+// a parabola in time y is one of degree 4, any step at order 4 is exact, and a power of degree 5 was not.)
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/falls/bernstein.hpp"
+
+namespace signorini {
+
+class StepHistory {
+ public:
+  explicit StepHistory(std::size_t scalars) : scalars_(scalars), values_((max_degree + 1) * scalars) {}
+
+  /// Forgets everything and starts at t; returns the place for the scalars' values.
+  double* restart(double t);
+  /// Adds an accepted step that ends at t; returns the place for the scalars' values.
+  double* push(double t) { return push(t, t - times_[0]); }
+  /// The same, with the step's length as the integrator has it, free of the rounding of times.
+  double* push(double t, double length);
+  /// Prepares polynomials of the given order (of the method) on the last step.
+  void prepare(int order);
+  /// True: the polynomial of scalar i is positive, for the last value exceeds what the others can bend it by.
+  /// False says nothing.
+  [[nodiscard]] bool clearly_positive(std::size_t i) const;
+  /// Integral of power i over the whole last step.
+  [[nodiscard]] double integral(std::size_t i) const;
+  /// The polynomial of scalar i on the last step.
+  [[nodiscard]] Bernstein polynomial(std::size_t i) const { return through(of_order(), i); }
+  /// The same of a power.
+  [[nodiscard]] Bernstein power(std::size_t i) const { return through(of_powers_, i); }
+  [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
+  [[nodiscard]] double begin() const { return times_[1]; }
+  [[nodiscard]] double end() const { return times_[0]; }
+
+ private:
+  [[nodiscard]] double value(int back, std::size_t i) const {
+    return values_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(back)]) * scalars_ + i];
+  }
+  /// The polynomial through the last degree + 1 values.
+  struct Basis {
+    int degree = -1;
+    // What the weights below were made for: steps of equal lengths need them once.
+    std::array<double, max_degree + 1> nodes{};
+    // to_bernstein[i][b]: weight of the value b steps back in Bernstein coefficient i
+    std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
+    std::array<double, max_degree + 1> integral{};  // weight of the value b steps back in the mean
+    double bend = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
+  };
+  void prepare(Basis& basis, int degree) const;
+  [[nodiscard]] const Basis& of_order() const { return same_ ? of_powers_ : of_order_; }
+  [[nodiscard]] Bernstein through(const Basis& basis, std::size_t i) const;
+
+  std::size_t scalars_;
+  std::vector<double> values_;
+  std::array<int, max_degree + 1> slot_{};        // slot_[b]: where the values b steps back are kept
+  std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
+  std::array<double, max_degree + 1> lengths_{};  // of the step that ended at times_[b]
+  int filled_ = 0;
+  bool same_ = true;  // one basis serves both
+  Basis of_order_, of_powers_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,45 @@
+// watch.hpp: guards between restarts: which are armed, and which falls to zero first.
+//
+//   armed      g > 0 was clearly seen: its first fall through zero is an event
+//   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
+//   level      re_arm_tolerances times the local error tolerance of g
+//
+// IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial
+// of degree q <= 5, so is every guard, and its Bernstein coefficients prove that it stays positive or
+// show where it does not: two crossings inside one step are not missed.
+#pragma once
+
+#include "decide/decide.hpp"
+#include "engine/falls/step_history.hpp"
+
+namespace signorini {
+
+/// A guard that starts at zero counts again once it exceeds this many local error tolerances: below,
+/// its sign is that of the integration error.
+inline constexpr double re_arm_tolerances = 10.0;
+
+/// Where inside the last step a guard falls.
+struct Fall {
+  std::size_t slot = 0;  ///< guards_per_contact * contact + index
+  double x = 0.0;        ///< 0..1 over the step
+};
+
+class Watch {
+ public:
+  /// levels: re-arming levels, one a slot.
+  void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
+  [[nodiscard]] bool armed(std::size_t slot) const { return armed_[slot]; }
+  /// How far below zero the contact's guard of this form may sink before it is an event: 0 once it is armed.
+  [[nodiscard]] double leeway(std::size_t contact, const Form& form) const;
+  /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.
+  /// Guards that have risen enough are armed by it.
+  [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);
+
+ private:
+  std::vector<Guard> kinds_;
+  std::vector<Form> forms_;
+  std::vector<bool> armed_;
+  std::vector<double> levels_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,173 @@
+#include "engine/ida/ida_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/ida/locate.hpp"
+#include "engine/tolerance.hpp"
+#include "motion/clock.hpp"
+
+namespace signorini {
+
+IdaEngine::IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
+                     const Settings& settings, double t_end)
+    : model_(model),
+      expander_(expander),
+      settings_(settings),
+      powers_(model, structure),
+      bdf_(model, structure, settings, counters),
+      history_(guards_per_contact * model.contacts.size() + powers_.count()),
+      flights_(model, structure, expander, t_end),
+      integrals_(powers_.count()) {
+  for (const Contact& contact : model.contacts)
+    accelerations_ = accelerations_ || contact.normal_damping > 0.0;
+}
+
+/// Guards and powers at the end of a step, for its polynomials.
+void IdaEngine::fill(double t, const Point& point, double* out) {
+  const Decision& decision = *segment_.decision;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const ContactMotion m = motion_of(model_.contacts[k], k, *segment_.forcing, t, point);
+    for (std::size_t i = 0; i < guards_per_contact; ++i)
+      *out++ = decision.guards[guards_per_contact * k + i].form.value(m);
+  }
+  powers_.at(*segment_.forcing, t, decision.mode, point, out);
+}
+
+/// Below the mean of tolerance and size half of a height's digits are gone: lower flights are left to the
+/// series (04a at rtol 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
+double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
+  double size = std::abs(contact.gap), absolute = 0.0;  // a gap is a sum: its terms' tolerances add up
+  for (const auto& [dof, factor] : contact.normal.terms) {
+    size += std::abs(factor * u[dof]);
+    absolute += std::abs(factor);
+  }
+  const double tolerance = settings_.rtol * size + absolute * settings_.atol_displacement;
+  size = std::max(size, absolute * model_.scales.displacement);
+  return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
+}
+
+void IdaEngine::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  flight_ =
+      flights_.take(segment, [&](const Contact& contact) { return lowest_flight(contact, decision.u); });
+  if (flight_) return;
+  std::vector<double> levels;
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    const ContactMotion& motion = decision.after[slot / guards_per_contact];
+    double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, settings_);
+    // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
+    if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
+    levels.push_back(level);
+  }
+  watch_.start(decision.guards, std::move(levels));
+  bdf_.start(segment, watch_);
+  const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  fill(decision.jet.t, point, history_.restart(decision.jet.t));
+}
+
+void IdaEngine::evaluate(double t, Point& point) {
+  if (flight_) return flights_.motion().evaluate(t, point);
+  bdf_.evaluate(t, point);
+  if (accelerations_)
+    expander_.consistent(*segment_.forcing, t, point);
+  else
+    point.a.resize(0);  // what stands there is of another time
+}
+
+double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
+
+Step IdaEngine::advance() {
+  if (flight_) {
+    ++counters.restarts;
+    ++counters.steps;
+    return *flight_;
+  }
+  BdfStep bdf = bdf_.advance();
+  Step step;
+  step.begin = bdf.begin;
+  step.end = bdf.end;
+  if (bdf.kind == BdfStep::Kind::failed) {
+    step.kind = Step::Kind::failed;
+    step.reason = std::move(bdf.reason);
+    return step;
+  }
+  if (!(bdf.end > bdf.begin)) {
+    step.kind = Step::Kind::failed;
+    step.reason = "the step size has fallen below the resolution of time; the tolerance cannot be met";
+    return step;
+  }
+  bdf_.evaluate(bdf.end, point_);
+  if (accelerations_) expander_.consistent(*segment_.forcing, bdf.end, point_);
+  fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
+  history_.prepare(bdf.order);
+  step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
+  if (const auto event = first_event(bdf, step.resolution)) {
+    step.kind = Step::Kind::event;
+    step.end = event->time;
+    step.fired = {{event->slot / guards_per_contact, segment_.decision->guards[event->slot].kind}};
+  }
+  return step;
+}
+
+/// The earliest fall of a guard in the last step, refined.
+std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, double resolution) {
+  const double h = step.end - step.begin;
+  const std::vector<GuardStart>& guards = segment_.decision->guards;
+  std::vector<Located> candidates;
+  for (const Fall& fall : watch_.check(history_, 1.0))
+    candidates.push_back({fall.slot, step.begin + fall.x * h});
+  for (const Fired& fired : step.fired)
+    for (std::size_t i = 0; i < guards_per_contact; ++i) {
+      const std::size_t slot = guards_per_contact * fired.contact + i;
+      if (guards[slot].kind != fired.guard) continue;
+      const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                     [&](const Located& c) { return c.slot == slot; });
+      if (same == candidates.end()) candidates.push_back({slot, step.root});
+    }
+  if (candidates.empty()) return std::nullopt;
+  std::optional<Located> first;
+  for (const Located& c : candidates) {
+    const double time = locate(bdf_, expander_, *segment_.forcing, model_, guards[c.slot],
+                               c.slot / guards_per_contact, step.begin, step.end, c.time, resolution);
+    if (!first || time < first->time) first = Located{c.slot, time};
+  }
+  if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;
+  return first;
+}
+
+void IdaEngine::integrate(double from, double to, Works& works) {
+  if (flight_) return flights_.motion().integrate(from, to, works);
+  const double h = history_.end() - history_.begin();
+  const double a = (from - history_.begin()) / h, b = (to - history_.begin()) / h;
+  const std::size_t offset = segment_.decision->guards.size();
+  for (std::size_t i = 0; i < integrals_.size(); ++i) {
+    if (a == 0.0 && b == 1.0) {
+      integrals_[i] = history_.integral(offset + i);
+    } else {
+      const Bernstein p = history_.power(offset + i);
+      integrals_[i] = h * (p.integral(b) - (a > 0.0 ? p.integral(a) : 0.0));
+    }
+  }
+  powers_.add(integrals_.data(), 1.0, works);
+  const Mode& mode = segment_.decision->mode;
+  if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.inside; })) return;
+  Point first, last;
+  bdf_.evaluate(from, first);
+  bdf_.evaluate(to, last);
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    if (mode[k].inside)
+      works.damping += inside_loss(contact, contact.gap + contact.normal.dot(first.u),
+                                   contact.gap + contact.normal.dot(last.u));
+  }
+}
+
+/// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.
+double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t contact) const {
+  return tolerance(form, motion, settings_) + (flight_ ? 0.0 : watch_.leeway(contact, form));
+}
+
+}  // namespace signorini

@@ -1,0 +1,56 @@
+// ida_engine.hpp: engine `ida`: IDA's steps, and proof that no guard falls unseen inside one.
+//
+//   advance: a step of IDA -> the guards' polynomials on it (step_history.hpp, watch.hpp) -> the earliest
+//            fall, refined with forces recomputed from u and v (locate.hpp)
+//
+// Works are integrals of the polynomials through the powers at the ends of steps.
+#pragma once
+
+#include "engine/falls/step_history.hpp"
+#include "engine/falls/watch.hpp"
+#include "engine/ida/ida_stepper.hpp"
+#include "engine/ida/short_flight.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class IdaEngine final : public Stepper {
+ public:
+  /// The expander stands for the mode of the segment while it runs.
+  IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
+            const Settings& settings, double t_end);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override;
+  void count() override { bdf_.count(); }
+  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+                                   std::size_t contact) const override;
+
+ private:
+  struct Located {
+    std::size_t slot;
+    double time;
+  };
+  void fill(double t, const Point& point, double* out);
+  [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
+  [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
+
+  const Model& model_;
+  const Expander& expander_;
+  const Settings settings_;
+  Powers powers_;
+  IdaStepper bdf_;
+  StepHistory history_;
+  Watch watch_;
+  ShortFlight flights_;
+  std::optional<Step> flight_;  // the step that a short flight has taken
+  Segment segment_;
+  Point point_;
+  std::vector<double> integrals_;
+  bool accelerations_ = false;  // a guard needs them
+};
+
+}  // namespace signorini

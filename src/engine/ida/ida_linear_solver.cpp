@@ -1,0 +1,101 @@
+#include "engine/ida/ida_linear_solver.hpp"
+
+#include <nvector/nvector_serial.h>
+
+#include <algorithm>
+
+namespace signorini {
+
+Layout::Layout(const Model& model) : dofs(model.size()), contacts(static_cast<int>(model.contacts.size())) {
+  for (const Dof& dof : model.dofs) velocity.push_back(dof.massless ? -1 : dofs + massive++);
+}
+
+IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout)
+    : model_(model),
+      layout_(layout),
+      matrix_(model, structure),
+      weights_(static_cast<std::size_t>(layout.dofs)),
+      rhs_(static_cast<std::size_t>(matrix_.size())) {}
+
+void IdaLinearSolver::set_mode(const Mode& mode) {
+  rows_ = rows_of(model_, mode);
+  fresh_ = true;
+  held_.clear();
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (const bool tangent : {false, true}) {
+      const Combination& form = tangent ? model_.contacts[k].tangent : model_.contacts[k].normal;
+      const Form& row = tangent ? rows_[k].tangent : rows_[k].normal;
+      const bool prescribes = tangent ? row.at != 0.0 : row.an != 0.0 && row.N == 0.0;
+      if (!prescribes || form.terms.size() != 1) continue;
+      const auto& [dof, factor] = form.terms[0];
+      held_.push_back({static_cast<std::size_t>(dof),
+                       static_cast<std::size_t>(layout_.dofs) + 2 * k + (tangent ? 1 : 0), factor, 0.0});
+    }
+}
+
+bool IdaLinearSolver::factor() {
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = layout_.velocity[i] >= 0 ? Weights{cj_, 1.0, 1.0 / cj_} : Weights{0.0, cj_, 1.0};
+  const bool ok = matrix_.set(rows_, weights_, fresh_);
+  fresh_ = !ok;
+  return ok;
+}
+
+void IdaLinearSolver::solve(const double* b, double* x) {
+  const auto n = static_cast<std::size_t>(layout_.dofs), massive = static_cast<std::size_t>(layout_.massive);
+  const bool all_massive = n == massive;
+  if (all_massive) {
+    std::copy(b + n, b + n + rhs_.size(), rhs_.data());
+  } else {
+    for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
+    std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
+  }
+  for (Held& h : held_) h.value = rhs_[h.row] / (cj_ * h.factor);
+  matrix_.solve(rhs_.data());
+  for (const Held& h : held_) rhs_[h.dof] = h.value;
+  const double step = 1.0 / cj_;
+  if (all_massive) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = step * (rhs_[i] + b[i]);
+    std::copy(rhs_.begin(), rhs_.end(), x + n);
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const int v = layout_.velocity[i];
+    if (v >= 0) {
+      x[v] = rhs_[i];
+      x[i] = step * (rhs_[i] + b[i]);
+    } else {
+      x[i] = rhs_[i];
+    }
+  }
+  std::copy(rhs_.begin() + static_cast<std::ptrdiff_t>(n), rhs_.end(), x + n + massive);
+}
+
+SUNMatrix IdaLinearSolver::make_matrix(SUNContext context) {
+  SUNMatrix matrix = SUNMatNewEmpty(context);
+  matrix->content = this;
+  matrix->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+  matrix->ops->zero = [](SUNMatrix) { return SUNMAT_SUCCESS; };
+  matrix->ops->destroy = [](SUNMatrix m) { SUNMatFreeEmpty(m); };
+  return matrix;
+}
+
+SUNLinearSolver IdaLinearSolver::make_solver(SUNContext context) {
+  SUNLinearSolver solver = SUNLinSolNewEmpty(context);
+  solver->content = this;
+  solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver->ops->setup = [](SUNLinearSolver s, SUNMatrix) {
+    return static_cast<IdaLinearSolver*>(s->content)->factor() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
+  };
+  solver->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
+    static_cast<IdaLinearSolver*>(s->content)->solve(NV_DATA_S(b), NV_DATA_S(x));
+    return static_cast<int>(SUNLS_SUCCESS);
+  };
+  solver->ops->free = [](SUNLinearSolver s) {
+    SUNLinSolFreeEmpty(s);
+    return static_cast<int>(SUNLS_SUCCESS);
+  };
+  return solver;
+}
+
+}  // namespace signorini

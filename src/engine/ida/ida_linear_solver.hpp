@@ -1,0 +1,67 @@
+// ida_linear_solver.hpp: IDA's linear systems, condensed to one unknown a degree of freedom.
+//
+//   | cj   -1          | |du|   |r1|        du = (dv + r1) / cj
+//   | K  cj M + C  n t | |dv| = |r2|   =>   (cj M + C + K/cj) dv + n dN + t dT = r2 - K r1 / cj
+//   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
+//
+// The residual comes with r1/cj already in r2 and r3 (engine/ida/ida_problem.hpp), so the right side is at
+// hand. One matrix of the size of the structure plus two rows a contact, instead of twice that.
+#pragma once
+
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+
+#include "linear/system_matrix.hpp"
+
+namespace signorini {
+
+/// Where u, v, N and T stand in IDA's vector: u of all n degrees of freedom, v of those with mass,
+/// then N_k, T_k of each contact.
+struct Layout {
+  explicit Layout(const Model& model);
+
+  int dofs = 0, massive = 0, contacts = 0;
+  std::vector<int> velocity;  ///< index of v_i, or -1 where u_i' is the velocity
+  [[nodiscard]] int force(std::size_t contact) const {
+    return dofs + massive + 2 * static_cast<int>(contact);
+  }
+  [[nodiscard]] int size() const { return dofs + massive + 2 * contacts; }
+};
+
+class IdaLinearSolver {
+ public:
+  IdaLinearSolver(const Model& model, const Structure& structure, const Layout& layout);
+
+  /// New mode: the next factorisation chooses fresh pivots.
+  void set_mode(const Mode& mode);
+  void set_cj(double cj) { cj_ = cj; }
+  [[nodiscard]] double cj() const { return cj_; }
+  [[nodiscard]] bool factor();
+  void solve(const double* b, double* x);
+  [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
+  /// Replaces a row by its tangent where it is not linear.
+  void linearise(std::size_t contact, const Form& tangent) { rows_[contact].tangent = tangent; }
+  [[nodiscard]] const Klu& klu() const { return matrix_.klu(); }
+
+  /// SUNDIALS' view of it; the solver must outlive both.
+  SUNMatrix make_matrix(SUNContext context);
+  SUNLinearSolver make_solver(SUNContext context);
+
+ private:
+  const Model& model_;
+  const Layout& layout_;
+  SystemMatrix matrix_;
+  std::vector<Rows> rows_;
+  std::vector<Weights> weights_;
+  // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
+  struct Held {
+    std::size_t dof, row;
+    double factor, value;
+  };
+  std::vector<Held> held_;
+  std::vector<double> rhs_;
+  double cj_ = 1.0;
+  bool fresh_ = true;
+};
+
+}  // namespace signorini

@@ -1,0 +1,59 @@
+// ida_problem.hpp: residual, error weights and root functions that IDA calls; no solver state.
+//
+//   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
+//
+// Rows are combined as the condensed solver needs them (engine/ida/ida_linear_solver.hpp): zero for the same
+// y and y' as without r1/cj, and a solve has no product with K of its own.
+#pragma once
+
+#include "engine/falls/watch.hpp"
+#include "engine/ida/ida_linear_solver.hpp"
+#include "engine/stepper.hpp"
+#include "linear/momentum.hpp"
+
+namespace signorini {
+
+class IdaProblem {
+ public:
+  IdaProblem(const Model& model, const Structure& structure, const Settings& settings);
+
+  void start(const Segment& segment, const Watch& watch);
+
+  /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
+  void residual(double t, double step, const double* y, const double* yp, double* r);
+  /// Puts the tangents of rows that are not linear (Stribeck's friction) into the linear solver.
+  void linearise(double t, const double* y, const double* yp);
+  /// Error weights; see below.
+  void weights(const double* y, double* w) const;
+  /// Scaled guards, one a slot; masked ones are +1.
+  void guards(double t, const double* y, const double* yp, double* g) const;
+  /// y^(order) from a jet.
+  void fill(const Jet& jet, std::size_t order, double* y) const;
+  void read(const double* y, const double* yp, Point& point) const;
+
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] std::size_t slots() const { return guards_per_contact * model_.contacts.size(); }
+
+  [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
+
+ private:
+  /// step: at u - step (u' - v).
+  [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
+                                     double step = 0.0) const;
+
+  const Model& model_;
+  Layout layout_;
+  IdaLinearSolver linear_;
+  const Settings settings_;
+  Segment segment_;
+  const Watch* watch_ = nullptr;
+  // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of its
+  // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
+  // structure does not dilute the few contacts.
+  std::vector<double> factor_, atol_;
+  std::vector<std::size_t> stribeck_;  // contacts that slip by Stribeck's law in this segment
+  Momentum momentum_;
+  std::vector<double> forces_;  // of all degrees of freedom, where some have no mass
+};
+
+}  // namespace signorini

@@ -1,0 +1,51 @@
+// ida_stepper.hpp: SUNDIALS IDA on the first-order form.
+//
+//   0 = u' - v
+//   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
+//   0 = rows of each contact's state
+//
+// y = [u, v, N, T]; degrees of freedom without mass have no v: their row is the second one, with u' as
+// velocity (index 1). The segment's rows stay in force past an event; guards are IDA's root functions,
+// positive before their event, watched for falls only, and masked (+1) while idle or not armed.
+#pragma once
+
+#include <memory>
+
+#include "engine/falls/watch.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+/// A step of IDA, before anybody has looked inside it.
+struct BdfStep {
+  enum class Kind { accepted, root, failed } kind = Kind::accepted;
+  double begin = 0.0, end = 0.0;  ///< of the accepted step
+  double root = 0.0;              ///< Kind::root: where a guard fell, begin < root <= end
+  std::vector<Fired> fired;       ///< Kind::root
+  double length = 0.0;            ///< of the step, free of the rounding of its ends
+  int order = 1;                  ///< degree of the solution's polynomial on the step
+  std::string reason;             ///< Kind::failed
+};
+
+class IdaStepper {
+ public:
+  /// counters: where to count; complete after count().
+  IdaStepper(const Model& model, const Structure& structure, const Settings& settings, Counters& counters);
+  ~IdaStepper();
+  IdaStepper(const IdaStepper&) = delete;
+  IdaStepper& operator=(const IdaStepper&) = delete;
+
+  /// watch: which guards are armed; it must outlive the segment.
+  void start(const Segment& segment, const Watch& watch);
+  [[nodiscard]] BdfStep advance();
+  void evaluate(double t, Point& point);
+  [[nodiscard]] double residual();
+  void count();
+
+ private:
+  struct Memory;
+  Counters& counters_;
+  std::unique_ptr<Memory> m_;
+};
+
+}  // namespace signorini

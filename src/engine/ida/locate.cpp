@@ -1,0 +1,38 @@
+#include "engine/ida/locate.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/falls/root.hpp"
+
+namespace signorini {
+
+double locate(IdaStepper& stepper, const Expander& expander, const Forcing& forcing, const Model& model,
+              const GuardStart& guard, std::size_t contact, double begin, double end, double time,
+              double resolution) {
+  Point point;
+  const std::function<double(double)> value = [&](double t) {
+    stepper.evaluate(t, point);
+    expander.consistent(forcing, t, point);
+    return guard.form.value(motion_of(model.contacts[contact], contact, forcing, t, point));
+  };
+  const double g = value(time);
+  if (g == 0.0) return time;
+  double width = 0.25 * resolution;
+  if (g > 0.0) {  // the fall lies later
+    for (double lo = time; lo < end; width *= 4.0) {
+      const double hi = std::min(end, time + width);
+      if (value(hi) <= 0.0) return root_between(value, lo, hi, 0.25 * resolution);
+      lo = hi;
+    }
+  } else {
+    for (double hi = time; hi > begin; width *= 4.0) {
+      const double lo = std::max(begin, time - width);
+      if (value(lo) > 0.0) return root_between(value, lo, hi, 0.25 * resolution);
+      hi = lo;
+    }
+  }
+  return time;
+}
+
+}  // namespace signorini

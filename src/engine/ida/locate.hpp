@@ -1,0 +1,20 @@
+// locate.hpp: the time at which a guard falls, to the last digits of the clock.
+//
+//   G(t) = guard(u(t), v(t), forces consistent with u(t), v(t) by the equations of the mode) = 0
+//
+// A root of the interpolated unknowns satisfies the equations of the mode only to the integrator's
+// tolerance; the state decision needs a time at which its own forces are at their limit, so the root is
+// refined with forces recomputed from the interpolated u and v.
+#pragma once
+
+#include "engine/ida/ida_stepper.hpp"
+
+namespace signorini {
+
+/// Refines `time`, a root of guard `slot` found on [begin, end] of the last step; returns it unchanged
+/// where the recomputed guard has no fall there. Brackets by doubling, then Brent's method (GSL).
+[[nodiscard]] double locate(IdaStepper& stepper, const Expander& expander, const Forcing& forcing,
+                            const Model& model, const GuardStart& guard, std::size_t contact, double begin,
+                            double end, double time, double resolution);
+
+}  // namespace signorini

@@ -1,0 +1,51 @@
+#include "engine/ida/short_flight.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+constexpr int looks = 16;  // at the height of a flight
+
+/// A series of a mode with Stribeck's friction has no known radius.
+bool is_linear(const Model& model, const Mode& mode) {
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (slip_sign(mode[c].state) != 0 && model.contacts[c].stribeck_velocity) return false;
+  return true;
+}
+
+}  // namespace
+
+ShortFlight::ShortFlight(const Model& model, const Structure& structure, const Expander& expander,
+                         double t_end)
+    : model_(model), series_(std::make_unique<ExactEngine>(model, structure, expander, t_end)) {}
+
+std::optional<Step> ShortFlight::take(const Segment& segment,
+                                      const std::function<double(const Contact&)>& level) {
+  const Decision& decision = *segment.decision;
+  const auto leaves = [&](std::size_t slot) {
+    const GuardStart& guard = decision.guards[slot];
+    return guard.kind == Guard::closing && guard.at_zero && guard.leading > 0 &&
+           model_.contacts[slot / guards_per_contact].law == Law::rigid;
+  };
+  bool any = false;
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) any = any || leaves(slot);
+  if (!any || !is_linear(model_, decision.mode)) return std::nullopt;
+  series_->start(segment);
+  Step step = series_->advance();
+  if (step.kind != Step::Kind::event) return std::nullopt;
+  for (const Fired& fired : step.fired) {
+    const std::size_t slot = guards_per_contact * fired.contact;
+    if (!leaves(slot)) return std::nullopt;
+    const Contact& contact = model_.contacts[fired.contact];
+    const double lowest = level(contact);
+    Point point;
+    for (int i = 1; i < looks; ++i) {
+      series_->evaluate(step.begin + (step.end - step.begin) * i / looks, point);
+      if (contact.gap + contact.normal.dot(point.u) > lowest) return std::nullopt;
+    }
+  }
+  return step;
+}
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+// short_flight.hpp: flights of rigid contacts that stay below what an integrator's tolerance resolves.
+//
+//   after a rebound  g = vn t + an t^2/2 + ...  returns to zero at t*, and g < level all the way
+//
+// An integrator's own polynomial says nothing there: its error is as large as the flight is high. The Taylor
+// series about the rebound knows it exactly (engine/exact/exact_engine.hpp), so it takes the step to the next
+// hit. Without it a ball at the end of its bounces falls through the floor by a tolerance, and further.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/exact/exact_engine.hpp"
+
+namespace signorini {
+
+class ShortFlight {
+ public:
+  ShortFlight(const Model& model, const Structure& structure, const Expander& expander, double t_end);
+
+  /// The step to the hit, if the segment begins with such a flight. level: gap of a contact from which on the
+  /// integrator sees it by itself.
+  [[nodiscard]] std::optional<Step> take(const Segment& segment,
+                                         const std::function<double(const Contact&)>& level);
+  /// The motion and the works on the step that was taken.
+  [[nodiscard]] ExactEngine& motion() { return *series_; }
+
+ private:
+  const Model& model_;
+  std::unique_ptr<ExactEngine> series_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,234 @@
+#include "engine/newmark/friction_iteration.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motion/clock.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double unchanged = 1e-12;   // of the greatest contact force: a bound has stopped changing
+constexpr double rounding = 64.0;     // units of epsilon of the terms of a difference
+constexpr double same_length = 1e-9;  // of dt
+constexpr unsigned char slips = 100;  // key: T is given, whatever its direction
+constexpr unsigned char stops = 101;  // key: comes to rest within the step, without tangential stiffness
+
+}  // namespace
+
+FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const Expander& expander,
+                                     const RunSpec& run)
+    : model_(model),
+      expander_(expander),
+      dt_(run.dt.value()),
+      relaxation_(run.relaxation),
+      most_(run.max_iterations),
+      step_(model, structure),
+      works_(model, structure),
+      sides_(model.contacts.size()),
+      key_(model.contacts.size()) {}
+
+void FrictionIteration::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  t0_ = t1_ = decision.jet.t;
+  end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  mode_ = decision.mode;
+  key_in_force_.clear();
+  step_.set({}, signorini::rows_of(model_, mode_), expander_.taylor().kinds());
+  ++counters.restarts;
+}
+
+/// Contacts at the beginning of a step: what a return to stick would hold, and the bounds.
+void FrictionIteration::begin_sides() {
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const ContactMotion m = motion_of(contact, k, *segment_.forcing, t0_, begin_);
+    Side& side = sides_[k];
+    side.state = mode_[k].state;
+    side.pressed = std::max(0.0, -m.N);
+    side.anchor = side.state == State::stick
+                      ? mode_[k].anchor
+                      : m.ut - (contact.tangential_stiffness ? m.T / *contact.tangential_stiffness : 0.0);
+  }
+}
+
+/// Rows of the states of this iterate; factorisations are kept by what of them is in the matrix.
+void FrictionIteration::put_in_force() {
+  std::vector<Rows>& rows = step_.rows();
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    const Side& side = sides_[k];
+    rows[k] = signorini::rows(contact, {side.state, side.anchor});
+    key_[k] = static_cast<unsigned char>(side.state);
+    Form& tangent = rows[k].tangent;
+    if (const int s = slip_sign(side.state); s != 0) {
+      tangent = {};
+      tangent.T = 1.0;
+      tangent.constant = -s * contact.kinetic_friction * side.pressed;
+      key_[k] = slips;
+    } else if (side.state == State::stick && !contact.tangential_stiffness &&
+               mode_[k].state != State::stick) {
+      tangent = {};
+      tangent.vt = 1.0;
+      key_[k] = stops;
+    }
+  }
+  if (key_ == key_in_force_) return;
+  key_in_force_ = key_;
+  step_.set(key_, std::move(rows), expander_.taylor().kinds());
+}
+
+/// The state that the iterate asks of contact k, its bound given.
+State FrictionIteration::state_of(std::size_t k) const {
+  const Contact& contact = model_.contacts[k];
+  const Side& side = sides_[k];
+  const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
+  if (contact.law == Law::slider ? side.state == State::open
+                                 : contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
+    return State::open;
+  if (!contact.has_friction()) return State::closed;
+  if (side.state == State::open) return State::stick;
+  const auto& kt = contact.tangential_stiffness;
+  if (const int s = slip_sign(side.state); s != 0) {
+    if (!kt) return s * m.vt < 0.0 ? State::stick : side.state;
+    const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
+    return s * (m.ut - m.T / *kt - side.anchor) < -rounding * epsilon * terms ? State::stick : side.state;
+  }
+  // What slips goes on slipping; what does not is held by static friction.
+  const double friction = slip_sign(mode_[k].state) != 0 ? contact.kinetic_friction : contact.static_friction;
+  if (std::abs(m.T) <= friction * side.pressed) return State::stick;
+  return m.T > 0.0 ? State::slip_plus : State::slip_minus;
+}
+
+/// Takes the states that the iterate asks for. False: they are those that it was computed with.
+bool FrictionIteration::new_states() {
+  bool changed = false;
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const State state = state_of(k);
+    changed = changed || state != sides_[k].state;
+    key_[k] = static_cast<unsigned char>(state);
+  }
+  for (std::size_t k = 0; k < sides_.size(); ++k) sides_[k].state = static_cast<State>(key_[k]);
+  return changed;
+}
+
+/// Iterates the step to t1_. Empty, or why it does not end.
+std::string FrictionIteration::iterate(double h, bool kept) {
+  begin_sides();
+  double change = 0.0, force = 0.0;
+  std::size_t worst = 0;
+  bool switching = false;
+  for (int i = 0; i < most_; ++i) {
+    put_in_force();
+    if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
+      return "the matrix of a step is singular; another dt may help";
+    if (!end_.u.allFinite()) return "the motion overflows";
+    change = force = 0.0;
+    double noise = 0.0;
+    switching = new_states();
+    if (switching) continue;  // with the bounds as they are
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const Contact& contact = model_.contacts[k];
+      Side& side = sides_[k];
+      const double N = end_.forces[static_cast<Eigen::Index>(2 * k)];
+      const double T = end_.forces[static_cast<Eigen::Index>(2 * k) + 1];
+      force = std::max({force, std::abs(N), std::abs(T)});
+      const double by = std::max(0.0, -N) - side.pressed;
+      if (slip_sign(side.state) != 0 && contact.kinetic_friction * std::abs(by) > change) {
+        change = contact.kinetic_friction * std::abs(by);
+        worst = k;
+      }
+      double terms = std::abs(contact.gap);
+      for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * end_.u[dof]);
+      noise = std::max(noise, rounding * epsilon * contact.normal_stiffness * terms);
+      // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
+      // once.
+      side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
+    }
+    // The states must hold with the new bounds, too.
+    switching = new_states();
+    if (!switching && change <= unchanged * force + noise) return {};
+  }
+  std::string what;
+  for (std::size_t k = 0; k < sides_.size(); ++k)
+    if (sides_[k].state != mode_[k].state || k == worst)
+      what += fmt::format("{}'{}'", what.empty() ? "" : ", ", model_.contacts[k].name);
+  return fmt::format(
+      "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt, more "
+      "max_iterations or another relaxation than {} may help",
+      most_,
+      switching
+          ? "states still change"
+          : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
+                        change, force > 0.0 ? change / force : 0.0),
+      what, relaxation_);
+}
+
+Step FrictionIteration::advance() {
+  std::swap(begin_, end_);
+  t0_ = t1_;
+  Step step;
+  step.begin = step.end = t0_;
+  step.resolution = resolution_at(t0_, 0.0);
+  changed_ = false;
+  if (t0_ >= segment_.end) {  // states were adopted where the forcing breaks
+    std::swap(begin_, end_);
+    return step;
+  }
+  // Steps end at multiples of dt; after a discontinuity of the forcing a shorter one returns to them.
+  t1_ = dt_ * (std::floor(t0_ / dt_ + same_length) + 1.0);
+  if (segment_.end - t1_ <= same_length * dt_) t1_ = segment_.end;
+  double h = t1_ - t0_;
+  const bool whole = std::abs(h - dt_) <= same_length * dt_;
+  if (whole) h = dt_;
+  ++counters.steps;
+  std::string failure = t1_ > t0_ ? iterate(h, whole) : "the step is below the resolution of time";
+  step_.count(counters);
+  if (!failure.empty()) {
+    step.kind = Step::Kind::failed;
+    step.reason = fmt::format("at t = {:.9g}: {}", t1_, failure);
+    return step;
+  }
+  step.end = t1_;
+  step.resolution = resolution_at(t1_, h);
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    changed_ = changed_ || sides_[k].state != mode_[k].state;
+    mode_[k] = {sides_[k].state, sides_[k].state == State::stick ? sides_[k].anchor : 0.0,
+                sides_[k].state == State::open && contact.normal_damping > 0.0 &&
+                    contact.gap + contact.normal.dot(end_.u) < 0.0};
+  }
+  if (changed_) {
+    step.kind = Step::Kind::event;
+    step.adopted = mode_;
+  }
+  return step;
+}
+
+/// On a straight line between the ends of the step, which keeps |T| <= -f N; forces of a state that is about
+/// to change stay with it.
+void FrictionIteration::evaluate(double t, Point& point) {
+  if (t == t1_ || !(t1_ > t0_)) {
+    point = end_;
+    return;
+  }
+  const double x = (t - t0_) / (t1_ - t0_);
+  point.u = (1.0 - x) * begin_.u + x * end_.u;
+  point.v = (1.0 - x) * begin_.v + x * end_.v;
+  point.a = (1.0 - x) * begin_.a + x * end_.a;
+  point.forces = begin_.forces;
+  if (!changed_) point.forces += x * (end_.forces - begin_.forces);
+}
+
+/// Of the whole step, in the states that it ends with.
+void FrictionIteration::integrate(double from, double to, Works& works) {
+  if (!(t1_ > t0_)) return;
+  works_.add(*segment_.forcing, mode_, begin_, t0_, end_, t1_, (to - from) / (t1_ - t0_), works);
+}
+
+}  // namespace signorini

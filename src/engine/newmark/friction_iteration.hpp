@@ -1,0 +1,63 @@
+// friction_iteration.hpp: engine `friction-iteration`: the method that the paper compares its own with.
+//
+//   repeat within a step of fixed length, the bounds B_k = f |N_k| taken from the last iterate:
+//     states of the contacts with that bound given: open if N > 0; T = kt (ut - p) while |T| <= B, else T = s
+//     B B := B + w (f |N| - B)
+//   until no bound changes
+//
+// No event is localised: a change of state takes effect at the end of its step, and closing counts from the
+// beginning of it. T = s B is a load, so the matrices are symmetric. The iteration may cycle (high friction
+// couples T back to N); it then stops the run and says so.
+// Source: Lukashevich et al. 2021, the iterative algorithm.
+#pragma once
+
+#include "engine/newmark/newmark_step.hpp"
+#include "engine/newmark/newmark_works.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class FrictionIteration final : public Stepper {
+ public:
+  /// The expander stands for the mode of the segment while it runs. run.dt must be given.
+  FrictionIteration(const Model& model, const Structure& structure, const Expander& expander,
+                    const RunSpec& run);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override { return step_.residual(*segment_.forcing, t1_, end_); }
+  [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
+    return 0.0;
+  }
+
+ private:
+  /// A contact during a step.
+  struct Side {
+    State state = State::open;  // in the last iterate
+    double anchor = 0.0;        // p at the beginning of the step
+    double pressed = 0.0;       // |N| of the last iterate, which bounds |T|
+  };
+  void begin_sides();
+  void put_in_force();
+  [[nodiscard]] State state_of(std::size_t k) const;
+  [[nodiscard]] bool new_states();
+  [[nodiscard]] std::string iterate(double h, bool kept);
+
+  const Model& model_;
+  const Expander& expander_;
+  const double dt_, relaxation_;
+  const int most_;
+  NewmarkStep step_;
+  NewmarkWorks works_;
+  Segment segment_;
+  std::vector<Side> sides_;
+  NewmarkStep::Key key_, key_in_force_;
+  Mode mode_;  // at the end of the last step
+  bool changed_ = false;
+  Point begin_, end_;
+  double t0_ = 0.0, t1_ = 0.0;
+};
+
+}  // namespace signorini

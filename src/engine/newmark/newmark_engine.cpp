@@ -1,0 +1,394 @@
+#include "engine/newmark/newmark_engine.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/falls/root.hpp"
+#include "motion/clock.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double same_length = 1e-9;  // a rest longer than the step by this part is taken in one step
+constexpr double rounding = 64.0;     // units of epsilon of the terms of a guard that count as zero
+constexpr int most_halvings = 60;
+constexpr double spare = 1.0 / 16.0;  // doubling: of the tolerance, below which steps grow again
+constexpr const char* singular = "the matrix of a step is singular; another dt may help";
+constexpr double least_part = 1e-12;  // doubling: of dt
+constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
+
+}  // namespace
+
+NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, const Expander& expander,
+                             const RunSpec& run, const Settings& settings)
+    : model_(model),
+      expander_(expander),
+      settings_(settings),
+      dt_(run.dt.value()),
+      linear_(run.refine == Refine::linear),
+      doubling_(run.step == StepControl::doubling),
+      step_(model, structure),
+      works_(model, structure),
+      watched_(guards_per_contact * model.contacts.size()),
+      settles_(expander.taylor().massless()),
+      regular_(dt_) {}
+
+void NewmarkEngine::start(const Segment& segment) {
+  segment_ = segment;
+  const Decision& decision = *segment.decision;
+  t0_ = t1_ = decision.jet.t;
+  end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
+  NewmarkStep::Key key;
+  for (const ContactState& s : decision.mode) key.push_back(static_cast<unsigned char>(s.state));
+  step_.set(std::move(key), rows_of(model_, decision.mode), expander_.taylor().kinds());
+  inner_time_ = nan;
+  a_before_.resize(0);
+  h_ = h_before_ = 0.0;
+  counted_length_ = 0.0;
+  second_ = false;
+  for (std::size_t slot = 0; slot < watched_.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    Watched& w = watched_[slot];
+    w = {};
+    w.active = guard.kind != Guard::none;
+    if (!w.active) continue;
+    w.armed = !guard.at_zero;
+    w.noise = guard.noise;
+    w.has_rate = rates_known(slot);
+  }
+  weigh(end_, t1_);
+  // What sticks does not move, so that doubling sees nothing of the load on it.
+  if (const double omega = segment.forcing->greatest_omega(); doubling_ && omega > 0.0)
+    regular_ = std::min(regular_, forcing_step / omega);
+  ++counters.restarts;
+}
+
+/// Does the derivative of the guard follow from displacements, velocities and accelerations?
+bool NewmarkEngine::rates_known(std::size_t slot) const {
+  const std::size_t k = slot / guards_per_contact;
+  const Form& form = segment_.decision->guards[slot].form;
+  const Rows rows = signorini::rows(model_.contacts[k], segment_.decision->mode[k]);
+  const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
+  if (form.an != 0.0 || form.at != 0.0) return false;
+  if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
+  if (through_T && (rows.tangent.T != 1.0 || rows.tangent.at != 0.0)) return false;
+  const auto massless = [&](const Combination& c) {
+    return std::any_of(c.terms.begin(), c.terms.end(), [&](const auto& term) {
+      return model_.dofs[static_cast<std::size_t>(term.first)].massless;
+    });
+  };
+  const bool accelerates = form.vn != 0.0 || form.vt != 0.0 || (through_N && rows.normal.vn != 0.0) ||
+                           (through_T && rows.tangent.vt != 0.0);
+  return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
+}
+
+/// Values and rates of all guards at the end of the step.
+void NewmarkEngine::weigh(const Point& point, double t) {
+  const Decision& decision = *segment_.decision;
+  const Forcing& forcing = *segment_.forcing;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    Watched* w = watched_.data() + guards_per_contact * k;
+    const GuardStart* guards = decision.guards.data() + guards_per_contact * k;
+    if (!w[0].active && !w[1].active && !w[2].active) continue;
+    const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+    ContactMotion d;  // its derivative as far as it is known
+    d.gap = m.vn;
+    d.ut = m.vt;
+    d.vn = m.an;
+    d.vt = m.at;
+    d.pressing = m.pressing_rate;
+    d.pressing_rate = forcing.pressing(k, t, 2);
+    const Form &normal = step_.rows()[k].normal, &tangent = step_.rows()[k].tangent;
+    d.N = -(normal.gap * d.gap + normal.vn * d.vn + normal.pressing * d.pressing);
+    d.T = -(tangent.N * d.N + tangent.ut * d.ut + tangent.vt * d.vt);
+    for (std::size_t i = 0; i < guards_per_contact; ++i) {
+      if (!w[i].active) continue;
+      w[i].g1 = guards[i].form.value(m);
+      w[i].level = w[i].noise + rounding * epsilon * guards[i].form.magnitude(m);
+      if (w[i].has_rate) w[i].rate1 = guards[i].form.rate(d);
+    }
+  }
+}
+
+/// Where a guard that is positive at both ends may fall between them: by its rates there, or by its values
+/// alone, where modes far above the step make the rates useless.
+std::optional<double> NewmarkEngine::dip_of(const Watched& w, double h) const {
+  if (w.dismissed) return std::nullopt;
+  GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
+  std::optional<double> x = w.has_rate ? path.dip() : std::nullopt;
+  if (!x) {
+    rates_from_values(path, h, w.before, h_before_);
+    x = path.dip();
+  }
+  return x && *x * h > resolution_at(t0_, h) ? x : std::nullopt;
+}
+
+double NewmarkEngine::value_of(std::size_t slot, double t, const Point& point) const {
+  const std::size_t k = slot / guards_per_contact;
+  return segment_.decision->guards[slot].form.value(
+      motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
+}
+
+/// A step of length h from the beginning of this one, to t.
+bool NewmarkEngine::take(double h, double t, bool kept, Point& to) {
+  if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
+  if (settles_) expander_.consistent(*segment_.forcing, t, to);
+  return true;
+}
+
+/// The guard at the end of the step redone with length h.
+double NewmarkEngine::value_after(std::size_t slot, double h) {
+  ++counters.guard_evaluations;
+  inner_time_ = nan;
+  return take(h, t0_ + h, false, inner_) ? value_of(slot, t0_ + h, inner_) : nan;
+}
+
+double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi) {
+  double last = g_lo;  // a singular matrix on the way must not reach the root finder
+  const auto value = [&](double h) {
+    if (h == lo) return g_lo;
+    if (h == hi) return g_hi;
+    const double g = value_after(slot, h);
+    return last = std::isfinite(g) ? g : last;
+  };
+  return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
+}
+
+/// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
+/// twice the next interpolation, until it has.
+double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
+  const double g_hi = watched_[slot].g1;
+  double h = hi * GuardPath{watched_[slot].g0, g_hi}.linear();
+  double g = value_after(slot, h);
+  for (int i = 0; i < most_halvings && g > 0.0 && h < hi; ++i) {
+    h = std::min(hi, h + 2.0 * (hi - h) * g / (g - g_hi) + resolution_at(t0_ + h, 0.0));
+    g = h < hi ? value_after(slot, h) : g_hi;
+  }
+  return h;
+}
+
+/// The guard that falls first in the step. `located`: the one of `slot` was found at its end, so only what
+/// has clearly fallen before counts.
+NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::size_t slot) const {
+  Candidate first;
+  const auto consider = [&](Candidate::Kind kind, std::size_t s, double x) {
+    if (x < first.x) first = {kind, s, x};
+  };
+  for (std::size_t s = 0; s < watched_.size(); ++s) {
+    const Watched& w = watched_[s];
+    if (!w.active || (located && s == slot)) continue;
+    const double zero = located ? -w.level : 0.0;
+    if (!w.armed) {
+      if (w.g1 < -w.level) consider(Candidate::Kind::sink, s, 0.0);
+    } else if (w.g1 <= zero) {
+      consider(Candidate::Kind::fall, s, GuardPath{w.g0, w.g1}.linear());
+    } else if (w.g1 > 0.0) {
+      if (const auto x = dip_of(w, h)) consider(Candidate::Kind::dip, s, *x);
+    }
+  }
+  return first;
+}
+
+bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
+  const std::size_t slot = candidate.slot;
+  Watched& w = watched_[slot];
+  const double g1 = w.g1;
+  switch (candidate.kind) {
+    case Candidate::Kind::none:
+      return false;
+    case Candidate::Kind::fall:
+      h = linear_ ? linear_fall(slot, h) : fall_between(slot, 0.0, w.g0, h, g1);
+      return true;
+    case Candidate::Kind::dip: {
+      // Down and up again within the step: the step redone to the least value tells.
+      const double x = candidate.x * h;
+      ++counters.rolled_back;
+      const double g = value_after(slot, x);
+      if (!(g <= 0.0)) {
+        w.dismissed = true;
+        return false;
+      }
+      h = linear_ ? x : fall_between(slot, 0.0, w.g0, x, g);
+      return true;
+    }
+    case Candidate::Kind::sink: {
+      // It began at zero, rose, and fell again within the step.
+      double hi = h, g_hi = g1;
+      for (int i = 0; i < most_halvings; ++i) {
+        const double lo = 0.5 * hi;
+        if (!(lo > resolution_at(t0_, 0.0))) break;
+        const double g = value_after(slot, lo);
+        if (!std::isfinite(g)) break;
+        if (g > 0.0) {
+          h = linear_ ? hi : fall_between(slot, lo, g, hi, g_hi);
+          return true;
+        }
+        hi = lo;
+        g_hi = g;
+      }
+      h = hi;  // it never rose: the states are decided again
+      return true;
+    }
+  }
+  return false;
+}
+
+Step NewmarkEngine::failed(std::string reason) const {
+  Step step;
+  step.kind = Step::Kind::failed;
+  step.begin = step.end = t0_;
+  step.reason = std::move(reason);
+  return step;
+}
+
+/// The length at which a step of twice it changes the result by less than the tolerance.
+double NewmarkEngine::doubled(double remaining) {
+  if (std::exchange(second_, !second_)) return regular_;
+  // A stretch that one step would span is compared with two halves, like any other.
+  for (double h = std::min(regular_, 0.5 * remaining);; h *= 0.5) {
+    if (h < least_part * dt_) return h;
+    inner_time_ = nan;
+    if (!take(2.0 * h, t0_ + 2.0 * h, true, coarse_) || !take(h, t0_ + h, true, inner_) ||
+        !step_.take(*segment_.forcing, inner_, t0_ + 2.0 * h, h, true, fine_))
+      continue;
+    double change = 0.0;
+    for (Eigen::Index i = 0; i < fine_.u.size(); ++i) {
+      const Dof& dof = model_.dofs[static_cast<std::size_t>(i)];
+      const double u = settings_.rtol * std::abs(fine_.u[i]) +
+                       (dof.rotation ? settings_.atol_rotation : settings_.atol_displacement);
+      const double v = settings_.rtol * std::abs(fine_.v[i]) +
+                       (dof.rotation ? settings_.atol_angular_velocity : settings_.atol_velocity);
+      change = std::max(change, std::abs(fine_.u[i] - coarse_.u[i]) / u);
+      if (!dof.massless) change = std::max(change, std::abs(fine_.v[i] - coarse_.v[i]) / v);
+    }
+    if (change > 1.0) {
+      ++counters.error_test_failures;
+      continue;
+    }
+    regular_ = h;
+    second_ = !(change < spare && 2.0 * h <= dt_ && 2.0 * h < remaining);
+    if (!second_) regular_ = 2.0 * h;  // from the next step on
+    return h;
+  }
+}
+
+Step NewmarkEngine::advance() {
+  // What began the last step is the one before now; its vectors take the new end.
+  std::swap(a_before_, begin_.a);
+  if (h_ == 0.0) a_before_.resize(0);
+  std::swap(begin_, end_);
+  t0_ = t1_;
+  h_before_ = h_;
+  for (Watched& w : watched_) {
+    w.before = w.g0;
+    w.g0 = w.g1;
+    w.rate0 = w.rate1;
+    w.dismissed = false;
+  }
+  const double remaining = segment_.end - t0_;
+  double h = doubling_ ? doubled(remaining) : dt_;
+  inner_time_ = nan;
+  const bool last = remaining <= h * (1.0 + same_length);
+  if (last) h = remaining;
+  if (h != counted_length_) {
+    counted_from_ = t0_;
+    counted_length_ = h;
+    counted_ = 0;
+  }
+  t1_ = last ? segment_.end : counted_from_ + static_cast<double>(++counted_) * h;
+  if (!(t1_ > t0_)) return failed("the step is below the resolution of time");
+  if (!take(h, t1_, !last, end_)) return failed(singular);
+  if (!end_.u.allFinite() || !end_.v.allFinite()) return failed("the motion overflows");
+  weigh(end_, t1_);
+
+  Step step;
+  step.begin = t0_;
+  std::size_t slot = 0;
+  bool event = false;
+  for (Candidate c = earliest(h, false, 0); c.kind != Candidate::Kind::none; c = earliest(h, event, slot)) {
+    const double longer = h;
+    if (!locate(c, h)) continue;
+    const bool known = std::exchange(event, true);
+    slot = c.slot;
+    counted_length_ = 0.0;
+    if (h < longer) {
+      t1_ = t0_ + h;
+      if (!take(h, t1_, false, end_)) return failed(singular);
+      weigh(end_, t1_);
+    }
+    if (known && longer - h <= resolution_at(t1_, h)) break;  // the same instant
+  }
+  h_ = h;
+  ++counters.steps;
+  step_.count(counters);
+  step.end = t1_;
+  step.resolution = resolution_at(t1_, h);
+  if (event) {
+    step.kind = Step::Kind::event;
+    step.fired = {{slot / guards_per_contact, segment_.decision->guards[slot].kind}};
+  }
+  for (Watched& w : watched_) w.armed = w.armed || w.g1 > w.level;
+  return step;
+}
+
+/// Does a guard that holds at both ends fail at t? Where a step is far longer than the periods of the
+/// highest modes, the step redone need not pass where the step itself went.
+bool NewmarkEngine::strays(double t, const Point& point) const {
+  for (std::size_t s = 0; s < watched_.size(); ++s)
+    if (watched_[s].active && value_of(s, t, point) < -watched_[s].level) return true;
+  return false;
+}
+
+/// The solution inside the last step: the step redone to t. Should that stray, the straight line between the
+/// ends, on which every law holds, since all are linear or cones.
+const Point& NewmarkEngine::inside(double t) {
+  if (t == t1_) return end_;
+  if (t == t0_) return begin_;
+  if (t != inner_time_) {
+    inner_time_ = t;
+    if (!take(t - t0_, t, false, inner_) || strays(t, inner_)) {
+      const double x = (t - t0_) / (t1_ - t0_);
+      inner_.u = (1.0 - x) * begin_.u + x * end_.u;
+      inner_.v = (1.0 - x) * begin_.v + x * end_.v;
+      inner_.a = (1.0 - x) * begin_.a + x * end_.a;
+      inner_.forces = (1.0 - x) * begin_.forces + x * end_.forces;
+    }
+  }
+  return inner_;
+}
+
+void NewmarkEngine::evaluate(double t, Point& point) { point = inside(t); }
+
+void NewmarkEngine::integrate(double from, double to, Works& works) {
+  const auto until = [&](double t, double factor) {
+    works_.add(*segment_.forcing, segment_.decision->mode, begin_, t0_, inside(t), t, factor, works);
+  };
+  if (from > t0_) until(from, -1.0);
+  until(to, 1.0);
+}
+
+/// Of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in velocities.
+double NewmarkEngine::guard_error(const Form& form, const ContactMotion&, std::size_t k) const {
+  if (begin_.a.size() == 0) return 0.0;  // at the start, before any step
+  const Contact& contact = model_.contacts[k];
+  const auto errors = [&](const Combination& c, double& u, double& v) {
+    const double change = c.dot(end_.a) - c.dot(begin_.a);
+    const double before = a_before_.size() > 0 ? c.dot(begin_.a) - c.dot(a_before_) : 0.0;
+    u = h_ * h_ / 12.0 * std::abs(change);
+    v = h_ / 12.0 * std::abs(change - before);
+  };
+  ContactMotion e;
+  errors(contact.normal, e.gap, e.vn);
+  errors(contact.tangent, e.ut, e.vt);
+  e.N = step_.rows()[k].normal.magnitude(e);
+  e.T = step_.rows()[k].tangent.magnitude(e);
+  return form.magnitude(e);
+}
+
+}  // namespace signorini

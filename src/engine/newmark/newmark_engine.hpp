@@ -1,0 +1,92 @@
+// newmark_engine.hpp: engine `newmark`: the paper's step-by-step algorithm.
+//
+//   trial step in the mode in force (newmark_step.hpp) -> guards at its end -> the earliest that falls
+//   -> the step redone to the time of the fall -> event
+//
+//   refine = "root"    redone with shorter steps until the guard at their end is zero to the clock (Brent)
+//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if it did not fire
+//
+// After an event the next step has the full length again: its factorisation is kept by states and length, so
+// only the modes themselves cost one. Between the ends of a step the solution is the step redone to that
+// time, which satisfies equilibrium and the laws too. Source: Lukashevich et al. 2021, (5) to (11), corrected
+// as docs/theory.md says.
+#pragma once
+
+#include "engine/falls/guard_path.hpp"
+#include "engine/newmark/newmark_step.hpp"
+#include "engine/newmark/newmark_works.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+class NewmarkEngine final : public Stepper {
+ public:
+  /// The expander stands for the mode of the segment while it runs. run.dt must be given.
+  NewmarkEngine(const Model& model, const Structure& structure, const Expander& expander, const RunSpec& run,
+                const Settings& settings);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override { return step_.residual(*segment_.forcing, t1_, end_); }
+  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+                                   std::size_t contact) const override;
+
+ private:
+  struct Watched {
+    bool active = false, armed = false;
+    bool has_rate = false;      // the equations yield its rate
+    bool dismissed = false;     // a dip in this step that the step redone did not confirm
+    double noise = 0.0;         // rounding of its value at the start
+    double level = 0.0;         // below this its sign at the end of the step is rounding
+    double before = 0.0;        // its value at the beginning of the step before
+    double g0 = 0.0, g1 = 0.0;  // at the ends of the step
+    double rate0 = 0.0, rate1 = 0.0;
+  };
+  /// Where a guard falls in the step: not yet located.
+  struct Candidate {
+    enum class Kind { none, fall, dip, sink } kind = Kind::none;
+    std::size_t slot = 0;
+    double x = 2.0;  // about where, of the step
+  };
+
+  [[nodiscard]] bool take(double h, double t, bool kept, Point& to);
+  [[nodiscard]] bool strays(double t, const Point& point) const;
+  [[nodiscard]] const Point& inside(double t);
+  void weigh(const Point& point, double t);
+  [[nodiscard]] std::optional<double> dip_of(const Watched& w, double h) const;
+  [[nodiscard]] double value_of(std::size_t slot, double t, const Point& point) const;
+  [[nodiscard]] double value_after(std::size_t slot, double h);
+  [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
+  [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
+  [[nodiscard]] double linear_fall(std::size_t slot, double hi);
+  /// Narrows the step to the candidate. False: it is none.
+  [[nodiscard]] bool locate(const Candidate& candidate, double& h);
+  [[nodiscard]] bool rates_known(std::size_t slot) const;
+  [[nodiscard]] double doubled(double remaining);
+  Step failed(std::string reason) const;
+
+  const Model& model_;
+  const Expander& expander_;
+  const Settings settings_;
+  const double dt_;
+  const bool linear_, doubling_;
+  NewmarkStep step_;
+  NewmarkWorks works_;
+  Segment segment_;
+  std::vector<Watched> watched_;
+  bool settles_ = false;  // parts without mass: their velocities follow from the equations
+  Point begin_, end_, inner_, fine_, coarse_;
+  Vector a_before_;                  // at the beginning of the step before; empty: there was none
+  double inner_time_ = 0.0;          // of inner_; NaN: it holds nothing
+  double t0_ = 0.0, t1_ = 0.0;       // the last step
+  double h_ = 0.0, h_before_ = 0.0;  // its length, that of the one before (0: none)
+  double regular_ = 0.0;             // length of steps without events
+  double counted_from_ = 0.0;        // these end at counted_from_ + k counted_length_, without drift
+  double counted_length_ = 0.0;
+  long counted_ = 0;
+  bool second_ = false;  // doubling: the second step of a pair
+};
+
+}  // namespace signorini

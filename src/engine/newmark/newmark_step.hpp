@@ -1,0 +1,62 @@
+// newmark_step.hpp: one step of average acceleration (Newmark, beta = 1/4, gamma = 1/2) in given rows.
+//
+//   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)
+//   M a1 + C v1 + K u1 + sum ( n N1 + t T1 ) = P(t1),   rows of the contacts at t1
+//
+// Equilibrium and the contacts' laws hold at the end of every step, not only in the limit; a slipping
+// contact's row T = -s f N is the paper's compensating load (11), predicted and corrected in one solve.
+// The unknown of a degree of freedom is a1, v1 where it has a damper but no mass, u1 where it has neither:
+// nothing is divided by h, so a step may be as short as the clock tells.
+#pragma once
+
+#include <memory>
+
+#include "motion/taylor.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+class NewmarkStep {
+ public:
+  /// Names what of the rows stands in the matrix: equal keys, equal matrices.
+  using Key = std::vector<unsigned char>;
+
+  NewmarkStep(const Model& model, const Structure& structure);
+
+  /// Puts rows in force. `kinds`: which unknown each degree of freedom has.
+  void set(Key key, std::vector<Rows> rows, const std::vector<Taylor::Kind>& kinds);
+  /// Constants of rows may change without a new factorisation.
+  [[nodiscard]] std::vector<Rows>& rows() { return rows_; }
+  [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
+  /// From `from` at t1 - h to `to` at t1. `kept`: steps of this length will come again, so their
+  /// factorisation is kept. False: the matrix is singular.
+  [[nodiscard]] bool take(const Forcing& forcing, const Point& from, double t1, double h, bool kept,
+                          Point& to);
+  /// Greatest entry of the residual of the equation of motion at t. Unit: force.
+  [[nodiscard]] double residual(const Forcing& forcing, double t, const Point& point);
+  void count(Counters& counters) const;
+
+ private:
+  struct Factored {
+    Key key;
+    double h = 0.0;
+    long used = 0;
+    std::unique_ptr<SystemMatrix> matrix;
+  };
+  [[nodiscard]] SystemMatrix* matrix_for(double h, bool kept);
+  bool factor(Factored& place, double h);
+
+  const Model& model_;
+  const Structure& structure_;
+  Key key_;
+  std::vector<Rows> rows_;
+  std::vector<Taylor::Kind> kinds_;
+  std::vector<Factored> kept_;
+  Factored odd_;              // for lengths that will not come again
+  Factored* last_ = nullptr;  // what the last step used; null after a change of rows
+  std::vector<Weights> weights_;
+  Vector u_, v_, none_, x_;  // known parts of the motion, the right-hand side and solution
+  long clock_ = 0, solves_ = 0;
+};
+
+}  // namespace signorini

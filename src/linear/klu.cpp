@@ -1,0 +1,72 @@
+#include "linear/klu.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+#include "linear/triangular_factors.hpp"
+
+namespace signorini {
+namespace {
+
+static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
+
+// KLU reads only, but its interface is not const.
+SuiteSparse_long* raw(const std::vector<std::int64_t>& v) {
+  return reinterpret_cast<SuiteSparse_long*>(const_cast<std::int64_t*>(v.data()));
+}
+double* raw(const std::vector<double>& v) { return const_cast<double*>(v.data()); }
+
+// Pivots kept from another step size may lose this much of their quality before fresh ones are chosen.
+constexpr double kept_quality = 1e-3;
+
+}  // namespace
+
+struct Klu::Handles {
+  klu_l_common common{};
+  klu_l_symbolic* symbolic = nullptr;
+  klu_l_numeric* numeric = nullptr;
+  TriangularFactors factors;
+};
+
+Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::int64_t>& row)
+    : h_(std::make_unique<Handles>()), column_start_(column_start), row_(row) {
+  klu_l_defaults(&h_->common);
+  const auto n = static_cast<SuiteSparse_long>(column_start.size()) - 1;
+  h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
+  if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
+    throw std::runtime_error("KLU could not analyse the system matrix");
+}
+
+Klu::~Klu() {
+  klu_l_free_numeric(&h_->numeric, &h_->common);
+  klu_l_free_symbolic(&h_->symbolic, &h_->common);
+}
+
+bool Klu::factor(const std::vector<double>& values) {
+  ++factorisations;
+  if (h_->symbolic == nullptr) return false;
+  klu_l_free_numeric(&h_->numeric, &h_->common);
+  h_->numeric = klu_l_factor(raw(column_start_), raw(row_), raw(values), h_->symbolic, &h_->common);
+  if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) return false;
+  klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
+  fresh_rcond_ = h_->common.rcond;
+  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, true);
+  return fresh_rcond_ >= std::numeric_limits<double>::epsilon();
+}
+
+bool Klu::refactor(const std::vector<double>& values) {
+  if (h_->numeric == nullptr) return factor(values);
+  ++refactorisations;
+  if (klu_l_refactor(raw(column_start_), raw(row_), raw(values), h_->symbolic, h_->numeric, &h_->common) ==
+          0 ||
+      h_->common.status == KLU_SINGULAR)
+    return factor(values);
+  klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
+  if (h_->common.rcond < kept_quality * fresh_rcond_) return factor(values);
+  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, false);
+  return true;
+}
+
+void Klu::solve(double* b) { h_->factors.solve(b); }
+
+}  // namespace signorini

@@ -1,0 +1,156 @@
+#include "linear/system_matrix.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace signorini {
+namespace {
+
+/// The pattern as sets of rows by column, and the look-up of positions once it is complete.
+class Pattern {
+ public:
+  explicit Pattern(int size) : columns_(static_cast<std::size_t>(size)) {}
+  void add(int row, int column) { columns_[static_cast<std::size_t>(column)].insert(row); }
+  void compress(std::vector<std::int64_t>& start, std::vector<std::int64_t>& rows) const {
+    start.assign(1, 0);
+    rows.clear();
+    for (const auto& column : columns_) {
+      rows.insert(rows.end(), column.begin(), column.end());
+      start.push_back(static_cast<std::int64_t>(rows.size()));
+    }
+  }
+
+ private:
+  std::vector<std::set<int>> columns_;
+};
+
+std::size_t position(const std::vector<std::int64_t>& start, const std::vector<std::int64_t>& rows, int row,
+                     int column) {
+  const auto begin = rows.begin() + start[static_cast<std::size_t>(column)];
+  const auto end = rows.begin() + start[static_cast<std::size_t>(column) + 1];
+  return static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin());
+}
+
+double component(const Combination& combination, int dof) {
+  double sum = 0.0;
+  for (const auto& [index, factor] : combination.terms)
+    if (index == dof) sum += factor;
+  return sum;
+}
+
+std::vector<int> touched(const Contact& contact) {
+  std::set<int> dofs;
+  for (const auto& term : contact.normal.terms) dofs.insert(term.first);
+  for (const auto& term : contact.tangent.terms) dofs.insert(term.first);
+  return {dofs.begin(), dofs.end()};
+}
+
+Pattern pattern_of(const Model& model, const Structure& structure) {
+  const int n = structure.size;
+  Pattern pattern(n + 2 * static_cast<int>(model.contacts.size()));
+  for (int j = 0; j < n; ++j) {
+    const auto begin = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]);
+    for (std::size_t p = begin; p < end; ++p) pattern.add(static_cast<int>(structure.row[p]), j);
+  }
+  int force = n;
+  for (const Contact& contact : model.contacts) {
+    for (int dof : touched(contact))
+      for (int side = 0; side < 2; ++side) {
+        pattern.add(force + side, dof);
+        pattern.add(dof, force + side);
+      }
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) pattern.add(force + i, force + j);
+    force += 2;
+  }
+  return pattern;
+}
+
+std::vector<std::int64_t> starts_of(const Pattern& pattern) {
+  std::vector<std::int64_t> start, rows;
+  pattern.compress(start, rows);
+  return start;
+}
+
+std::vector<std::int64_t> rows_of_pattern(const Pattern& pattern) {
+  std::vector<std::int64_t> start, rows;
+  pattern.compress(start, rows);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
+  std::vector<Rows> result;
+  for (std::size_t k = 0; k < mode.size(); ++k) result.push_back(rows(model.contacts[k], mode[k]));
+  return result;
+}
+
+SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
+    : size_(structure.size + 2 * static_cast<int>(model.contacts.size())),
+      structure_(structure),
+      column_start_(starts_of(pattern_of(model, structure))),
+      row_(rows_of_pattern(pattern_of(model, structure))),
+      values_(row_.size(), 0.0),
+      klu_(column_start_, row_) {
+  const auto at = [&](int row, int column) { return position(column_start_, row_, row, column); };
+  for (int j = 0; j < structure.size; ++j) {
+    const auto begin = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]);
+    for (std::size_t p = begin; p < end; ++p)
+      structure_slot_.push_back(at(static_cast<int>(structure.row[p]), j));
+  }
+  int force = structure.size;
+  for (const Contact& contact : model.contacts) {
+    ContactSlots slots;
+    slots.dof = touched(contact);
+    for (int dof : slots.dof) {
+      slots.n.push_back(component(contact.normal, dof));
+      slots.t.push_back(component(contact.tangent, dof));
+      slots.normal_row.push_back(at(force, dof));
+      slots.tangent_row.push_back(at(force + 1, dof));
+      slots.N_column.push_back(at(dof, force));
+      slots.T_column.push_back(at(dof, force + 1));
+    }
+    slots.NN = at(force, force);
+    slots.NT = at(force, force + 1);
+    slots.TN = at(force + 1, force);
+    slots.TT = at(force + 1, force + 1);
+    contacts_.push_back(std::move(slots));
+    force += 2;
+  }
+}
+
+bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh) {
+  for (int j = 0; j < structure_.size; ++j) {
+    const Weights& w = weights[static_cast<std::size_t>(j)];
+    const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j) + 1]);
+    for (std::size_t p = begin; p < end; ++p)
+      values_[structure_slot_[p]] =
+          w.acceleration * structure_.m[p] + w.velocity * structure_.c[p] + w.displacement * structure_.k[p];
+  }
+  const auto entry = [](const Form& f, double n, double t, const Weights& w) {
+    return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
+           t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
+  };
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactSlots& slots = contacts_[k];
+    const Rows& r = rows[k];
+    for (std::size_t i = 0; i < slots.dof.size(); ++i) {
+      const Weights& w = weights[static_cast<std::size_t>(slots.dof[i])];
+      values_[slots.normal_row[i]] = entry(r.normal, slots.n[i], slots.t[i], w);
+      values_[slots.tangent_row[i]] = entry(r.tangent, slots.n[i], slots.t[i], w);
+      values_[slots.N_column[i]] = slots.n[i];
+      values_[slots.T_column[i]] = slots.t[i];
+    }
+    values_[slots.NN] = r.normal.N;
+    values_[slots.NT] = r.normal.T;
+    values_[slots.TN] = r.tangent.N;
+    values_[slots.TT] = r.tangent.T;
+  }
+  return fresh ? klu_.factor(values_) : klu_.refactor(values_);
+}
+
+}  // namespace signorini

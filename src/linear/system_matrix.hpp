@@ -1,0 +1,59 @@
+// system_matrix.hpp: the one matrix behind every solve of an engine.
+//
+//   | M w_a + C w_v + K w_u    n   t |   columns of the degrees of freedom carry weights
+//   | rows of the contacts         . |   (acceleration, velocity, displacement) each
+//
+// The weights say what an unknown of that column stands for. IDA solves for dv where there is mass
+// (w = cj, 1, 1/cj) and du where there is none (0, cj, 1); the expansion in time solves for v', for u'
+// of damped and u of undamped massless degrees of freedom (motion/jet.hpp); Newmark would put
+// (1/(beta dt^2), gamma/(beta dt), 1). Order of unknowns and rows: the n degrees of freedom, then N_k
+// and T_k of each contact in turn. The pattern is the union over all states: one for the whole run.
+#pragma once
+
+#include <vector>
+
+#include "contact/law.hpp"
+#include "contact/mode.hpp"
+#include "linear/klu.hpp"
+#include "linear/structure.hpp"
+
+namespace signorini {
+
+/// What a unit of the unknown in a column means as acceleration, velocity and displacement.
+struct Weights {
+  double acceleration = 0.0, velocity = 0.0, displacement = 0.0;
+};
+
+/// Rows of all contacts in a mode.
+[[nodiscard]] std::vector<Rows> rows_of(const Model& model, const Mode& mode);
+
+class SystemMatrix {
+ public:
+  SystemMatrix(const Model& model, const Structure& structure);
+
+  /// Fills the values; weights: one a degree of freedom. `fresh`: choose new pivots (after a state
+  /// change). False: singular.
+  bool set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh);
+  /// b := A^-1 b, length size().
+  void solve(double* b) { klu_.solve(b); }
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] const Klu& klu() const { return klu_; }
+
+ private:
+  struct ContactSlots {  // positions in values_ of the entries of one contact
+    std::vector<int> dof;
+    std::vector<double> n, t;                          // components at dof
+    std::vector<std::size_t> normal_row, tangent_row;  // row of the contact, column dof
+    std::vector<std::size_t> N_column, T_column;       // row dof, column of the force
+    std::size_t NN, NT, TN, TT;
+  };
+  int size_;
+  const Structure& structure_;
+  std::vector<std::int64_t> column_start_, row_;
+  std::vector<std::size_t> structure_slot_;  // position of the structure's entry p
+  std::vector<ContactSlots> contacts_;
+  std::vector<double> values_;
+  Klu klu_;
+};
+
+}  // namespace signorini

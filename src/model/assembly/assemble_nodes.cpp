@@ -1,0 +1,112 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "model/assembly/assembly.hpp"
+#include "model/assembly/bar.hpp"
+#include "model/assembly/beam.hpp"
+
+namespace signorini {
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+struct Builder {
+  const Scene& scene;
+  const DofMap& map;
+  Triplets mass, dampers, stiffness;
+  Vector weight, base;
+  std::array<double, 2> ground;  // direction of the base's motion
+
+  /// Adds an element matrix with the numbers of its unknowns, negative ones left out.
+  template <std::size_t n, class Matrix>
+  static void add(Triplets& target, const Matrix& a, const std::array<int, n>& numbers) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (const double value = a(static_cast<int>(i), static_cast<int>(j));
+            numbers[i] >= 0 && numbers[j] >= 0 && value != 0.0)
+          target.emplace_back(numbers[i], numbers[j], value);
+  }
+
+  void add_element(const MeshElement& e) {
+    const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(e.a)];
+    const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
+    const Section& section = scene.sections[static_cast<std::size_t>(e.section)];
+    const auto& na = map.number[static_cast<std::size_t>(e.a)];
+    const auto& nb = map.number[static_cast<std::size_t>(e.b)];
+    const std::array<int, 6> numbers{na[0], na[1], na[2], nb[0], nb[1], nb[2]};
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    const bool bar = e.type == MemberType::bar;
+    const BeamMatrix m = bar ? bar_mass(dx, dy, section.mass_per_length, e.mass)
+                             : beam_mass(dx, dy, section.mass_per_length, e.mass);
+    add(stiffness, bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI),
+        numbers);
+    add(mass, m, numbers);
+    add_inertia(m, scene.gravity, numbers, weight);
+    add_inertia(m, ground, numbers, base);
+  }
+
+  /// target += M r a, with r a the acceleration of all translations.
+  static void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
+                          const std::array<int, 6>& numbers, Vector& target) {
+    Eigen::Matrix<double, 6, 1> a;
+    a << acceleration[0], acceleration[1], 0.0, acceleration[0], acceleration[1], 0.0;
+    const Eigen::Matrix<double, 6, 1> p = m * a;
+    for (std::size_t i = 0; i < 6; ++i)
+      if (numbers[i] >= 0) target[numbers[i]] += p[static_cast<int>(i)];
+  }
+
+  void add_mass(const PointMass& m, const std::string& key) {
+    if (!(m.mass >= 0.0) || !(m.inertia >= 0.0)) throw SceneError(m.place, key, "a mass cannot be negative");
+    const auto& numbers = map.number[static_cast<std::size_t>(find_node(map.mesh, m.node, m.place, key))];
+    const std::array<double, 3> values{m.mass, m.mass, m.inertia};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (numbers[c] < 0 || values[c] == 0.0) continue;
+      mass.emplace_back(numbers[c], numbers[c], values[c]);
+      if (c == 2) continue;
+      weight[numbers[c]] += m.mass * scene.gravity[c];
+      base[numbers[c]] += m.mass * ground[c];
+    }
+  }
+
+  void add_spring(const Spring& s, const std::string& key) {
+    const auto d = clean_direction(s.direction);
+    const double length = std::hypot(d[0], d[1]);
+    if (!(length > 0.0)) throw SceneError(s.place, key + ".direction", "a spring needs a direction");
+    std::array<int, 4> numbers{-1, -1, -1, -1};
+    const auto& na = map.number[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
+    numbers[0] = na[0];
+    numbers[1] = na[1];
+    if (!s.against.empty()) {
+      const auto& nb = map.number[static_cast<std::size_t>(find_node(map.mesh, s.against, s.place, key))];
+      numbers[2] = nb[0];
+      numbers[3] = nb[1];
+    }
+    const Eigen::Vector4d a = Eigen::Vector4d(d[0], d[1], -d[0], -d[1]) / length;
+    const Eigen::Matrix4d unit = a * a.transpose();
+    add(stiffness, Eigen::Matrix4d(s.stiffness * unit), numbers);
+    add(dampers, Eigen::Matrix4d(s.damping * unit), numbers);
+  }
+};
+
+}  // namespace
+
+Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
+  const int n = map.size();
+  const auto ground = scene.base_motion ? scene.base_motion->direction.vector : std::array<double, 2>{};
+  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n), Vector::Zero(n), ground};
+  for (const MeshElement& e : map.mesh.elements) builder.add_element(e);
+  for (std::size_t i = 0; i < scene.masses.size(); ++i)
+    builder.add_mass(scene.masses[i], fmt::format("masses.{}", i + 1));
+  for (std::size_t i = 0; i < scene.springs.size(); ++i)
+    builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
+  auto sparse = [n](const Triplets& entries) {
+    SparseMatrix a(n, n);
+    a.setFromTriplets(entries.begin(), entries.end());
+    return a;
+  };
+  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight,
+          builder.base};
+}
+
+}  // namespace signorini

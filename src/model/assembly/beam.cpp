@@ -1,0 +1,57 @@
+#include "model/assembly/beam.hpp"
+
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+/// T^T A T with T from the scene's axes to the beam's.
+BeamMatrix turned(const BeamMatrix& local, double c, double s) {
+  BeamMatrix t = BeamMatrix::Zero();
+  for (int end = 0; end < 6; end += 3) {
+    t(end, end) = c;
+    t(end, end + 1) = s;
+    t(end + 1, end) = -s;
+    t(end + 1, end + 1) = c;
+    t(end + 2, end + 2) = 1.0;
+  }
+  const BeamMatrix a = t.transpose() * local * t;
+  return 0.5 * (a + a.transpose());  // the two triangles agree to the last bit
+}
+
+}  // namespace
+
+BeamMatrix beam_stiffness(double dx, double dy, double ea, double ei) {
+  const double l = std::hypot(dx, dy);
+  const double axial = ea / l, b = ei / (l * l * l);
+  BeamMatrix k;
+  // clang-format off
+  k <<  axial, 0.0,        0.0,           -axial,  0.0,        0.0,
+        0.0,   12.0 * b,   6.0 * b * l,    0.0,   -12.0 * b,   6.0 * b * l,
+        0.0,   6.0 * b * l, 4.0 * b * l * l, 0.0, -6.0 * b * l, 2.0 * b * l * l,
+       -axial, 0.0,        0.0,            axial,  0.0,        0.0,
+        0.0,  -12.0 * b,  -6.0 * b * l,    0.0,    12.0 * b,  -6.0 * b * l,
+        0.0,   6.0 * b * l, 2.0 * b * l * l, 0.0, -6.0 * b * l, 4.0 * b * l * l;
+  // clang-format on
+  return turned(k, dx / l, dy / l);
+}
+
+BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind) {
+  const double l = std::hypot(dx, dy), mass = mass_per_length * l;
+  BeamMatrix m = BeamMatrix::Zero();
+  if (kind == MassKind::lumped) {
+    for (int i : {0, 1, 3, 4}) m(i, i) = 0.5 * mass;  // the same in all axes
+    return m;
+  }
+  // clang-format off
+  m << 140.0,  0.0,       0.0,          70.0,  0.0,       0.0,
+       0.0,    156.0,     22.0 * l,     0.0,   54.0,     -13.0 * l,
+       0.0,    22.0 * l,  4.0 * l * l,  0.0,   13.0 * l, -3.0 * l * l,
+       70.0,   0.0,       0.0,          140.0, 0.0,       0.0,
+       0.0,    54.0,      13.0 * l,     0.0,   156.0,    -22.0 * l,
+       0.0,   -13.0 * l, -3.0 * l * l,  0.0,  -22.0 * l,  4.0 * l * l;
+  // clang-format on
+  return turned(m * (mass / 420.0), dx / l, dy / l);
+}
+
+}  // namespace signorini

@@ -1,0 +1,125 @@
+#include "model/assembly/contacts.hpp"
+
+#include <fmt/core.h>
+
+#include "base/history/history_internal.hpp"
+#include "contact/law.hpp"
+#include "scene/history_from_spec.hpp"
+
+namespace signorini {
+namespace {
+
+Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::string& key) {
+  Direction direction;
+  if (spec.tangent)
+    direction = *spec.tangent;
+  else if (spec.normal && !map.matrices())
+    direction = {spec.normal->node, sliding_direction(spec), {}, spec.normal->place, spec.normal->against};
+  else
+    return {};
+  // Without friction the tangent only measures: what does not exist does not move.
+  const bool measures_only = spec.law != Law::slider && spec.friction.static_ == 0.0;
+  return combination(map, direction, key + ".tangent", true, measures_only);
+}
+
+void check_gap(const ContactSpec& spec, const Contact& contact, const std::string& key) {
+  if (!spec.normal)
+    throw SceneError(spec.place, key + ".normal",
+                     fmt::format("a {} contact needs a normal", to_string(spec.law)));
+  if (contact.normal.terms.empty())
+    throw SceneError(spec.place, key + ".normal", "a support fixes all motion along the normal");
+  if (contact.has_friction() && contact.tangent.terms.empty())
+    throw SceneError(spec.place, key + ".tangent",
+                     "a contact with friction needs a tangent that no support fixes");
+}
+
+void check_compliant(const ContactSpec& spec, const Contact& contact, const std::string& key) {
+  if (!(spec.normal_stiffness > 0.0))
+    throw SceneError(spec.place, key + ".normal_stiffness",
+                     fmt::format("found {}, expected a number > 0", spec.normal_stiffness));
+  if (!contact.has_friction()) return;
+  if (!(spec.tangential_stiffness.value_or(0.0) > 0.0))
+    throw SceneError(spec.place, key + ".tangential_stiffness",
+                     "a compliant contact with friction needs a tangential stiffness > 0");
+}
+
+void check_slider(const ContactSpec& spec, const Contact& contact, double t_end, const std::string& key) {
+  if (!spec.tangent && !spec.normal)
+    throw SceneError(spec.place, key + ".tangent", "a slider needs a tangent");
+  if (contact.tangent.terms.empty())
+    throw SceneError(spec.place, key + ".tangent", "a support fixes all motion along the tangent");
+  if (const double t = negative_at(contact.normal_force, t_end); t >= 0.0)
+    throw SceneError(spec.normal_force.place, key + ".normal_force",
+                     fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",
+                                 contact.normal_force.value(t), t));
+}
+
+}  // namespace
+
+std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
+  std::vector<Contact> contacts;
+  for (const ContactSpec& spec : scene.contacts) {
+    const std::string key = "contacts." + spec.name;
+    Contact c;
+    c.name = spec.name;
+    c.law = spec.law;
+    c.gap = spec.gap;
+    c.normal_stiffness = spec.normal_stiffness;
+    c.tangential_stiffness = spec.tangential_stiffness;
+    c.normal_damping = spec.normal_damping;
+    c.static_friction = spec.friction.static_;
+    c.kinetic_friction = spec.friction.kinetic;
+    c.stribeck_velocity = spec.friction.stribeck_velocity;
+    c.initial_shear = spec.initial_shear;
+    c.restitution = spec.restitution;
+    c.capture_velocity = spec.capture_velocity;
+    c.tangent = tangent_form(spec, map, key);
+    if (spec.law != Law::slider) {
+      if (spec.normal) c.normal = combination(map, *spec.normal, key + ".normal", true);
+      check_gap(spec, c, key);
+      if (spec.law == Law::compliant) check_compliant(spec, c, key);
+    } else {
+      c.normal_force = make_history(spec.normal_force, key + ".normal_force");
+      check_slider(spec, c, scene.run.t_end, key);
+    }
+    c.surface_motion = make_history(spec.surface_velocity, key + ".surface_velocity").integrated();
+    contacts.push_back(std::move(c));
+  }
+  return contacts;
+}
+
+std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {
+  std::vector<Load> loads;
+  const Vector& weight = assembly.weight;
+  Load gravity{"gravity", {}, History::constant(1.0), true};
+  for (int i = 0; i < weight.size(); ++i)
+    if (weight[i] != 0.0) gravity.direction.terms.emplace_back(i, weight[i]);
+  if (!gravity.direction.terms.empty()) loads.push_back(std::move(gravity));
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadSpec& spec = scene.loads[i];
+    const std::string key = fmt::format("loads.{}", i + 1);
+    Load load;
+    load.name = fmt::format("load {}", i + 1);
+    load.direction = combination(map, spec.direction, key, false);
+    load.history = make_history(spec.history, key + ".history").scaled(spec.amplitude);
+    load.is_static = spec.history.type == HistoryType::constant && load.history.is_constant();
+    loads.push_back(std::move(load));
+  }
+  if (scene.base_motion) {
+    const History acceleration = make_history(scene.base_motion->acceleration, "base_motion.acceleration");
+    Load load{"base motion", {}, acceleration.scaled(-1.0), false};
+    for (int i = 0; i < assembly.base.size(); ++i)
+      if (assembly.base[i] != 0.0) load.direction.terms.emplace_back(i, assembly.base[i]);
+    if (!load.direction.terms.empty()) loads.push_back(std::move(load));
+  }
+  return loads;
+}
+
+Vector static_load(const std::vector<Load>& loads, int n) {
+  Vector p = Vector::Zero(n);
+  for (const Load& load : loads)
+    if (load.is_static) load.direction.add_to(p, load.history.value(0.0));
+  return p;
+}
+
+}  // namespace signorini

@@ -1,0 +1,152 @@
+#include "model/assembly/dofs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
+constexpr std::array<const char*, 3> velocity_names{"vx", "vy", "wz"};
+
+using Numbers = std::vector<std::array<int, 3>>;
+constexpr int needed = 0;
+
+void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
+  for (std::size_t c = 0; c < 2; ++c)
+    if (direction[c] != 0.0) numbers[static_cast<std::size_t>(node)][c] = needed;
+}
+
+void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
+  for (const MeshElement& e : mesh.elements)
+    for (int node : {e.a, e.b}) {
+      need(numbers, node, {1.0, 1.0});
+      if (e.type == MemberType::beam) numbers[static_cast<std::size_t>(node)][2] = needed;
+    }
+  for (std::size_t i = 0; i < scene.masses.size(); ++i) {
+    const PointMass& m = scene.masses[i];
+    const int node = find_node(mesh, m.node, m.place, fmt::format("masses.{}.node", i + 1));
+    if (m.mass > 0.0) need(numbers, node, {1.0, 1.0});
+    if (m.inertia > 0.0) numbers[static_cast<std::size_t>(node)][2] = needed;
+  }
+  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+    const Spring& s = scene.springs[i];
+    const auto d = clean_direction(s.direction);
+    need(numbers, find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)), d);
+    if (!s.against.empty())
+      need(numbers, find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)), d);
+  }
+  for (const ContactSpec& c : scene.contacts) {
+    const std::string key = fmt::format("contacts.{}", c.name);
+    const auto need_all = [&](const Direction& at, const std::array<double, 2>& direction) {
+      need(numbers, find_node(mesh, at.node, c.place, key + ".node"), direction);
+      for (const auto& [node, weight] : at.against)
+        if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, key + ".against"), direction);
+    };
+    if (c.normal && c.law != Law::slider) need_all(*c.normal, clean_direction(c.normal->vector));
+    // A contact without friction takes no tangential force, so it needs no tangential motion either.
+    if (c.law == Law::slider || c.friction.static_ > 0.0) {
+      const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
+      if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
+    }
+  }
+}
+
+void add_columns(DofMap& map) {
+  for (std::size_t node = 0; node < static_cast<std::size_t>(map.mesh.named); ++node)
+    for (bool velocity : {false, true})
+      for (int d : map.number[node])
+        if (d >= 0) {
+          const Dof& dof = map.dofs[static_cast<std::size_t>(d)];
+          map.columns.push_back({velocity ? dof.velocity : dof.displacement, d, velocity});
+        }
+}
+
+}  // namespace
+
+std::array<double, 2> clean_direction(const std::array<double, 2>& v) {
+  const double bound = 4.0 * std::numeric_limits<double>::epsilon() * std::hypot(v[0], v[1]);
+  return {std::abs(v[0]) > bound ? v[0] : 0.0, std::abs(v[1]) > bound ? v[1] : 0.0};
+}
+
+std::array<double, 2> tangent_of(const std::array<double, 2>& normal) { return {normal[1], -normal[0]}; }
+
+std::array<double, 2> sliding_direction(const ContactSpec& contact) {
+  if (contact.tangent) return clean_direction(contact.tangent->vector);
+  if (contact.normal) return clean_direction(tangent_of(contact.normal->vector));
+  return {0.0, 0.0};
+}
+
+DofMap number_nodes(const Scene& scene) {
+  DofMap map;
+  map.mesh = make_mesh(scene);
+  map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
+  mark_needed(scene, map.mesh, map.number);
+  for (std::size_t i = 0; i < scene.supports.size(); ++i) {
+    const Support& s = scene.supports[i];
+    auto& numbers = map.number[static_cast<std::size_t>(
+        find_node(map.mesh, s.node, s.place, fmt::format("supports.{}.node", i + 1)))];
+    const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (fix[c]) numbers[c] = DofMap::fixed;
+  }
+  for (std::size_t node = 0; node < map.number.size(); ++node)
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (map.number[node][c] != needed) continue;
+      const std::string& name = map.mesh.nodes[node].name;
+      map.number[node][c] = map.size();
+      map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
+      map.dofs.push_back({name + "." + displacement_names[c], name + "." + velocity_names[c], c == 2, false});
+    }
+  add_columns(map);
+  return map;
+}
+
+DofMap number_matrices(const MatricesSpec& matrices) {
+  DofMap map;
+  for (const std::string& name : matrices.dofs) {
+    const int d = map.size();
+    map.dofs.push_back({name + ".u", name + ".v", false, false});
+    map.columns.push_back({name + ".u", d, false});
+    map.columns.push_back({name + ".v", d, true});
+  }
+  return map;
+}
+
+Combination combination(const DofMap& map, const Direction& direction, const std::string& key, bool unit,
+                        bool skip_absent) {
+  Combination result;
+  if (map.matrices()) {
+    for (const auto& [name, factor] : direction.dofs) {
+      const auto it = std::find_if(map.dofs.begin(), map.dofs.end(),
+                                   [&](const Dof& d) { return d.displacement == name + ".u"; });
+      if (it == map.dofs.end())
+        throw SceneError(direction.place, key, fmt::format("no degree of freedom is named '{}'", name));
+      if (factor != 0.0) result.terms.emplace_back(static_cast<int>(it - map.dofs.begin()), factor);
+    }
+    return result;
+  }
+  auto vector = clean_direction(direction.vector);
+  const double length = std::hypot(vector[0], vector[1]);
+  const auto add = [&](const std::string& name, double weight) {
+    const int node = find_node(map.mesh, name, direction.place, key);
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (vector[c] == 0.0 || weight == 0.0) continue;
+      const int d = map.number[static_cast<std::size_t>(node)][c];
+      if (d >= 0) result.terms.emplace_back(d, weight * (unit ? vector[c] / length : vector[c]));
+      if (d == DofMap::absent && !skip_absent)
+        throw SceneError(
+            direction.place, key,
+            fmt::format("nothing holds node '{}' in {}: no member, mass, spring or contact there", name,
+                        c == 0 ? "x" : "y"));
+    }
+  };
+  add(direction.node, 1.0);
+  for (const auto& [node, weight] : direction.against) add(node, -weight);
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,51 @@
+// dofs.hpp: which degrees of freedom exist, which are fixed, and their numbers.
+//
+//   node i, component c (0 ux, 1 uy, 2 rz)  ->  number, or `absent`, or `fixed`
+//
+// A degree of freedom exists only where a member, mass, spring or contact needs it: beams need ux, uy
+// and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
+// components of their directions. Supports fix what exists. Numbers follow the order of the nodes.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/assembly/mesh.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+struct DofMap {
+  static constexpr int absent = -1, fixed = -2;
+
+  Mesh mesh;                               ///< empty in matrix scenes
+  std::vector<std::array<int, 3>> number;  ///< a mesh node; empty in matrix scenes
+  std::vector<Dof> dofs;
+  std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
+  std::vector<Column> columns;
+
+  [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
+  [[nodiscard]] bool matrices() const { return number.empty(); }
+};
+
+/// Components of v along x and y; those below roundoff of the length of v are zero.
+[[nodiscard]] std::array<double, 2> clean_direction(const std::array<double, 2>& v);
+
+/// The tangent of a normal: n = (nx, ny) has t = (ny, -nx); both unit vectors.
+[[nodiscard]] std::array<double, 2> tangent_of(const std::array<double, 2>& normal);
+
+/// The vector along which a contact of a node scene slides; zero when it has neither tangent nor normal.
+[[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
+
+[[nodiscard]] DofMap number_nodes(const Scene& scene);
+[[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
+
+/// A direction as a form on the numbered degrees of freedom, less what it is against. Fixed ones drop out;
+/// one that does not exist is an error that names it, unless `skip_absent`. `unit`: normalise the plane
+/// vector.
+[[nodiscard]] Combination combination(const DofMap& map, const Direction& direction, const std::string& key,
+                                      bool unit, bool skip_absent = false);
+
+}  // namespace signorini

@@ -1,0 +1,68 @@
+#include "model/assembly/drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+DrawnNode drawn_node(const DofMap& map, std::size_t i) {
+  const MeshNode& at = map.mesh.nodes[i];
+  DrawnNode node{at.name, at.x, at.y, {-1, -1, -1}, i < static_cast<std::size_t>(map.mesh.named), false};
+  for (std::size_t c = 0; c < 3; ++c) {
+    node.dofs[c] = std::max(map.number[i][c], -1);
+    node.held = node.held || map.number[i][c] == DofMap::fixed;
+  }
+  return node;
+}
+
+DrawnElement between(const std::vector<DrawnNode>& nodes, int a, int b, DrawnElement::Kind kind) {
+  const DrawnNode& from = nodes[static_cast<std::size_t>(a)];
+  const DrawnNode& to = nodes[static_cast<std::size_t>(b)];
+  DrawnElement e{from.x, from.y, to.x, to.y, {}, {a, b}, kind};
+  std::copy(std::begin(from.dofs), std::end(from.dofs), e.dofs);
+  std::copy(std::begin(to.dofs), std::end(to.dofs), e.dofs + 3);
+  return e;
+}
+
+int node_named(const Mesh& mesh, const std::string& name) {
+  const auto found = std::find_if(mesh.nodes.begin(), mesh.nodes.begin() + mesh.named,
+                                  [&](const MeshNode& node) { return node.name == name; });
+  return found == mesh.nodes.begin() + mesh.named ? -1 : static_cast<int>(found - mesh.nodes.begin());
+}
+
+DrawnContact drawn_contact(const ContactSpec& spec, const DofMap& map) {
+  DrawnContact c;
+  const Direction* direction = spec.normal ? &*spec.normal : spec.tangent ? &*spec.tangent : nullptr;
+  if (!direction) return c;
+  c.node = node_named(map.mesh, direction->node);
+  const double length = std::hypot(direction->vector[0], direction->vector[1]);
+  if (c.node < 0 || !(length > 0.0)) return c;
+  c.x = map.mesh.nodes[static_cast<std::size_t>(c.node)].x;
+  c.y = map.mesh.nodes[static_cast<std::size_t>(c.node)].y;
+  const double x = direction->vector[0] / length, y = direction->vector[1] / length;
+  // t = (ny, -nx), so n = (-ty, tx).
+  c.nx = spec.normal ? x : -y;
+  c.ny = spec.normal ? y : x;
+  c.tx = c.ny;
+  c.ty = -c.nx;
+  return c;
+}
+
+}  // namespace
+
+void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
+  for (std::size_t i = 0; i < map.mesh.nodes.size(); ++i) model.drawn_nodes.push_back(drawn_node(map, i));
+  for (const MeshElement& e : map.mesh.elements) {
+    const auto kind = e.type == MemberType::bar ? DrawnElement::Kind::bar : DrawnElement::Kind::beam;
+    model.drawing.push_back(between(model.drawn_nodes, e.a, e.b, kind));
+  }
+  for (const Spring& s : scene.springs) {
+    if (s.against.empty()) continue;
+    const int a = node_named(map.mesh, s.node), b = node_named(map.mesh, s.against);
+    model.drawing.push_back(between(model.drawn_nodes, a, b, DrawnElement::Kind::spring));
+  }
+  for (const ContactSpec& spec : scene.contacts) model.drawn_contacts.push_back(drawn_contact(spec, map));
+}
+
+}  // namespace signorini

@@ -1,0 +1,80 @@
+#include "model/assembly/mesh.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+int find_section(const Scene& scene, const Member& member, const std::string& key) {
+  const auto it = std::find_if(scene.sections.begin(), scene.sections.end(),
+                               [&](const Section& s) { return s.name == member.section; });
+  if (it == scene.sections.end())
+    throw SceneError(member.place, key + ".section", fmt::format("no section is named '{}'", member.section));
+  const bool bends = member.type == MemberType::beam;
+  if (!(it->EA > 0.0) || (bends && !(it->EI > 0.0)) || !(it->mass_per_length >= 0.0))
+    throw SceneError(member.place, key + ".section",
+                     fmt::format("section '{}' needs EA > 0{} and mass_per_length >= 0", it->name,
+                                 bends ? ", EI > 0" : ""));
+  return static_cast<int>(it - scene.sections.begin());
+}
+
+void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section, const std::string& key) {
+  const int a = find_node(mesh, member.nodes[piece], member.place, key + ".nodes");
+  const int b = find_node(mesh, member.nodes[piece + 1], member.place, key + ".nodes");
+  const MeshNode from = mesh.nodes[static_cast<std::size_t>(a)];
+  const MeshNode to = mesh.nodes[static_cast<std::size_t>(b)];
+  if (from.x == to.x && from.y == to.y)
+    throw SceneError(member.place, key + ".nodes",
+                     fmt::format("nodes '{}' and '{}' are at the same place", from.name, to.name));
+  const int count =
+      member.elements.empty() ? 1 : member.elements[std::min(piece, member.elements.size() - 1)];
+  if (count < 1)
+    throw SceneError(member.place, key + ".elements",
+                     fmt::format("found {}, expected at least one element", count));
+  if (count > 1 && member.type == MemberType::bar)
+    throw SceneError(
+        member.place, key + ".elements",
+        fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
+  int previous = a;
+  for (int i = 1; i <= count; ++i) {
+    int next = b;
+    if (i < count) {
+      const double s = static_cast<double>(i) / count;
+      next = static_cast<int>(mesh.nodes.size());
+      mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), from.x + s * (to.x - from.x),
+                            from.y + s * (to.y - from.y)});
+    }
+    mesh.elements.push_back({previous, next, section, member.type, member.mass});
+    previous = next;
+  }
+}
+
+}  // namespace
+
+int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place, const std::string& key) {
+  if (const auto found = mesh.by_name.find(name); found != mesh.by_name.end()) return found->second;
+  throw SceneError(place, key, fmt::format("no node is named '{}'", name));
+}
+
+Mesh make_mesh(const Scene& scene) {
+  Mesh mesh;
+  for (const Node& node : scene.nodes) {
+    mesh.by_name.emplace(node.name, static_cast<int>(mesh.nodes.size()));
+    mesh.nodes.push_back({node.name, node.x, node.y});
+  }
+  mesh.named = static_cast<int>(mesh.nodes.size());
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    const Member& member = scene.members[i];
+    const std::string key = fmt::format("members.{}", i + 1);
+    if (member.nodes.size() < 2) throw SceneError(member.place, key + ".nodes", "a member needs two nodes");
+    const int section = find_section(scene, member, key);
+    for (std::size_t piece = 0; piece + 1 < member.nodes.size(); ++piece)
+      add_piece(mesh, member, piece, section, key);
+  }
+  return mesh;
+}
+
+}  // namespace signorini

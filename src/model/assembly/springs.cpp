@@ -1,0 +1,78 @@
+#include "model/assembly/springs.hpp"
+
+#include <Eigen/SparseCholesky>
+
+namespace signorini {
+
+SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const LineSpring& s : springs)
+    for (const auto& [row, a] : s.form.terms)
+      for (const auto& [column, b] : s.form.terms) entries.emplace_back(row, column, s.stiffness * a * b);
+  SparseMatrix added(k.rows(), k.cols());
+  added.setFromTriplets(entries.begin(), entries.end());
+  return k + added;
+}
+
+Vector full(const Combination& form, int n) {
+  Vector v = Vector::Zero(n);
+  form.add_to(v, 1.0);
+  return v;
+}
+
+double term_size(const SparseMatrix& k, const Vector& x) {
+  double sum = 0.0;
+  for (int column = 0; column < k.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator it(k, column); it; ++it)
+      sum += std::abs(x[it.row()] * it.value() * x[column]);
+  return sum;
+}
+
+struct SymmetricSolver::Impl {
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+};
+
+SymmetricSolver::SymmetricSolver(const SparseMatrix& k) : impl_(std::make_unique<Impl>()) {
+  impl_->ldlt.compute(k);
+}
+SymmetricSolver::~SymmetricSolver() = default;
+SymmetricSolver::SymmetricSolver(SymmetricSolver&&) noexcept = default;
+SymmetricSolver& SymmetricSolver::operator=(SymmetricSolver&&) noexcept = default;
+bool SymmetricSolver::ok() const { return impl_->ldlt.info() == Eigen::Success; }
+Vector SymmetricSolver::solve(const Vector& b) const { return impl_->ldlt.solve(b); }
+double SymmetricSolver::smallest_pivot() const {
+  return impl_->ldlt.vectorD().size() == 0 ? 0.0 : impl_->ldlt.vectorD().minCoeff();
+}
+
+int SymmetricSolver::negative_pivots() const {
+  return static_cast<int>((impl_->ldlt.vectorD().array() < 0.0).count());
+}
+
+// Eigen factors P A P^T = L L^T, so that F = P^T L.
+struct CholeskyFactor::Impl {
+  Eigen::SimplicialLLT<SparseMatrix> llt;
+};
+
+CholeskyFactor::CholeskyFactor(const SparseMatrix& a) : impl_(std::make_unique<Impl>()) {
+  impl_->llt.compute(a);
+}
+CholeskyFactor::~CholeskyFactor() = default;
+bool CholeskyFactor::ok() const { return impl_->llt.info() == Eigen::Success; }
+Vector CholeskyFactor::times(const Vector& x) const {
+  const Vector y = impl_->llt.matrixL() * x;
+  return impl_->llt.permutationPinv() * y;
+}
+Vector CholeskyFactor::transposed_times(const Vector& x) const {
+  const Vector y = impl_->llt.permutationP() * x;
+  return impl_->llt.matrixU() * y;
+}
+Vector CholeskyFactor::solve_factor(const Vector& x) const {
+  const Vector y = impl_->llt.permutationP() * x;
+  return impl_->llt.matrixL().solve(y);
+}
+Vector CholeskyFactor::solve_transposed_factor(const Vector& x) const {
+  const Vector y = impl_->llt.matrixU().solve(x);
+  return impl_->llt.permutationPinv() * y;
+}
+
+}  // namespace signorini

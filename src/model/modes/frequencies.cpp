@@ -1,0 +1,227 @@
+#include "model/modes/frequencies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/selection.hpp"
+#include "model/modes/growth.hpp"
+#include "model/modes/held.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int dense_up_to = 200;
+
+NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
+                    const SparseMatrix& damping) {
+  const double m = x.dot(mass * x);
+  return {omega, m > 0.0 ? x.dot(damping * x) / (2.0 * omega * m) : 0.0};
+}
+
+/// The null motions of K, turned so that each has mass or has none.
+struct FreeMotions {
+  Eigen::MatrixXd heavy, massless;
+  int unstable = 0;  ///< of the heavy ones
+};
+
+int count_unstable(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
+  if (motions.cols() == 0) return 0;
+  const Eigen::MatrixXd x = motions * symmetric_eigen(motions.transpose() * (k * motions)).vectors;
+  int count = 0;
+  while (count < x.cols() && has_negative_energy(k, x.col(count))) ++count;
+  return count;
+}
+
+FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
+  Eigen::MatrixXd null = null_motions(k);
+  for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
+  if (null.cols() == 0) return {null, null, 0};
+  const Eigen::MatrixXd moved = mass * null;
+  const EigenPairs pairs = symmetric_eigen(null.transpose() * moved);
+  const double greatest = pairs.values[pairs.values.size() - 1];
+  Eigen::Index without = 0;
+  while (without < pairs.values.size() && !(pairs.values[without] > 1e-12 * greatest)) ++without;
+  const Eigen::MatrixXd heavy = null * pairs.vectors.rightCols(null.cols() - without);
+  return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
+}
+
+Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k,
+                  const std::vector<Combination>& fixed, int count) {
+  const auto n = static_cast<int>(k.rows());
+  Eigen::MatrixXd q = Eigen::MatrixXd::Identity(n, n);
+  if (!fixed.empty()) q = orthogonal_complement(form_columns(fixed, n));
+  if (q.cols() == 0) return {};
+  SparseMatrix m = mass, stiff = k;
+  if (!fixed.empty()) {
+    m = (q.transpose() * (mass * q)).sparseView();
+    stiff = (q.transpose() * (k * q)).sparseView();
+  }
+  const FreeMotions free = free_motions(stiff, m);
+  Frequencies result;
+  result.free_motions = static_cast<int>(free.heavy.cols());
+  result.unstable = free.unstable;
+  if (free.unstable > 0) {
+    // Motions of negative energy are no eigenvectors: what is M-orthogonal to them are not the other modes.
+    const EigenPairs all = generalized_eigen(stiff, m);
+    for (Eigen::Index j = result.free_motions; j < all.values.size() && count > 0; ++j, --count)
+      result.modes.push_back(mode_of(std::sqrt(all.values[j]), q * all.vectors.col(j), mass, damping));
+    return result;
+  }
+  Eigen::MatrixXd across(m.rows(), free.heavy.cols() + free.massless.cols());
+  across << m * free.heavy, free.massless;
+  for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j).normalize();
+  Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(m.rows(), m.rows());
+  if (across.cols() > 0) rest = orthogonal_complement(across);
+  if (rest.cols() == 0) return result;
+  const EigenPairs pairs =
+      generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
+  for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
+    if (!(pairs.values[j] > 1e-13 * pairs.values[pairs.values.size() - 1])) break;  // massless
+    result.modes.push_back(
+        mode_of(1.0 / std::sqrt(pairs.values[j]), q * (rest * pairs.vectors.col(j)), mass, damping));
+  }
+  return result;
+}
+
+/// Holds motions that have neither mass nor stiffness; nothing else shares their degrees of freedom.
+SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motions) {
+  std::vector<Combination> forms;
+  for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+    Combination form;
+    const double size = motions.col(j).cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < motions.rows(); ++i)
+      if (std::abs(motions(i, j)) > 1e-9 * size) form.terms.emplace_back(static_cast<int>(i), motions(i, j));
+    forms.push_back(std::move(form));
+  }
+  return with_grips(k, forms);
+}
+
+/// Shifted inverse iteration with a whole subspace. Long structures have their lowest frequencies so close
+/// together (a chain of n masses on springs: 1/n^2 of their size) that K^-1 hardly tells them apart. Once
+/// rough values are known, a shift just below the lowest does.
+class Subspace {
+ public:
+  Subspace(const SparseMatrix& k, const SparseMatrix& mass, const std::vector<Combination>& fixed,
+           double shift, int size)
+      : k_(k), mass_(mass), fixed_(fixed), shift_(shift), solver_(SparseMatrix(k + shift * mass), fixed) {
+    std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    x_.resize(k.rows(), size);
+    for (Eigen::Index j = 0; j < x_.cols(); ++j)
+      for (Eigen::Index i = 0; i < x_.rows(); ++i) x_(i, j) = uniform(random);
+  }
+
+  /// False: the matrices do not allow it.
+  bool iterate() {
+    for (Eigen::Index j = 0; j < x_.cols(); ++j) x_.col(j) = solver_.solve(mass_ * x_.col(j));
+    x_ = orthonormal(x_);
+    const Eigen::MatrixXd kx = k_ * x_, mx = mass_ * x_;
+    const EigenPairs pairs = generalized_eigen(x_.transpose() * mx, x_.transpose() * (kx + shift_ * mx));
+    if (pairs.values.size() < x_.cols()) return false;
+    values_ = pairs.values;
+    x_ = (x_ * pairs.vectors).eval();
+    return true;
+  }
+  /// 1 / (omega^2 + shift), ascending: the lowest frequencies last.
+  [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
+  /// The motions, in the same order.
+  [[nodiscard]] const Eigen::MatrixXd& motions() const { return x_; }
+  /// The `wanted` lowest omega^2, the lowest last.
+  [[nodiscard]] Eigen::VectorXd squares(Eigen::Index wanted) const {
+    return (values_.tail(wanted).cwiseInverse().array() - shift_).matrix();
+  }
+  /// Rounding of omega^2 of the lowest motion.
+  [[nodiscard]] double noise() const {
+    const Vector lowest = x_.col(x_.cols() - 1);
+    return std::numeric_limits<double>::epsilon() * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
+  }
+  /// Moves the shift to just below the lowest omega^2, by about what the wanted ones lie apart.
+  void approach(Eigen::Index wanted) {
+    const Eigen::VectorXd found = squares(wanted);
+    const double lowest = found[wanted - 1];
+    double gap = std::max(found[0] - lowest, 1e4 * noise());
+    for (int tries = 0; tries < 12 && gap - lowest < shift_; ++tries, gap *= 8.0) {
+      HeldStructure closer(SparseMatrix(k_ + (gap - lowest) * mass_), fixed_);
+      if (!closer.definite()) continue;  // Ritz values are too high by more than the gap
+      shift_ = gap - lowest;
+      solver_ = std::move(closer);
+      return;
+    }
+  }
+
+ private:
+  const SparseMatrix &k_, &mass_;
+  const std::vector<Combination>& fixed_;
+  double shift_;
+  HeldStructure solver_;
+  Eigen::MatrixXd x_;
+  Eigen::VectorXd values_;
+};
+
+Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k0,
+                   const std::vector<Combination>& fixed, int count) {
+  const auto n = static_cast<int>(k0.rows());
+  const FreeMotions free = free_motions(with_grips(k0, fixed), mass);
+  const SparseMatrix k = free.massless.cols() > 0 ? hold_undecided(k0, free.massless) : k0;
+  Frequencies result;
+  result.free_motions = static_cast<int>(free.heavy.cols());
+  result.unstable = free.unstable;
+  const int size =
+      std::min(result.free_motions + count + 11, degrees_with_mass(mass) - static_cast<int>(fixed.size()));
+  if (size <= 0) return result;
+
+  // (K + shift M) x = (omega^2 + shift) M x: regular also with free motions.
+  double shift = 0.0;
+  if (result.free_motions > 0)
+    for (int i = 0; i < n; ++i)
+      if (mass.coeff(i, i) > 0.0) shift = std::max(shift, 1e-8 * k.coeff(i, i) / mass.coeff(i, i));
+  Subspace space(k, mass, fixed, shift, size);
+  const int wanted = std::min(size, result.free_motions + count);
+  const bool approaches = result.free_motions == 0;
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(wanted);
+  for (int round = 1; round <= 200; ++round) {
+    if (!space.iterate()) return result;
+    const Eigen::VectorXd now = approaches ? space.squares(wanted) : space.values().tail(wanted);
+    const Eigen::ArrayXd change = (now - before).cwiseAbs().array();
+    before = now;
+    if (approaches) {
+      if ((change <= 1e-11 * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
+      if (round % 4 == 0) space.approach(std::min(size, std::max(wanted, 5)));
+    } else if (change.maxCoeff() <= 1e-12 * now.cwiseAbs().maxCoeff() &&
+               (change <= 1e-9 * now.array()).all()) {
+      break;
+    }
+  }
+  const Eigen::MatrixXd& x = space.motions();
+  for (int j = size - 1 - result.free_motions; j >= size - wanted; --j) {
+    const Eigen::VectorXd shape = x.col(j);
+    const double omega_squared = shape.dot(k * shape) / shape.dot(mass * shape);
+    if (omega_squared > 0.0) result.modes.push_back(mode_of(std::sqrt(omega_squared), shape, mass, damping));
+  }
+  return result;
+}
+
+}  // namespace
+
+Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& damping,
+                               const SparseMatrix& stiffness, const Holding& holding, int count) {
+  if (mass.rows() == 0) return {};
+  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  return mass.rows() <= dense_up_to ? dense(mass, damping, k, holding.fixed, count)
+                                    : sparse(mass, damping, k, holding.fixed, count);
+}
+
+Holding close_contacts(const std::vector<Contact>& contacts) {
+  Holding holding;
+  for (const Contact& c : contacts) {
+    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.law == Law::rigid) holding.fixed.push_back(c.normal);
+  }
+  return holding;
+}
+
+}  // namespace signorini

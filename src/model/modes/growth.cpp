@@ -1,0 +1,44 @@
+#include "model/modes/growth.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+
+bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
+  return motion.dot(k * motion) < -32.0 * std::numeric_limits<double>::epsilon() * term_size(k, motion);
+}
+
+std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass) {
+  Eigen::MatrixXd null = null_motions(k);  // those of negative energy are among them
+  if (null.cols() == 0) return std::nullopt;
+  for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
+  Growth growth;
+  growth.motion = null * symmetric_eigen(null.transpose() * (k * null)).vectors.col(0);
+  if (!has_negative_energy(k, growth.motion)) return std::nullopt;
+
+  // Inverse iteration on K + s M with s beyond the greatest sigma^2 found so far. Every Rayleigh quotient is
+  // a rate that some motion reaches, so an early end errs to the slow side only.
+  Vector x = growth.motion;
+  for (int round = 0; round < 100; ++round) {
+    const double energy = x.dot(k * x), inertia = x.dot(mass * x);
+    if (!(inertia > 1e-14 * term_size(mass, x)) || !std::isfinite(energy / inertia)) {
+      growth.rate = std::numeric_limits<double>::infinity();
+      return growth;
+    }
+    const double rate = std::sqrt(std::max(-energy / inertia, 0.0));
+    const bool settled = rate <= (1.0 + 1e-9) * growth.rate;
+    if (rate > growth.rate) growth = {rate, x};
+    if (settled) break;
+    const SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));
+    if (!solver.ok()) break;
+    x = solver.solve(mass * x).normalized();
+  }
+  return growth;
+}
+
+}  // namespace signorini

@@ -1,0 +1,35 @@
+// held.hpp: static answers of a structure whose contacts hold some motions.
+//
+//   K u + T r = b,   T^T u = 0
+//
+// K: n x n, springs included, without any null motion that respects T^T u = 0; T: n x m, forms that are
+// fixed. K is made regular by springs along T, which do not change u.
+#pragma once
+
+#include <vector>
+
+#include "model/assembly/springs.hpp"
+
+namespace signorini {
+
+class HeldStructure {
+ public:
+  HeldStructure(const SparseMatrix& k, const std::vector<Combination>& fixed);
+
+  [[nodiscard]] Vector solve(const Vector& b) const;
+  /// True: K with the springs along T is positive definite, and so is K on the motions that respect T^T u =
+  /// 0.
+  [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
+
+ private:
+  SymmetricSolver solver_;
+  Eigen::MatrixXd t_, correction_;
+};
+
+/// K with springs of the structure's own size along the forms.
+[[nodiscard]] SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& forms);
+
+/// The forms as columns, n x m.
+[[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n);
+
+}  // namespace signorini

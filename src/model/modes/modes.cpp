@@ -1,0 +1,101 @@
+#include "model/modes/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/selection.hpp"
+#include "model/modes/frequencies.hpp"
+#include "model/modes/held.hpp"
+#include "model/modes/lanczos.hpp"
+#include "model/statics/null_motions.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int dense_up_to = 200;
+
+double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
+
+double lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+  Eigen::MatrixXd m(mass), stiff(k);
+  if (!fixed.empty()) {
+    const Eigen::MatrixXd free = orthogonal_complement(form_columns(fixed, static_cast<int>(k.rows())));
+    m = (free.transpose() * m * free).eval();
+    stiff = (free.transpose() * stiff * free).eval();
+    if (free.cols() == 0) return 0.0;
+  }
+  if (null_motions(stiff.sparseView()).cols() > 0) return 0.0;
+  const Eigen::VectorXd mu = generalized_eigenvalues(m, stiff);
+  if (mu.size() == 0 || !(mu[mu.size() - 1] > 0.0)) return 0.0;
+  return 1.0 / std::sqrt(mu[mu.size() - 1]);
+}
+
+double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+  if (null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
+  const Frequencies lowest =
+      lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, Holding{{}, fixed}, 1);
+  return lowest.modes.empty() ? 0.0 : lowest.modes[0].omega;
+}
+
+double highest(const SparseMatrix& mass, const SparseMatrix& k) {
+  const SparseMatrix heavy = select_by_mass(mass, true), light = select_by_mass(mass, false);
+  const auto h = static_cast<int>(heavy.cols()), l = static_cast<int>(light.cols());
+  if (h == 0) return 0.0;
+  const SparseMatrix m = heavy.transpose() * mass * heavy;
+  const SparseMatrix kdd = heavy.transpose() * k * heavy;
+  const SparseMatrix kmm = light.transpose() * k * light;
+  const SparseMatrix kmd = light.transpose() * k * heavy;
+  // A massless motion without stiffness (dampers only) cannot be condensed; held, it gives a bound.
+  const bool condense = l > 0 && null_motions(kmm).cols() == 0;
+  const SymmetricSolver massless(condense ? kmm : SparseMatrix(0, 0));
+  auto condensed = [&](const Vector& x) -> Vector {
+    Vector y = kdd * x;
+    if (condense) y -= kmd.transpose() * massless.solve(kmd * x);
+    return y;
+  };
+  if (h <= dense_up_to) {
+    Eigen::MatrixXd kc(h, h);
+    for (int j = 0; j < h; ++j) kc.col(j) = condensed(Vector::Unit(h, j));
+    const Eigen::VectorXd values = generalized_eigenvalues(0.5 * (kc + kc.transpose()), Eigen::MatrixXd(m));
+    return values.size() == 0 ? 0.0 : frequency(values[values.size() - 1]);
+  }
+  const CholeskyFactor factor(m);
+  if (!factor.ok()) return 0.0;
+  auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
+  };
+  return frequency(greatest_eigenvalue(h, apply, 1e-4));
+}
+
+}  // namespace
+
+Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
+  Holding holding;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Contact& c = contacts[k];
+    if (!closed[k]) continue;
+    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.law == Law::rigid) holding.fixed.push_back(c.normal);
+    if (c.tangential_stiffness && !c.tangent.terms.empty())
+      holding.springs.push_back({c.tangent, *c.tangential_stiffness});
+    else if ((c.law != Law::compliant || c.shear) && !c.tangent.terms.empty())
+      holding.fixed.push_back(c.tangent);
+  }
+  return holding;
+}
+
+double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness, const Holding& holding) {
+  if (mass.rows() == 0) return 0.0;
+  const SparseMatrix k = with_springs(stiffness, holding.springs);
+  return mass.rows() <= dense_up_to ? lowest_dense(mass, k, holding.fixed)
+                                    : lowest_sparse(mass, k, holding.fixed);
+}
+
+double highest_frequency(const Model& model) {
+  const Holding holding = hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true));
+  return highest(model.mass, with_springs(model.stiffness, holding.springs));
+}
+
+}  // namespace signorini

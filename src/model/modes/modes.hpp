@@ -1,0 +1,35 @@
+// modes.hpp: the lowest and the highest circular frequency of a structure and its contacts.
+//
+//   K x = omega^2 M x
+//
+// M may be singular. Lowest: M x = mu K x with K positive definite, omega = 1 / sqrt(mu_max); motions
+// that are prescribed to be zero are eliminated. Highest: massless degrees of freedom condensed,
+// K_c = K_dd - K_dm K_mm^-1 K_md, omega^2 the greatest eigenvalue of (K_c, M_dd).
+// Dense up to 200 degrees of freedom, above that by Lanczos iteration (Spectra).
+#pragma once
+
+#include <vector>
+
+#include "model/assembly/springs.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// Which contacts hold what, for a frequency: springs, and forms that are fixed.
+struct Holding {
+  std::vector<LineSpring> springs;
+  std::vector<Combination> fixed;
+};
+
+/// Contacts with closed[k] held in both directions: compliant ones by kn and kt, sliders by kt, or fixed
+/// along their tangent without one; rigid ones fixed along both.
+[[nodiscard]] Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed);
+
+/// rad per time; 0 when some motion has no stiffness, or when nothing with mass can move.
+[[nodiscard]] double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness,
+                                      const Holding& holding);
+
+/// rad per time, all contacts held by their springs; an estimate for large structures. 0: no stiffness.
+[[nodiscard]] double highest_frequency(const Model& model);
+
+}  // namespace signorini

@@ -1,0 +1,198 @@
+#include "model/reduce/kept_modes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/selection.hpp"
+#include "model/modes/lowest_modes.hpp"
+#include "model/modes/mode_count.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int dense_up_to = 400;       // degrees of freedom with mass, whatever the cutoff
+constexpr int dense_at_most = 5000;    // the same, where the cutoff leaves a third of all modes or more
+constexpr int most_modes = 5000;       // that can be kept
+constexpr double roundings = 1e-12;    // of the terms of a sum, that count as zero
+constexpr double shift_share = 1e-3;   // of omega^2 of the first mode left out, or of the highest one
+constexpr double least_shift = 1e-11;  // of the greatest K_ii/M_ii, with free motions: digits that remain
+constexpr int corrections = 6;         // each leaves shift/omega^2 < shift_share of what was missing
+constexpr double margin = 1e-6;  // relative, of omega^2, between a mode and where modes below are counted
+
+double greatest_local_square(const SparseMatrix& mass, const SparseMatrix& stiffness) {
+  double greatest = 0.0;
+  for (int i = 0; i < mass.rows(); ++i)
+    if (const double m = mass.coeff(i, i); m > 0.0) greatest = std::max(greatest, stiffness.coeff(i, i) / m);
+  return greatest;
+}
+
+/// All modes: massless degrees of freedom condensed, shapes complete again.
+EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
+  const SparseMatrix h = select_by_mass(mass, true), l = select_by_mass(mass, false);
+  const SparseMatrix m = h.transpose() * mass * h, k = h.transpose() * stiffness * h;
+  Eigen::MatrixXd condensed(k), follow(l.cols(), h.cols());
+  if (l.cols() > 0) {
+    const SparseMatrix coupling = l.transpose() * stiffness * h;
+    const SymmetricSolver massless(SparseMatrix(l.transpose() * stiffness * l));
+    if (!massless.ok()) throw NotReducible("the stiffness of what has no mass is singular");
+    for (Eigen::Index j = 0; j < follow.cols(); ++j) follow.col(j) = -massless.solve(coupling.col(j));
+    condensed += coupling.transpose() * follow;
+  }
+  const EigenPairs pairs = generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
+  Eigen::MatrixXd shapes = h * pairs.vectors;
+  if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
+  return {pairs.values, shapes};
+}
+
+void orthonormalise(Eigen::MatrixXd& x, const SparseMatrix& mass) {
+  for (int round = 0; round < 2; ++round)
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      Eigen::VectorXd v = x.col(j);
+      if (j > 0) v -= x.leftCols(j) * (x.leftCols(j).transpose() * (mass * v));
+      x.col(j) = v / std::sqrt(v.dot(mass * v));
+    }
+}
+
+/// Modes that are not free, up to the cutoff, and the first above it if there is one.
+struct ElasticModes {
+  EigenPairs pairs;
+  Eigen::Index kept = 0;
+};
+
+ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
+                         Eigen::Index free) {
+  const EigenPairs all = all_modes(mass, stiffness);
+  if (all.values.size() < free || !all.values.allFinite())
+    throw NotReducible("the modes of the structure cannot be computed");
+  const Eigen::Index rest = all.values.size() - free;  // the lowest are free, whatever roundoff made of them
+  ElasticModes found;
+  while (found.kept < rest && all.values[free + found.kept] <= cutoff * cutoff) ++found.kept;
+  const Eigen::Index taken = std::min(found.kept + 1, rest);
+  found.pairs = {all.values.segment(free, taken), all.vectors.middleCols(free, taken)};
+  return found;
+}
+
+/// The same without a decomposition of the whole; `count` modes lie below the cutoff.
+ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, const SparseMatrix& stiffness,
+                            const Eigen::MatrixXd& rigid) {
+  const double limit = cutoff * cutoff;
+  double shift = shift_share * limit;
+  if (rigid.cols() > 0) shift = std::max(shift, least_shift * greatest_local_square(mass, stiffness));
+  ElasticModes found;
+  found.kept = count - rigid.cols();
+  found.pairs = lowest_modes(static_cast<int>(found.kept), limit, mass, stiffness, rigid, shift);
+  const Eigen::Index below = (found.pairs.values.array() < limit).count();
+  if (below != found.kept || found.pairs.values.size() != found.kept + 1)
+    throw NotReducible(fmt::format("{} modes lie below the cutoff, but {} were found; move the cutoff", count,
+                                   rigid.cols() + below));
+  const double first = found.pairs.values[found.kept];
+  if (const int sure = modes_below(mass, stiffness, std::max(limit, (1.0 - margin) * first)); sure > count)
+    throw NotReducible(fmt::format("the first mode above the cutoff was not found; move the cutoff"));
+  return found;
+}
+
+ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
+                           const Eigen::MatrixXd& rigid, int heavies) {
+  const auto free = static_cast<int>(rigid.cols());
+  if (heavies <= dense_up_to) return all_elastic(cutoff, mass, stiffness, free);
+  const int counted = modes_below(mass, stiffness, cutoff * cutoff);
+  if (counted < 0) throw NotReducible("the modes below the cutoff cannot be counted; move the cutoff");
+  const int count = std::max(counted, free);
+  const bool most = count >= heavies / 3;
+  if (count > most_modes || (most && heavies > dense_at_most))
+    throw NotReducible(fmt::format(
+        "{} of {} modes lie below the cutoff; at most {} can be kept, and where they are a third or "
+        "more of all at most {} in all; lower the cutoff, or leave [reduction] out",
+        count, heavies, most_modes, dense_at_most));
+  return most ? all_elastic(cutoff, mass, stiffness, free)
+              : lowest_elastic(cutoff, count, mass, stiffness, rigid);
+}
+
+SymmetricSolver regular(const SparseMatrix& a) {
+  SymmetricSolver solver(a);
+  if (a.rows() > 0 && (!solver.ok() || !(solver.smallest_pivot() > 0.0)))
+    throw NotReducible("the stiffness is singular to rounding; move the cutoff");
+  return solver;
+}
+
+}  // namespace
+
+KeptModes modes_up_to(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
+                      const Eigen::MatrixXd& free) {
+  const int heavies = degrees_with_mass(mass);
+  Eigen::MatrixXd rigid = free;
+  orthonormalise(rigid, mass);
+  const ElasticModes found = elastic_modes(cutoff, mass, stiffness, rigid, heavies);
+  const EigenPairs& pairs = found.pairs;
+  const Eigen::Index elastic = found.kept, taken = pairs.values.size();
+
+  KeptModes result;
+  result.free = static_cast<int>(rigid.cols());
+  const Eigen::Index kept = result.free + elastic;
+  result.left_out = heavies - static_cast<int>(kept);
+  result.shapes.resize(mass.rows(), kept);
+  result.shapes.leftCols(result.free) = rigid;
+  result.squares = Eigen::VectorXd::Zero(kept);
+  // Without elastic modes any shift that makes K regular will do.
+  const double local = greatest_local_square(mass, stiffness);
+  result.shift = taken > 0 ? shift_share * pairs.values[taken - 1] : local > 0.0 ? local : 1.0;
+  if (taken == 0) return result;
+
+  // A step of inverse iteration sharpens the low modes, whose energy is small among that of the high ones.
+  Eigen::MatrixXd x = pairs.vectors;
+  const SymmetricSolver solver = regular(SparseMatrix(stiffness + result.shift * mass));
+  take_out(rigid, mass, x);
+  for (Eigen::Index j = 0; j < taken; ++j)
+    x.col(j) = (pairs.values[j] + result.shift) * solver.solve(mass * x.col(j));
+  take_out(rigid, mass, x);
+  const EigenPairs ritz = generalized_eigen(x.transpose() * (stiffness * x), x.transpose() * (mass * x));
+  if (ritz.values.size() != taken || !ritz.values.allFinite())
+    throw NotReducible("the modes below the cutoff are not independent; move the cutoff");
+  result.shapes.rightCols(elastic) = x * ritz.vectors.leftCols(elastic);
+  result.squares.tail(elastic) = ritz.values.head(elastic);
+  if (taken > elastic) result.first_left_out = std::sqrt(ritz.values[elastic]);
+  return result;
+}
+
+Vector parts(const KeptModes& modes, const Vector& f) {
+  Vector part = modes.shapes.transpose() * f;
+  const Vector terms = modes.shapes.cwiseAbs().transpose() * f.cwiseAbs();
+  for (Eigen::Index j = 0; j < part.size(); ++j)
+    if (std::abs(part[j]) <= roundings * terms[j]) part[j] = 0.0;
+  return part;
+}
+
+ResidualFlexibility::ResidualFlexibility(const SparseMatrix& mass, const SparseMatrix& stiffness,
+                                         const KeptModes& modes)
+    : mass_(mass),
+      modes_(modes),
+      inertia_(mass * modes.shapes),
+      inertia_size_(inertia_.cwiseAbs()),
+      shift_(modes.free > 0 ? modes.shift : 0.0),
+      complete_(modes.shapes.cols() == mass.rows()),
+      solver_(complete_      ? SymmetricSolver(SparseMatrix(0, 0))
+              : shift_ > 0.0 ? regular(SparseMatrix(stiffness + shift_ * mass))
+                             : regular(stiffness)) {}
+
+Vector ResidualFlexibility::without_kept(const Vector& u) const {
+  return u - modes_.shapes * (inertia_.transpose() * u);
+}
+
+Vector ResidualFlexibility::answer(const Vector& f) const {
+  if (complete_) return Vector::Zero(f.size());
+  const Vector part = parts(modes_, f);
+  Vector elastic = f - inertia_ * part;
+  const Vector terms = f.cwiseAbs() + inertia_size_ * part.cwiseAbs();
+  for (Eigen::Index i = 0; i < elastic.size(); ++i)
+    if (std::abs(elastic[i]) <= roundings * terms[i]) elastic[i] = 0.0;
+  Vector u = without_kept(solver_.solve(elastic));
+  if (shift_ > 0.0)
+    for (int i = 0; i < corrections; ++i) u = without_kept(solver_.solve(elastic + shift_ * (mass_ * u)));
+  if (!u.allFinite()) throw NotReducible("the static answer of the modes left out is not finite");
+  return u;
+}
+
+}  // namespace signorini

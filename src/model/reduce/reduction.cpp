@@ -1,0 +1,313 @@
+#include "model/reduce/reduction.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/selection.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/modes/growth.hpp"
+#include "model/reduce/kept_modes.hpp"
+#include "model/reduce/static_shapes.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double nothing = 1e-14;      // part of a form, a shape being 1, that is rounding
+constexpr double quick_damper = 1e-6;  // time constant of a static shape times the first frequency left out
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& why) {
+  throw SceneError(scene.reduction->place, "reduction", why);
+}
+
+/// Every massless motion needs a static answer, and every other one a mode.
+void check_reducible(const Scene& scene, const Model& model) {
+  std::vector<int> light;
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
+  if (!light.empty()) {
+    const SparseMatrix only = selection(light, model.size());
+    const Eigen::MatrixXd null = null_motions(only.transpose() * model.stiffness * only);
+    if (null.cols() > 0) {
+      Eigen::Index greatest = 0;
+      null.col(0).cwiseAbs().maxCoeff(&greatest);
+      const int dof = light[static_cast<std::size_t>(greatest)];
+      refuse(scene,
+             fmt::format("{} has no mass, and no stiffness of the structure holds it, so it has neither "
+                         "a mode nor a static answer; give it a mass, or leave [reduction] out",
+                         model.dofs[static_cast<std::size_t>(dof)].displacement));
+    }
+  }
+  if (fastest_growth(model.stiffness, model.mass))
+    refuse(scene,
+           "the stiffness matrix has a negative eigenvalue, and modes that grow are not kept by their "
+           "frequency; leave [reduction] out");
+}
+
+bool normal_needs_mass(const Contact& c) { return c.law == Law::rigid || c.normal_damping > 0.0; }
+
+bool tangent_needs_mass(const Contact& c, double tangential_damping) {
+  return c.sticks_rigidly() || c.stribeck_velocity || tangential_damping > 0.0;
+}
+
+std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
+  std::vector<ActingForce> forces;
+  const auto add = [&](std::string what, int contact, bool normal, const Combination& form, bool needs_mass) {
+    ActingForce f;
+    f.share.what = std::move(what);
+    f.share.contact = contact;
+    f.share.normal = normal;
+    f.force = full(form, model.size());
+    f.needs_mass = needs_mass;
+    forces.push_back(std::move(f));
+  };
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.law != Law::slider)
+      add(fmt::format("normal of contact '{}'", c.name), static_cast<int>(k), true, c.normal,
+          normal_needs_mass(c));
+    if (c.has_friction())
+      add(fmt::format("tangent of contact '{}'", c.name), static_cast<int>(k), false, c.tangent,
+          tangent_needs_mass(c, scene.contacts[k].tangential_damping));
+  }
+  for (const Load& load : model.loads) add(load.name, -1, false, load.direction, false);
+  return forces;
+}
+
+/// Everything that makes up the reduced matrices; shapes with mass first.
+struct Basis {
+  Eigen::MatrixXd shapes;           ///< physical x reduced
+  Eigen::VectorXd mass, stiffness;  ///< diagonals
+  Eigen::MatrixXd damping;
+  Eigen::Index heavy = 0;  ///< how many have mass
+};
+
+Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers, double alpha,
+               double beta) {
+  Basis b;
+  const Eigen::Index n = modes.shapes.rows(), m = modes.shapes.cols(), h = shapes.massive.cols(),
+                     r = shapes.massless.cols();
+  b.heavy = m + h;
+  b.shapes.resize(n, m + h + r);
+  b.shapes << modes.shapes, shapes.massive, shapes.massless;
+  b.mass = Eigen::VectorXd::Zero(m + h + r);
+  b.mass.head(m + h).setOnes();
+  b.stiffness.resize(m + h + r);
+  b.stiffness << modes.squares, shapes.massive_squares, Eigen::VectorXd::Ones(r);
+  const bool single = dampers.nonZeros() > 0;
+  if (single && r > 0) {
+    // Turned so that each shape has its own time constant, or none.
+    const Eigen::MatrixXd c = shapes.massless.transpose() * (dampers * shapes.massless);
+    b.shapes.rightCols(r) = shapes.massless * symmetric_eigen(0.5 * (c + c.transpose())).vectors;
+  }
+  b.damping = (alpha * b.mass + beta * b.stiffness).asDiagonal();
+  if (single) {
+    const Eigen::MatrixXd c = b.shapes.transpose() * (dampers * b.shapes);
+    const double size = c.cwiseAbs().maxCoeff();
+    b.damping += (c.array().abs() > nothing * size).select(c, 0.0);
+  }
+  // A dashpot that only a static shape moves, and that lets go far sooner than any mode left out swings,
+  // would be a stiff equation without any other effect.
+  const double first = modes.first_left_out;
+  for (Eigen::Index j = b.heavy; j < b.shapes.cols(); ++j)
+    if (b.damping(j, j) * first <= quick_damper) {
+      b.damping.row(j).setZero();
+      b.damping.col(j).setZero();
+    }
+  return b;
+}
+
+/// Greatest translation 1, rotations as far as the scene's scales make them one.
+void scale(const Model& model, Basis& b) {
+  const double arm = model.scales.displacement / model.scales.rotation;
+  for (Eigen::Index j = 0; j < b.shapes.cols(); ++j) {
+    double size = 0.0;
+    for (Eigen::Index i = 0; i < b.shapes.rows(); ++i)
+      size = std::max(
+          size, std::abs(b.shapes(i, j)) * (model.dofs[static_cast<std::size_t>(i)].rotation ? arm : 1.0));
+    const double s = 1.0 / size;
+    b.shapes.col(j) *= s;
+    b.mass[j] *= s * s;
+    b.stiffness[j] *= s * s;
+    b.damping.row(j) *= s;
+    b.damping.col(j) *= s;
+  }
+}
+
+/// The form on the reduced degrees of freedom; `massive`: only on those with mass.
+Combination reduced_form(const Combination& form, const Basis& b, bool massive) {
+  const Vector full_form = full(form, static_cast<int>(b.shapes.rows()));
+  const double size = full_form.lpNorm<1>();
+  Combination result;
+  for (Eigen::Index j = 0; j < (massive ? b.heavy : b.shapes.cols()); ++j)
+    if (const double factor = full_form.dot(b.shapes.col(j)); std::abs(factor) > nothing * size)
+      result.terms.emplace_back(static_cast<int>(j), factor);
+  return result;
+}
+
+bool has_mass(const Combination& form, const Basis& b) {
+  return std::any_of(form.terms.begin(), form.terms.end(), [&](const auto& t) { return t.first < b.heavy; });
+}
+
+void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    Contact& c = model.contacts[k];
+    const bool normal_mass = normal_needs_mass(c),
+               tangent_mass = tangent_needs_mass(c, scene.contacts[k].tangential_damping);
+    const bool slides = !c.tangent.terms.empty();
+    c.normal = reduced_form(c.normal, b, normal_mass);
+    c.tangent = reduced_form(c.tangent, b, tangent_mass);
+    if ((normal_mass && !has_mass(c.normal, b)) || (slides && tangent_mass && !has_mass(c.tangent, b)))
+      refuse(scene, fmt::format("contact '{}' has no effective mass under the cutoff; raise it", c.name));
+    if ((c.law != Law::slider && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
+      refuse(scene, fmt::format("under the cutoff nothing moves along contact '{}'; raise it", c.name));
+  }
+}
+
+/// The smallest change in the norm of M that gives what needs mass the gaps and rates that it had.
+void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& gap,
+               const std::vector<double>& rate, Vector& q, Vector& w) {
+  std::vector<std::size_t> rigid;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].law == Law::rigid) rigid.push_back(k);
+  if (rigid.empty()) return;
+  const auto count = static_cast<Eigen::Index>(rigid.size());
+  Eigen::MatrixXd forms(count, b.heavy);
+  Eigen::MatrixXd miss(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t k = rigid[static_cast<std::size_t>(i)];
+    const Combination& normal = model.contacts[k].normal;
+    forms.row(i) = full(normal, static_cast<int>(b.shapes.cols())).head(b.heavy).transpose();
+    miss(i, 0) = gap[k] - normal.dot(q);
+    miss(i, 1) = rate[k] - normal.dot(w);
+  }
+  const Eigen::VectorXd s = b.mass.head(b.heavy).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd change =
+      s.asDiagonal() *
+      Eigen::MatrixXd((forms * s.asDiagonal()).completeOrthogonalDecomposition().solve(miss));
+  q.head(b.heavy) += change.col(0);
+  w.head(b.heavy) += change.col(1);
+}
+
+/// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so that a static
+/// state is met. What does not fit is reported.
+void reduce_state(const Basis& b, Eigen::Index modes, Model& model, const std::vector<Contact>& contacts,
+                  Reduction& facts) {
+  const Eigen::Index size = b.shapes.cols();
+  Vector q(size), w = Vector::Zero(size);
+  const Vector mu = model.mass * model.u0, ku = model.stiffness * model.u0, mv = model.mass * model.v0;
+  for (Eigen::Index j = 0; j < size; ++j) {
+    q[j] = j < modes ? b.shapes.col(j).dot(mu) / b.mass[j] : b.shapes.col(j).dot(ku) / b.stiffness[j];
+    if (j < b.heavy) w[j] = b.shapes.col(j).dot(mv) / b.mass[j];
+  }
+  std::vector<double> gap, rate;
+  for (const Contact& c : contacts) {
+    gap.push_back(c.normal.dot(model.u0));
+    rate.push_back(c.normal.dot(model.v0));
+  }
+  keep_gaps(model, b, gap, rate, q, w);
+  const Vector du = model.u0 - b.shapes * q, dv = model.v0 - b.shapes * w;
+  for (int i = 0; i < model.size(); ++i) {
+    const Dof& dof = model.dofs[static_cast<std::size_t>(i)];
+    const Scales& size_of = model.scales;
+    const double arm = dof.rotation ? size_of.displacement / size_of.rotation : 1.0;
+    const double rate_arm = dof.rotation ? size_of.velocity / size_of.angular_velocity : 1.0;
+    facts.initial_displacement_lost = std::max(facts.initial_displacement_lost, arm * std::abs(du[i]));
+    if (!dof.massless)
+      facts.initial_velocity_lost = std::max(facts.initial_velocity_lost, rate_arm * std::abs(dv[i]));
+  }
+  model.u0 = q;
+  model.v0 = w;
+}
+
+/// The greatest jump of a load from t = 0 on; at the start of what the initial state does not know of.
+double greatest_jump(const Load& load, const Model& model, double t_end) {
+  double jump = load.is_static && model.static_start ? 0.0 : std::abs(load.history.value(0.0));
+  for (const Breakpoint& at : load.history.breakpoints())
+    if (at.jump && at.time > 0.0 && at.time <= t_end)
+      jump = std::max(jump, std::abs(load.history.piece(at.time).value(at.time) -
+                                     load.history.piece_before(at.time).value(at.time)));
+  return jump;
+}
+
+double ringing(const Model& model, const std::vector<Vector>& answers, double t_end) {
+  double greatest = 0.0;
+  const std::size_t first = answers.size() - model.loads.size();
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const double jump = greatest_jump(model.loads[i], model, t_end);
+    for (const Column& column : model.columns)
+      if (!column.velocity && column.dof >= 0 && !model.dofs[static_cast<std::size_t>(column.dof)].rotation)
+        greatest = std::max(greatest, jump * std::abs(answers[first + i][column.dof]));
+  }
+  return greatest;
+}
+
+double frequency(double square) { return std::sqrt(std::max(square, 0.0)); }
+
+Reduction facts_of(const Model& model, const KeptModes& modes, const StaticShapes& shapes, double cutoff) {
+  Reduction facts;
+  facts.dofs = model.dofs;
+  facts.cutoff = cutoff;
+  facts.modes = static_cast<int>(modes.shapes.cols());
+  facts.free_modes = modes.free;
+  facts.left_out = modes.left_out;
+  facts.massless_shapes = static_cast<int>(shapes.massless.cols());
+  facts.massive_shapes = static_cast<int>(shapes.massive.cols());
+  if (modes.squares.size() > 0) facts.highest_kept = frequency(modes.squares[modes.squares.size() - 1]);
+  facts.first_left_out = modes.first_left_out;
+  if (facts.massive_shapes > 0)
+    facts.highest_massive = frequency(shapes.massive_squares[shapes.massive_squares.size() - 1]);
+  facts.shares = shapes.shares;
+  return facts;
+}
+
+void set_matrices(const Basis& b, Model& model) {
+  model.mass = SparseMatrix(Eigen::MatrixXd(b.mass.asDiagonal()).sparseView());
+  model.stiffness = SparseMatrix(Eigen::MatrixXd(b.stiffness.asDiagonal()).sparseView());
+  model.damping = SparseMatrix(b.damping.sparseView());
+}
+
+void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
+  model.dofs.clear();
+  for (Eigen::Index j = 0; j < b.shapes.cols(); ++j) {
+    const bool mode = j < facts.modes;
+    const std::string name =
+        mode ? fmt::format("mode {}", j + 1) : fmt::format("static shape {}", j + 1 - facts.modes);
+    model.dofs.push_back({name, "rate of " + name, false, j >= b.heavy});
+  }
+}
+
+}  // namespace
+
+void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
+  check_reducible(scene, model);
+  const double cutoff = scene.reduction->cutoff_omega;
+  KeptModes modes;
+  StaticShapes shapes;
+  try {
+    modes = modes_up_to(cutoff, model.mass, model.stiffness, null_motions(model.stiffness));
+    shapes = static_shapes(model.mass, model.stiffness, modes, acting_forces(scene, model));
+  } catch (const NotReducible& e) {
+    refuse(scene, e.what());
+  }
+  Basis b = basis_of(modes, shapes, dampers, model.alpha, model.beta);
+  if (b.heavy == 0) refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise it");
+  scale(model, b);
+
+  Reduction facts = facts_of(model, modes, shapes, cutoff);
+  facts.ringing = ringing(model, shapes.answers, scene.run.t_end);
+  const std::vector<Contact> physical = model.contacts;
+  reduce_contacts(scene, b, model);
+  for (Load& load : model.loads) load.direction = reduced_form(load.direction, b, false);
+  reduce_state(b, facts.modes, model, physical, facts);
+  set_matrices(b, model);
+  name_dofs(facts, b, model);
+  facts.shapes = std::move(b.shapes);
+  model.reduction = std::move(facts);
+}
+
+}  // namespace signorini

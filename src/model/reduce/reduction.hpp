@@ -1,0 +1,33 @@
+// reduction.hpp: a model with the modes up to a cutoff, and the static compliance of all others.
+//
+//   u = Phi q + Psi_h h + Psi r
+//   M = diag(1, 1, 0),   K = diag(omega^2, omega_h^2, 1)        but for the scale of each shape
+//
+// Phi: modes with omega <= cutoff, free motions included (model/reduce/kept_modes.hpp). Psi_h and Psi span
+// the static answers G_res f of all other modes to every direction f along which something acts: normals and
+// tangents of contacts, loads, weight and motion of the base. So static displacements and the compliance at
+// contacts and loads are those of the full model.
+//
+// Psi has no mass, and follows at once (MacNeal). Psi_h keeps its mass (Rubin): directions that need it,
+// which are those of rigid contacts, of sliders that stick rigidly, of Stribeck's friction, and of contacts
+// with dashpots. Psi is K-orthogonal to G_res f_h, and f_h . Psi = (G_res f_h)^T K Psi = 0: what needs mass
+// never meets a shape without.
+//
+// C is R^T C R, without the part alpha M on Psi, whose mass is left out, too. Psi is turned so that the
+// dampers give each shape a time constant of its own, or none.
+//
+// Each shape is scaled to a greatest translation of 1 (rotations count with the scales of the scene), so that
+// tolerances of displacements mean for its amplitude what they say.
+//
+//   reduce(scene, dampers, model);     // a complete model; before shear elements
+#pragma once
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// dampers: C without alpha M + beta K; n x n. Errors: SceneError where a motion without mass has no
+/// stiffness, where K has negative energy, and where what needs mass would have none.
+void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model);
+
+}  // namespace signorini

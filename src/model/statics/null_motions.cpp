@@ -1,0 +1,63 @@
+#include "model/statics/null_motions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/springs.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int dense_up_to = 300;
+
+/// D^-1/2; a row of zeros (no stiffness at all) keeps the factor 1.
+Vector scaling(const SparseMatrix& k) {
+  Vector s = k.diagonal().cwiseAbs();
+  for (double& d : s) d = d > 0.0 ? 1.0 / std::sqrt(d) : 1.0;
+  return s;
+}
+
+bool is_null(const SparseMatrix& k, const Vector& x) {
+  return x.dot(k * x) <= 32.0 * epsilon * term_size(k, x);
+}
+
+/// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is
+/// below every stiffness that doubles can tell from none).
+Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
+  const auto n = static_cast<int>(a.rows());
+  SparseMatrix shift(n, n);
+  shift.setIdentity();
+  const SymmetricSolver solver(SparseMatrix(a + 64.0 * epsilon * shift));
+  std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::MatrixXd x(n, count);
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < n; ++i) x(i, j) = uniform(random);
+  for (int round = 0; round < 8; ++round) {
+    for (int j = 0; j < count; ++j) x.col(j) = solver.solve(x.col(j));
+    x = orthonormal(x);
+  }
+  const Eigen::MatrixXd projected = x.transpose() * (a * x);
+  return x * symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
+}
+
+}  // namespace
+
+Eigen::MatrixXd null_motions(const SparseMatrix& k) {
+  const auto n = static_cast<int>(k.rows());
+  if (n == 0) return Eigen::MatrixXd(0, 0);
+  const Vector s = scaling(k);
+  const SparseMatrix a = s.asDiagonal() * k * s.asDiagonal();
+  for (int count = std::min(n, 8);; count = std::min(n, 4 * count)) {
+    const bool all = n <= dense_up_to || count == n;
+    const Eigen::MatrixXd candidates = all ? symmetric_eigen(Eigen::MatrixXd(a)).vectors : lowest(a, count);
+    Eigen::Index found = 0;
+    while (found < candidates.cols() && is_null(a, candidates.col(found))) ++found;
+    if (all || found < candidates.cols()) return s.asDiagonal() * candidates.leftCols(found);
+  }
+}
+
+}  // namespace signorini

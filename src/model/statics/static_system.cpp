@@ -1,0 +1,176 @@
+#include "model/statics/static_system.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/simple_motions.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
+/// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
+Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
+  std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    Eigen::Index pivot = 0;
+    while (std::abs(rows(i, pivot)) < 1e-3 * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
+    taken[static_cast<std::size_t>(pivot)] = true;
+    for (Eigen::Index k = i + 1; k < rows.rows(); ++k) {
+      rows.row(k) -= rows(k, pivot) / rows(i, pivot) * rows.row(i);
+      rows(k, pivot) = 0.0;
+    }
+  }
+  Eigen::MatrixXd others = Eigen::MatrixXd::Zero(rows.cols() - rows.rows(), rows.cols());
+  Eigen::Index row = 0;
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    if (!taken[static_cast<std::size_t>(j)]) others(row++, j) = 1.0;
+  return others;
+}
+
+}  // namespace
+
+double own_stiffness(const SparseMatrix& k, const Combination& form) {
+  double sum = 0.0;
+  for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
+  double length = 0.0;
+  for (const auto& [i, a] : form.terms) length += a * a;
+  if (sum > 0.0) return sum / (length * length);
+  const double largest = k.diagonal().cwiseAbs().maxCoeff();  // nothing there: any of the structure's
+  return largest > 0.0 ? largest / length : 1.0 / length;
+}
+
+SparseMatrix StaticProblem::matrix(const std::vector<bool>& closed) const {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (is_support(k) && closed[k]) springs.push_back({contacts[k].normal, normal_stiffness(k)});
+  return with_springs(stiffness, springs);
+}
+
+Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
+  Vector p = load;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (is_support(k) && closed[k]) contacts[k].normal.add_to(p, -normal_stiffness(k) * contacts[k].gap);
+  return p;
+}
+
+std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                     const std::vector<bool>& closed, bool pressed_only) {
+  Eigen::MatrixXd null = simple_motions(motions, problem.map);
+  for (Eigen::Index j = 0; j < null.cols(); ++j) {
+    const double size = greatest_translation(null.col(j), problem.map);
+    null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
+  }
+  const Eigen::Index m = null.cols();
+  std::vector<int> holders;
+  Eigen::MatrixXd rows(0, m);   // t_h . null
+  Eigen::MatrixXd basis(m, 0);  // orthonormal basis of the rows so far
+  auto consider = [&](std::size_t k) {
+    if (static_cast<Eigen::Index>(holders.size()) == m) return;
+    const Combination& tangent = problem.contacts[k].tangent;
+    Eigen::VectorXd row(m);
+    for (Eigen::Index j = 0; j < m; ++j) row[j] = tangent.dot(null.col(j));
+    const Eigen::VectorXd rest = row - basis * (basis.transpose() * row);
+    // Motions have size 1: a contact that takes part with a millionth does not hold one.
+    double form_size = 0.0;
+    for (const auto& [i, a] : tangent.terms) form_size = std::max(form_size, std::abs(a));
+    if (!(rest.norm() > 1e-6 * form_size)) return;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = rest.normalized();
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+    rows.bottomRows(1) = row.transpose();
+    holders.push_back(static_cast<int>(k));
+  };
+  for (bool pressed : {true, false})
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      if ((!problem.is_support(k) || closed[k]) == pressed && (pressed || !pressed_only)) consider(k);
+  std::vector<FreeMotion> result;
+  if (m == 0) return result;
+  Eigen::MatrixXd complete(m, m);
+  complete << rows, other_motions(rows);
+  const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
+  for (Eigen::Index j = 0; j < m; ++j)
+    result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});
+  return result;
+}
+
+HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
+                     const std::vector<FreeMotion>& held) {
+  SparseMatrix k = problem.matrix(closed);
+  std::vector<LineSpring> springs;
+  bool loose = false;
+  for (const FreeMotion& f : held) {
+    if (f.holder < 0) {
+      loose = true;
+      continue;
+    }
+    const Combination& t = problem.contacts[static_cast<std::size_t>(f.holder)].tangent;
+    springs.push_back({t, own_stiffness(k, t)});
+  }
+  k = with_springs(k, springs);
+  if (loose) {  // a weak support everywhere leaves an undriven motion at zero
+    SparseMatrix weak(k.rows(), k.cols());
+    weak.setIdentity();
+    const double largest = k.diagonal().cwiseAbs().maxCoeff();
+    for (int i = 0; i < k.rows(); ++i) {
+      const double d = std::abs(k.coeff(i, i));
+      weak.coeffRef(i, i) = 1e-10 * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
+    }
+    k += weak;
+  }
+  const SymmetricSolver solver(k);
+  const Vector p = problem.right_side(closed);
+  const auto refined = [&](const Vector& load) {
+    const Vector u = solver.solve(load);
+    return Vector(u + solver.solve(load - k * u));  // contact springs may be much stiffer than the rest
+  };
+  HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
+  std::vector<std::size_t> rigid;
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c)
+    if (closed[c] && problem.contacts[c].law == Law::rigid) rigid.push_back(c);
+  if (!rigid.empty()) {  // n . (u + K^-1 n r) = -g0 at all of them, r = -N
+    const auto m = static_cast<Eigen::Index>(rigid.size());
+    Eigen::MatrixXd answer(problem.size(), m), give(m, m);
+    Eigen::VectorXd miss(m);
+    for (Eigen::Index j = 0; j < m; ++j)
+      answer.col(j) =
+          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const std::size_t c = rigid[static_cast<std::size_t>(i)];
+      miss[i] = -problem.gap(c, state.u);
+      for (Eigen::Index j = 0; j < m; ++j) give(i, j) = problem.contacts[c].normal.dot(answer.col(j));
+    }
+    const Eigen::VectorXd r = give.completeOrthogonalDecomposition().solve(miss);
+    state.u += answer * r;
+    for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
+  }
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c)
+    if (closed[c] && problem.contacts[c].law == Law::compliant)
+      state.reactions[c] = std::max(0.0, -problem.normal_stiffness(c) * problem.gap(c, state.u));
+  return state;
+}
+
+double driving_work(const StaticProblem& problem, const std::vector<bool>& closed, const Vector& motion,
+                    const Vector& u) {
+  const SparseMatrix k = problem.matrix(closed);
+  const Vector p = problem.right_side(closed);
+  const double work = motion.dot(p - k * u);
+  const double roundoff = 64.0 * epsilon * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
+  double motion_size[2]{0.0, 0.0}, load_size[2]{0.0, 0.0};  // translations, rotations
+  for (int i = 0; i < problem.size(); ++i) {
+    const std::size_t kind = problem.map.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0;
+    motion_size[kind] = std::max(motion_size[kind], std::abs(motion[i]));
+    load_size[kind] = std::max(load_size[kind], std::abs(p[i]));
+  }
+  const double all = 1e-9 * (motion_size[0] * load_size[0] + motion_size[1] * load_size[1]);
+  return std::abs(work) > roundoff + all ? work : 0.0;
+}
+
+}  // namespace signorini

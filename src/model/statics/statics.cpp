@@ -1,0 +1,165 @@
+#include "model/statics/statics.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/assembly/motion_names.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/null_motions.hpp"
+#include "model/statics/simple_motions.hpp"
+#include "model/statics/static_system.hpp"
+#include "model/statics/unilateral.hpp"
+
+namespace signorini {
+namespace {
+
+const std::string key = "run.initial";
+
+struct Trial {
+  std::vector<FreeMotion> held;
+  Vector u;
+  std::vector<double> reactions = {};
+  int driven = -1;     ///< index into held, -1: none
+  double force = 0.0;  ///< that drives it
+
+  [[nodiscard]] const FreeMotion& driven_motion() const { return held[static_cast<std::size_t>(driven)]; }
+};
+
+Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
+  Trial trial;
+  trial.held = hold_motions(problem, null_motions(problem.matrix(closed)), closed);
+  HeldState state = solve_held(problem, closed, trial.held);
+  trial.u = std::move(state.u);
+  trial.reactions = std::move(state.reactions);
+  // Those that nothing holds first: they say more than one that friction could hold.
+  std::vector<std::size_t> order(trial.held.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t j) { return trial.held[j].holder < 0; });
+  for (const std::size_t j : order) {
+    if (trial.driven >= 0) break;
+    const Vector& motion = trial.held[j].motion;
+    const double work = driving_work(problem, closed, motion, trial.u);
+    if (work == 0.0) continue;
+    const double size = greatest_translation(motion, problem.map);
+    trial.driven = static_cast<int>(j);
+    trial.force = size > 0.0 ? std::abs(work) / size : std::abs(work);
+  }
+  return trial;
+}
+
+/// Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits. What seems
+/// free is then a slow bending, and its name would say nothing.
+void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place) {
+  if (problem.size() <= 10000) return;
+  bool rigid = true;
+  for (Eigen::Index j = 0; j < null.cols(); ++j) rigid = rigid && is_rigid(null.col(j), problem.map);
+  if (rigid) return;
+  throw SceneError(
+      place, key,
+      fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
+                  "ill-conditioned that roundoff hides what holds the structure; use fewer elements, "
+                  "or give the initial state (if the structure is a mechanism, fewer elements will "
+                  "show which motion nothing holds)",
+                  problem.size()));
+}
+
+/// A motion that not even contacts that pull and stick can hold.
+void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place) {
+  std::vector<LineSpring> grips;
+  const SparseMatrix k = problem.matrix(all);
+  for (const Contact& c : problem.contacts)
+    if (!c.tangent.terms.empty()) grips.push_back({c.tangent, own_stiffness(k, c.tangent)});
+  const Eigen::MatrixXd null = simple_motions(null_motions(with_springs(k, grips)), problem.map);
+  if (null.cols() == 0) return;
+  refuse_roundoff(problem, null, place);
+  std::string names = describe_motion(null.col(0), problem.map);
+  for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
+    names += ", " + describe_motion(null.col(j), problem.map);
+  if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
+  throw SceneError(
+      place, key,
+      fmt::format("a static start is impossible, the structure is a mechanism: nothing holds its {}; "
+                  "add a support, a spring or a contact, or give the initial state",
+                  names));
+}
+
+[[noreturn]] void refuse_driven(const StaticProblem& problem, const std::vector<bool>& all,
+                                const Trial& found, const SourcePlace& place, const std::string& unit) {
+  const Trial gripped = attempt(problem, all);
+  if (gripped.driven >= 0) {
+    const std::string name = describe_motion(gripped.driven_motion().motion, problem.map);
+    const int holder = gripped.driven_motion().holder;
+    const std::string hold =
+        holder < 0
+            ? "nothing holds it"
+            : fmt::format("only friction, at contact '{}', could hold it, and the static start has none",
+                          problem.contacts[static_cast<std::size_t>(holder)].name);
+    throw SceneError(place, key,
+                     fmt::format("no static equilibrium: the static loads drive the {} with {:.4g} {}; {}",
+                                 name, gripped.force, unit, hold));
+  }
+  std::string pulls;
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    const Contact& c = problem.contacts[k];
+    const double pull =
+        c.law == Law::rigid ? -gripped.reactions[k] : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
+    if (!problem.is_support(k) || !(pull > 0.0)) continue;
+    pulls += fmt::format("{}contact '{}' would have to pull with {:.4g} {}", pulls.empty() ? "" : ", ",
+                         c.name, pull, unit);
+  }
+  throw SceneError(place, key,
+                   fmt::format("no static equilibrium: {}; without it the static loads drive the {}",
+                               pulls.empty() ? "the open contacts do not hold the structure" : pulls,
+                               describe_motion(found.driven_motion().motion, problem.map)));
+}
+
+std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
+  const std::string name = describe_motion(f.motion, problem.map);
+  if (f.holder < 0) return name + ", held by no contact, stays at zero";
+  return fmt::format("{} held at contact '{}'", name,
+                     problem.contacts[static_cast<std::size_t>(f.holder)].name);
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
+                             const std::vector<Contact>& contacts, const DofMap& map,
+                             const SourcePlace& place, const Units& units) {
+  const StaticProblem problem{stiffness, load, contacts, map};
+  std::vector<bool> all(contacts.size(), false);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = problem.is_support(k);
+  refuse_mechanisms(problem, all, place);
+
+  std::vector<bool> closed = closed_supports(problem);
+  // Newton ended on a slightly supported structure; without that support a contact that only just
+  // touches may change its side, and change back: after 20 rounds either will do.
+  for (int round = 0;; ++round) {
+    const Trial trial = attempt(problem, closed);
+    if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force);
+    std::vector<bool> next = closed;
+    const double size = trial.u.size() == 0 ? 0.0 : greatest_translation(trial.u, map);
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      if (!problem.is_support(k)) continue;
+      const double g = problem.gap(k, trial.u);
+      // A contact that only just touches may count either way.
+      const bool rigid = contacts[k].law == Law::rigid;
+      if (rigid && closed[k])
+        next[k] = trial.reactions[k] >= 0.0;
+      else if (std::abs(g) > 1e-13 * (size + std::abs(contacts[k].gap)))
+        next[k] = g < 0.0;
+    }
+    if (next == closed || round == 20) {
+      Equilibrium result{trial.u, {}};
+      for (std::size_t k = 0; k < contacts.size(); ++k)
+        result.start.reactions.push_back(std::max(0.0, trial.reactions[k]));
+      for (const FreeMotion& f : trial.held) result.start.free_motions.push_back(motion_name(problem, f));
+      return result;
+    }
+    closed = next;
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,55 @@
+#include "motion/contact_series.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+
+void ContactSeries::fill(const Contact& contact, std::size_t index, const Series& series,
+                         std::size_t degree) {
+  degree_ = degree;
+  values_.resize(fields * (degree + 1));
+  normal_.resize(degree + 3);
+  tangent_.resize(degree + 3);
+  const double* surface = series.forcing.surface.data() + index * series.forcing.count;
+  const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
+  for (std::size_t k = 0; k < degree + 3; ++k) {
+    const double* u = series.u.col(static_cast<Eigen::Index>(k)).data();
+    normal_[k] = contact.normal.dot(u);
+    tangent_[k] = contact.tangent.dot(u) - surface[k];
+  }
+  for (std::size_t k = 0; k <= degree; ++k) {
+    const auto e = static_cast<Eigen::Index>(k);
+    const double rate = static_cast<double>(k + 1) / series.scale;
+    const double second = rate * static_cast<double>(k + 2) / series.scale;
+    row(N)[k] = series.forces(static_cast<Eigen::Index>(2 * index), e);
+    row(T)[k] = series.forces(static_cast<Eigen::Index>(2 * index) + 1, e);
+    row(gap)[k] = normal_[k] + (k == 0 ? contact.gap : 0.0);
+    row(ut)[k] = tangent_[k];
+    row(vn)[k] = rate * normal_[k + 1];
+    row(vt)[k] = rate * tangent_[k + 1];
+    row(an)[k] = second * normal_[k + 2];
+    row(pressing_rate)[k] = rate * pressing[k + 1];
+    row(slide)[k] =
+        contact.shear ? contact.shear->body.dot(series.u.col(e).data()) - surface[k] : tangent_[k];
+  }
+}
+
+void ContactSeries::combine(const Form& form, double* out) const {
+  std::fill(out, out + degree_ + 1, 0.0);
+  const auto add = [&](double factor, Field field) {
+    if (factor == 0.0) return;
+    const double* f = of(field);
+    for (std::size_t k = 0; k <= degree_; ++k) out[k] += factor * f[k];
+  };
+  add(form.N, N);
+  add(form.T, T);
+  add(form.gap, gap);
+  add(form.ut, ut);
+  add(form.vn, vn);
+  add(form.vt, vt);
+  add(form.an, an);
+  add(form.pressing_rate, pressing_rate);
+  out[0] += form.constant;
+}
+
+}  // namespace signorini

@@ -1,0 +1,133 @@
+#include "motion/forcing.hpp"
+
+#include "base/history/history_internal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+const Piece* piece(const History& history, double t, Side side) {
+  return side == Side::after ? &history.piece(t) : &history.piece_before(t);
+}
+
+bool changes(const Piece& piece) {
+  return piece.amplitude != 0.0 ||
+         std::any_of(piece.coefficients.begin(), piece.coefficients.end(),
+                     [&](const double& c) { return &c != piece.coefficients.data() && c != 0.0; });
+}
+
+bool vanishes(const Piece& piece) {
+  return !changes(piece) && (piece.coefficients.empty() || piece.coefficients[0] == 0.0);
+}
+
+}  // namespace
+
+Forcing::Forcing(const Model& model, double t, Side side)
+    : model_(&model), constant_(Vector::Zero(model.size())) {
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Piece* p = piece(model.loads[i].history, t, side);
+    if (changes(*p))
+      varying_.emplace_back(i, p);
+    else if (!vanishes(*p))
+      model.loads[i].direction.add_to(constant_, p->coefficients[0]);
+  }
+  for (const Contact& contact : model.contacts) {
+    pressing_.push_back(piece(contact.normal_force, t, side));
+    surface_.push_back(piece(contact.surface_motion, t, side));
+    moves_.push_back(changes(*surface_.back()));
+    presses_.push_back(changes(*pressing_.back()));
+    still_surface_.push_back(surface_.back()->value(t));
+    still_pressing_.push_back(pressing_.back()->value(t));
+    drives_.push_back(moves_.back() || presses_.back());
+    varies_ = varies_ || drives_.back();
+    lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
+  }
+  varies_ = varies_ || !varying_.empty();
+  loaded_ = !varying_.empty() || !constant_.isZero(0.0);
+}
+
+double Forcing::surface_rounding(std::size_t k, double t) const {
+  return moves_[k] ? roundoff_of_rate(*surface_[k], t) : 0.0;
+}
+
+void Forcing::add_load(double t, int order, double* P, double factor) const {
+  if (order == 0)
+    for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += factor * constant_[i];
+  for (const auto& [load, p] : varying_) model_->loads[load].direction.add_to(P, factor * p->value(t, order));
+}
+
+Forcing Forcing::none(const Model& model) {
+  static const Piece still;
+  Forcing f(model);
+  f.pressing_.assign(model.contacts.size(), &still);
+  f.surface_ = f.pressing_;
+  f.lifted_.assign(model.contacts.size(), false);
+  f.moves_ = f.presses_ = f.drives_ = f.lifted_;
+  f.still_pressing_.assign(model.contacts.size(), 0.0);
+  f.still_surface_ = f.still_pressing_;
+  return f;
+}
+
+void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
+  out.count = count;
+  out.loads.resize(varying_.size() * count);
+  out.pressing.assign(pressing_.size() * count, 0.0);
+  out.surface.assign(surface_.size() * count, 0.0);
+  out.rounding.resize(surface_.size());
+  for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
+  for (std::size_t i = 0; i < varying_.size(); ++i)
+    varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
+  for (std::size_t k = 0; k < pressing_.size(); ++k) {
+    if (!vanishes(*pressing_[k])) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
+    if (!vanishes(*surface_[k])) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
+  }
+}
+
+void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) const {
+  if (k == 0)
+    for (Eigen::Index i = 0; i < constant_.size(); ++i) P[i] += constant_[i];
+  for (std::size_t i = 0; i < varying_.size(); ++i)
+    if (const double f = series.loads[i * series.count + k]; f != 0.0)
+      model_->loads[varying_[i].first].direction.add_to(P, f);
+}
+
+double Forcing::power(double t, const double* v) const {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < constant_.size(); ++i) sum += constant_[i] * v[i];
+  for (const auto& [load, p] : varying_) sum += p->value(t) * model_->loads[load].direction.dot(v);
+  return sum;
+}
+
+double Forcing::greatest_omega() const {
+  double omega = 0.0;
+  const auto consider = [&](const Piece* p) {
+    if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
+  };
+  for (const auto& [load, p] : varying_) consider(p);
+  for (const Piece* p : pressing_) consider(p);
+  for (const Piece* p : surface_) consider(p);
+  return omega;
+}
+
+double Forcing::surface_omega() const {
+  double omega = 0.0;
+  for (const Piece* p : surface_)
+    if (p->amplitude != 0.0) omega = std::max(omega, std::abs(p->omega));
+  return omega;
+}
+
+std::size_t Forcing::greatest_degree() const {
+  std::size_t degree = 0;
+  const auto consider = [&](const Piece* p) {
+    for (std::size_t j = degree + 1; j < p->coefficients.size(); ++j)
+      if (p->coefficients[j] != 0.0) degree = j;
+  };
+  for (const auto& [load, p] : varying_) consider(p);
+  for (const Piece* p : pressing_) consider(p);
+  for (const Piece* p : surface_) consider(p);
+  return degree;
+}
+
+}  // namespace signorini

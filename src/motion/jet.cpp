@@ -1,0 +1,173 @@
+#include "motion/jet.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// How many times the difference of two roundings still counts as noise: the two are one sample each.
+constexpr double noise_factor = 64.0;
+
+constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
+
+/// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
+struct Derivatives {
+  std::array<double, known> N{}, T{}, gap{}, ut{}, gap_terms{}, ut_terms{};
+};
+
+/// From a series of scale 1: derivatives are k! times the coefficients.
+void fill(const Contact& contact, std::size_t c, const Series& series, Derivatives& d) {
+  const auto n = static_cast<std::size_t>(series.u.rows()),
+             forces = static_cast<std::size_t>(series.forces.rows());
+  const ForcingSeries& f = series.forcing;
+  const auto terms = [](const Combination& form, const double* x) {
+    double sum = 0.0;
+    for (const auto& [dof, factor] : form.terms) sum += std::abs(factor * x[dof]);
+    return sum;
+  };
+  double factorial = 1.0;
+  for (std::size_t k = 0; k < known; ++k) {
+    if (k > 1) factorial *= static_cast<double>(k);
+    const double* u = series.u.data() + k * n;
+    const double surface = f.surface[c * f.count + k];
+    d.gap[k] = factorial * contact.normal.dot(u);
+    d.ut[k] = factorial * (contact.tangent.dot(u) - surface);
+    d.gap_terms[k] = factorial * terms(contact.normal, u);
+    d.ut_terms[k] = factorial * (terms(contact.tangent, u) + std::abs(surface));
+    if (k >= MotionJet::orders) continue;
+    d.N[k] = factorial * series.forces.data()[k * forces + 2 * c];
+    d.T[k] = factorial * series.forces.data()[k * forces + 2 * c + 1];
+  }
+  d.gap[0] += contact.gap;
+  d.gap_terms[0] += std::abs(contact.gap);
+}
+
+}  // namespace
+
+Expander::Expander(const Model& model, const Structure& structure)
+    : model_(model),
+      taylor_(model, structure),
+      // u^(k) of massless degrees of freedom is known one or two levels later
+      levels_(taylor_.massless() ? orders + 2 : orders) {}
+
+Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v,
+                     std::vector<MotionJet>& result) const {
+  taylor_.expand(forcing, t, u, v, levels_, 1.0, series_);
+  Jet jet;
+  jet.t = t;
+  jet.u = series_.u;
+  jet.forces = series_.forces;
+  double factorial = 1.0;
+  for (Eigen::Index k = 2; k < levels_ + 3; ++k) {
+    factorial *= static_cast<double>(k);
+    jet.u.col(k) *= factorial;
+    if (k <= levels_) jet.forces.col(k) *= factorial;
+  }
+  const Disturbance disturbance;
+  taylor_.expand(forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  motions(result);
+  return jet;
+}
+
+void Expander::motions(std::vector<MotionJet>& result) const {
+  result.resize(model_.contacts.size());
+  // One sample of rounding can be small by chance, so the terms of each sum count as well.
+  const auto noise = [](double x, double y, double size) {
+    return noise_factor * (std::abs(x - y) + epsilon * size);
+  };
+  Derivatives a, b;
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    const Rows& rows = taylor_.rows()[c];
+    fill(model_.contacts[c], c, series_, a);
+    fill(model_.contacts[c], c, disturbed_, b);
+    const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+    double factorial = 1.0;
+    for (std::size_t k = 0; k < MotionJet::orders; ++k) {
+      if (k > 1) factorial *= static_cast<double>(k);
+      ContactMotion &m = result[c].motion[k], &d = result[c].noise[k];
+      m.N = a.N[k];
+      m.T = a.T[k];
+      m.gap = a.gap[k];
+      m.ut = a.ut[k];
+      m.vn = a.gap[k + 1];
+      m.vt = a.ut[k + 1];
+      m.an = a.gap[k + 2];
+      m.at = a.ut[k + 2];
+      m.pressing = factorial * pressing[k];
+      m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+      // The sizes of the terms of each row bound the rounding of its force.
+      ContactMotion terms;
+      terms.gap = a.gap_terms[k];
+      terms.ut = a.ut_terms[k];
+      terms.vn = a.gap_terms[k + 1];
+      terms.vt = a.ut_terms[k + 1];
+      terms.an = a.gap_terms[k + 2];
+      terms.at = a.ut_terms[k + 2];
+      terms.pressing = std::abs(m.pressing);
+      terms.pressing_rate = std::abs(m.pressing_rate);
+      const double N =
+          rows.normal.magnitude(terms) + (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
+      const double T = rows.tangent.magnitude(terms) + (k == 0 ? std::abs(rows.tangent.constant) : 0.0) +
+                       std::abs(m.T) + std::abs(rows.tangent.N) * N;
+      d.N = noise(a.N[k], b.N[k], N);
+      d.T = noise(a.T[k], b.T[k], T);
+      d.gap = noise(a.gap[k], b.gap[k], terms.gap);
+      d.ut = noise(a.ut[k], b.ut[k], terms.ut);
+      d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
+      d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
+      d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
+      d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
+      d.pressing = noise_factor * epsilon * terms.pressing;
+      d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
+    }
+  }
+}
+
+void Expander::consistent(const Forcing& forcing, double t, Point& point) const {
+  taylor_.expand(forcing, t, point.u, point.v, taylor_.massless() ? 1 : 0, 1.0, series_);
+  point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
+}
+
+/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows.
+void Expander::correct(const std::vector<double>& misses, Vector& x) const {
+  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return;
+  const Eigen::Index n = x.size();
+  Vector change = Vector::Zero(n + static_cast<Eigen::Index>(misses.size()));
+  for (std::size_t i = 0; i < misses.size(); ++i) change[n + static_cast<Eigen::Index>(i)] = misses[i];
+  taylor_.solve(change.data());
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (taylor_.kinds()[static_cast<std::size_t>(i)] == Taylor::Kind::massive) x[i] += change[i];
+}
+
+void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& u, Vector& v) const {
+  std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.law == Law::rigid && mode[c].state != State::open) {
+      places[2 * c] = -(contact.gap + contact.normal.dot(u));
+      rates[2 * c] = -contact.normal.dot(v);
+    }
+    if (mode[c].state == State::stick && contact.sticks_rigidly())
+      rates[2 * c + 1] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
+  }
+  correct(places, u);
+  correct(rates, v);
+  for (std::size_t c = 0; c < mode.size(); ++c) {  // one degree of freedom: exact, not to roundoff
+    const Contact& contact = model_.contacts[c];
+    if (contact.law == Law::rigid && mode[c].state != State::open && contact.normal.terms.size() == 1) {
+      const auto& [dof, factor] = contact.normal.terms[0];
+      u[dof] = (0.0 - contact.gap) / factor;
+      v[dof] = 0.0;
+    }
+    if (mode[c].state == State::stick && contact.sticks_rigidly() && contact.tangent.terms.size() == 1) {
+      const auto& [dof, factor] = contact.tangent.terms[0];
+      v[dof] = forcing.surface(c, t, 1) / factor;
+    }
+  }
+}
+
+}  // namespace signorini

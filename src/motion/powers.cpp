@@ -1,0 +1,30 @@
+#include "motion/powers.hpp"
+
+#include "contact/law.hpp"
+
+namespace signorini {
+
+void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const {
+  out[0] = forcing.power(t, point.v.data());
+  out[1] = structure_.damping_power(point.v.data());
+  for (std::size_t k = 0; k < mode.size(); ++k) {
+    const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
+    const int s = slip_sign(mode[k].state);
+    if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
+    out[2 + 3 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
+    out[3 + 3 * k] = -m.T * forcing.surface(k, t, 1);
+    out[4 + 3 * k] = -m.N;
+  }
+}
+
+void Powers::add(const double* powers, double factor, Works& works) const {
+  works.loads += factor * powers[0];
+  works.damping += factor * powers[1];
+  for (std::size_t k = 0; k < works.friction.size(); ++k) {
+    works.friction[k] += factor * powers[2 + 3 * k];
+    works.surface[k] += factor * powers[3 + 3 * k];
+    works.pressing[k] += factor * powers[4 + 3 * k];
+  }
+}
+
+}  // namespace signorini

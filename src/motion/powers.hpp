@@ -1,0 +1,55 @@
+// powers.hpp: the rates at which energy enters and leaves.
+//
+//   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
+//   friction  T p'  of each contact          surface   -T s'(t)  of each contact
+//
+// A contact that a dashpot has opened while g < 0 (inside) carries nothing: its dashpot takes what its
+// spring gives, kn (g_from^2 - g_to^2)/2, until the gap opens or it closes again.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "contact/mode.hpp"
+#include "linear/structure.hpp"
+#include "motion/point.hpp"
+
+namespace signorini {
+
+/// Integrals of the powers. friction, surface: one a contact; pressing: of -N, unit force * time.
+struct Works {
+  explicit Works(std::size_t contacts = 0)
+      : friction(contacts, 0.0), surface(contacts, 0.0), pressing(contacts, 0.0) {}
+  double loads = 0.0, damping = 0.0;
+  std::vector<double> friction, surface, pressing;
+
+  void clear() {
+    loads = damping = 0.0;
+    std::fill(friction.begin(), friction.end(), 0.0);
+    std::fill(surface.begin(), surface.end(), 0.0);
+    std::fill(pressing.begin(), pressing.end(), 0.0);
+  }
+};
+
+/// What the dashpot of a contact that is open and pressed in takes between two gaps.
+[[nodiscard]] inline double inside_loss(const Contact& contact, double gap_from, double gap_to) {
+  return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
+}
+
+class Powers {
+ public:
+  Powers(const Model& model, const Structure& structure) : model_(model), structure_(structure) {}
+
+  /// Numbers at one time: loads, damping, then friction, surface and -N of each contact.
+  [[nodiscard]] std::size_t count() const { return 2 + 3 * model_.contacts.size(); }
+  /// out[0 .. count())
+  void at(const Forcing& forcing, double t, const Mode& mode, const Point& point, double* out) const;
+  /// works += factor * powers
+  void add(const double* powers, double factor, Works& works) const;
+
+ private:
+  const Model& model_;
+  const Structure& structure_;
+};
+
+}  // namespace signorini

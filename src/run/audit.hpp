@@ -1,0 +1,61 @@
+// audit.hpp: how well a run satisfies its own conditions, and where its energy went.
+//
+//   (6)  g >= 0, N <= 0, g N = 0          g - N/kn in place of g for contact elements
+//   (7)  |T| <= T_U, T p' >= 0            T_U static in stick, kinetic in slip
+//   E_kin + E_el + E_contact + D_friction + D_damping + D_impact - W_loads - W_surface = const
+//
+// Contacts are observed after every step; works and dissipations are integrals of powers
+// (motion/powers.hpp) that the engine takes with its own accuracy.
+#pragma once
+
+#include "run/landings.hpp"
+
+namespace signorini {
+
+class Auditor {
+ public:
+  Auditor(const Model& model, const Structure& structure);
+
+  /// Adds what a stretch of the motion has brought and lost.
+  void add(const Works& works);
+
+  /// first: the states that were guessed before the decision.
+  void begin(const Decision& decision, const Mode& first, const Forcing& forcing);
+  /// Contacts at the end of a step or after an event.
+  void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
+  void equilibrium(double t, double residual);
+  /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
+  void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
+               bool load_jumps);
+  /// Energies now; also audits the balance.
+  Energy energy(double t, const Mode& mode, const Point& point);
+  [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
+                                     const ContactState& state, const Point& point) const;
+
+  void finish(Report& report, const Energy& last, double t, const Mode& mode) const;
+
+ private:
+  [[nodiscard]] ContactMotion motion(std::size_t k, const Forcing& forcing, double t,
+                                     const Point& point) const {
+    return motion_of(model_.contacts[k], k, forcing, t, point);
+  }
+
+  /// Kinetic, elastic and contact energy.
+  [[nodiscard]] Energy stored(const Mode& mode, const Point& point) const;
+
+  const Model& model_;
+  const Structure& structure_;
+  Audit audit_;
+  Energy work_;  // dissipations and works so far
+  std::vector<double> friction_;
+  struct Place {
+    double normal = 0.0, ut = 0.0;
+  };
+  std::vector<Place> at_start_;
+  std::vector<Peak> peaks_;
+  Landings landings_;
+  bool massless_;  // there are degrees of freedom that move at once
+  bool begun_ = false;
+};
+
+}  // namespace signorini

@@ -1,0 +1,85 @@
+#include <nlohmann/json.hpp>
+
+#include "contact/law.hpp"
+#include "result/reduction_json.hpp"
+#include "result/units_json.hpp"
+#include "study/check/check.hpp"
+
+namespace signorini {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json frequency_json(const Frequencies& frequencies) {
+  Json modes = Json::array();
+  for (const NaturalMode& mode : frequencies.modes)
+    modes.push_back({{"omega", mode.omega}, {"damping_ratio", mode.damping_ratio}});
+  return {{"free_motions", frequencies.free_motions},
+          {"unstable_motions", frequencies.unstable},
+          {"modes", std::move(modes)}};
+}
+
+Json contact_json(const Contact& contact, const ContactSample& sample) {
+  Json json = {{"name", contact.name}, {"law", to_string(contact.law)}, {"state", to_string(sample.state)}};
+  if (contact.law != Law::slider) json["gap"] = sample.gap;
+  json["ut"] = sample.ut;
+  json["N"] = sample.N;
+  json["T"] = sample.T;
+  json["limit"] = -contact.static_friction * sample.N;
+  return json;
+}
+
+}  // namespace
+
+std::string check_json(const Scene& scene, const Model& model, const CheckReport& report) {
+  const Units& u = model.units;
+  Json json = {{"scene", scene.file},         {"title", model.title},
+               {"units", units_json(u)},      {"degrees_of_freedom", report.degrees_of_freedom},
+               {"massless", report.massless}, {"static_start", model.static_start}};
+  if (report.mass) {
+    const MassFacts& m = *report.mass;
+    json["mass"] = {{"total", m.total},
+                    {"centre", {m.x, m.y}},
+                    {"weight", {m.total * scene.gravity[0], m.total * scene.gravity[1]}},
+                    {"moving", {m.moving_x, m.moving_y}}};
+  }
+  json["contacts"] = Json::array();
+  for (std::size_t k = 0; k < report.contacts.size(); ++k)
+    json["contacts"].push_back(contact_json(model.contacts[k], report.contacts[k]));
+  json["warnings"] = report.warnings;
+  json["free_motions"] = report.free_motions;
+  json["frequencies"] = {{"open", frequency_json(report.open)},
+                         {"closed", frequency_json(report.closed)},
+                         {"stuck", frequency_json(report.stuck)}};
+  json["damping"] = {{"alpha", model.alpha}, {"beta", model.beta}, {"omega1", model.omega1}};
+  json["stiffness"] = Json::array();
+  for (const StiffnessRatio& s : report.stiffness)
+    json["stiffness"].push_back({{"contact", model.contacts[static_cast<std::size_t>(s.contact)].name},
+                                 {"direction", s.normal ? "normal" : "tangential"},
+                                 {"contact_stiffness", s.stiffness},
+                                 {"rest", s.rest}});
+  json["discontinuities"] = Json::array();
+  for (const Discontinuity& d : report.discontinuities)
+    json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
+  json["run"] = {{"t_end", scene.run.t_end},
+                 {"rtol", report.settings.rtol},
+                 {"engine", report.settings.engine},
+                 {"engine_reason", report.settings.engine_reason},
+                 {"max_order", report.settings.max_order},
+                 {"max_order_reason", report.settings.max_order_reason},
+                 {"rows", report.rows},
+                 {"unknowns", report.cost.unknowns},
+                 {"omega_max", report.cost.omega_max}};
+  if (report.cost.steps > 0.0) {
+    json["run"]["steps_about"] = report.cost.steps;
+    json["run"]["seconds_about"] = report.cost.seconds;
+  }
+  Json columns = {"t"};
+  for (const Column& column : model.columns) columns.push_back(column.name);
+  json["columns"] = std::move(columns);
+  // Names come from files in any encoding; a byte that is not UTF-8 must not cost the answer.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace signorini

@@ -1,0 +1,95 @@
+// The start of the run, and why there is none.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/springs.hpp"
+#include "signorini/simulate.hpp"
+#include "study/check/check_parts.hpp"
+
+namespace signorini::checks {
+namespace {
+
+/// Keeps the contacts at t = 0 and stops the run after its first step.
+class FirstStep : public Recorder {
+ public:
+  void event(const Event& /*event*/) override {}
+  void sample(const Sample& sample) override {
+    if (contacts.empty() && sample.t == 0.0) contacts = sample.contacts;
+  }
+  bool progress(double /*t*/) override { return false; }
+
+  std::vector<ContactSample> contacts;
+};
+
+/// t on the degrees of freedom with mass: only there does a rigid hold act at once.
+Vector heavy_part(const Model& model, const Combination& tangent) {
+  Vector t = full(tangent, model.size());
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless) t[i] = 0.0;
+  return t;
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  return text;
+}
+
+}  // namespace
+
+std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
+  std::vector<std::string> names;  // of the columns of `held`
+  Eigen::MatrixXd held(model.size(), 0);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.law != Law::slider || c.tangential_stiffness || c.shear || !c.has_friction()) continue;
+    const Vector t = heavy_part(model, c.tangent);
+    if (t.norm() == 0.0)
+      return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "
+                                      "tangential_stiffness, or the point a mass",
+                                      c.name)};
+    if (held.cols() > 0) {
+      const Eigen::MatrixXd x = solve_dense(held.transpose() * held, held.transpose() * t);
+      if ((t - held * x).norm() <= 1e-12 * t.norm()) {
+        std::vector<std::string> group;
+        for (Eigen::Index j = 0; j < held.cols(); ++j)
+          if (std::abs(x(j, 0)) * held.col(j).norm() > 1e-9 * t.norm())
+            group.push_back(names[static_cast<std::size_t>(j)]);
+        group.push_back(c.name);
+        return Ambiguity{k, fmt::format("contacts {} stick rigidly to one and the same motion, so nobody can "
+                                        "say which of them carries the force; give them a "
+                                        "tangential_stiffness",
+                                        list(group))};
+      }
+    }
+    held.conservativeResize(Eigen::NoChange, held.cols() + 1);
+    held.rightCols(1) = t;
+    names.push_back(c.name);
+  }
+  return std::nullopt;
+}
+
+Start start(const Scene& scene, const Model& model) {
+  RunSpec run = scene.run;
+  run.output_dt.reset();
+  run.output_times = std::vector<double>{0.0, run.t_end};
+  run.frames.clear();
+  FirstStep recorder;
+  Report report = simulate(model, run, recorder);
+  if (report.outcome.kind == Outcome::Kind::stopped) {
+    const std::string reason =
+        fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);
+    if (const auto found = ambiguous_contacts(model)) {
+      const ContactSpec& contact = scene.contacts[found->contact];
+      throw SceneError(contact.place, "contacts." + contact.name, reason + ": " + found->reason);
+    }
+    throw SceneError({scene.file, 0, 0}, "", reason);
+  }
+  return {std::move(recorder.contacts), std::move(report.settings), std::move(report.warnings)};
+}
+
+}  // namespace signorini::checks

@@ -1,0 +1,169 @@
+// Mass, free motions, and contact springs against the structure.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+
+#include "model/assembly/contacts.hpp"
+#include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/modes/growth.hpp"
+#include "model/modes/held.hpp"
+#include "model/statics/null_motions.hpp"
+#include "model/statics/static_system.hpp"
+#include "study/check/check_parts.hpp"
+
+namespace signorini::checks {
+namespace {
+
+double mass_per_length(const Scene& scene, const std::string& section) {
+  return std::find_if(scene.sections.begin(), scene.sections.end(),
+                      [&](const Section& s) { return s.name == section; })
+      ->mass_per_length;
+}
+
+/// r M r for a unit translation of all degrees of freedom whose names end so.
+double moving_mass(const Model& model, std::string_view component) {
+  Vector r = Vector::Zero(model.size());
+  for (int i = 0; i < model.size(); ++i)
+    if (std::string_view(model.dofs[static_cast<std::size_t>(i)].displacement).ends_with(component))
+      r[i] = 1.0;
+  return r.dot(model.mass * r);
+}
+
+/// How many there are, and the first few of them: "3 nodes are ...: 'A', 'B', 'C'".
+std::string few(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < most; ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
+}
+
+DofMap map_of(const Scene& scene) {
+  return scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+}
+
+std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSample>& contacts) {
+  std::vector<bool> closed;
+  for (const ContactSample& c : contacts) closed.push_back(c.state != State::open);
+  closed.resize(model.contacts.size(), false);
+  return closed;
+}
+
+}  // namespace
+
+std::vector<std::string> loose_parts(const Scene& scene) {
+  std::set<std::string> nodes, sections;
+  for (const Member& m : scene.members) {
+    nodes.insert(m.nodes.begin(), m.nodes.end());
+    sections.insert(m.section);
+  }
+  for (const PointMass& m : scene.masses) nodes.insert(m.node);
+  for (const Spring& s : scene.springs) nodes.insert({s.node, s.against});
+  for (const ContactSpec& c : scene.contacts)
+    for (const auto& direction : {c.normal, c.tangent})
+      if (direction) nodes.insert(direction->node);
+  std::vector<std::string> loose, unused, result;
+  for (const Node& node : scene.nodes)
+    if (!nodes.contains(node.name)) loose.push_back(node.name);
+  for (const Section& section : scene.sections)
+    if (!sections.contains(section.name)) unused.push_back(section.name);
+  if (!loose.empty())
+    result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
+                                 loose.size() > 1 ? "s" : "", few(loose)));
+  if (!unused.empty())
+    result.push_back(
+        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", few(unused)));
+  return result;
+}
+
+std::string unstable_motion(const Scene& scene, const Model& model,
+                            const std::vector<ContactSample>& contacts) {
+  const Vector load = static_load(model.loads, model.size());
+  const DofMap map = map_of(scene);
+  const StaticProblem problem{model.stiffness, load, model.contacts, map};
+  const auto growth = fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
+  if (!growth) return "";
+  const std::string pace =
+      std::isfinite(growth->rate)
+          ? fmt::format("grows like exp({:.4g} t) where friction does not hold it", growth->rate)
+          : std::string("has no mass that could slow it down");
+  return fmt::format("the structure is unstable, its stiffness matrix has a negative eigenvalue: the {} {}",
+                     describe_motion(growth->motion, map), pace);
+}
+
+MassFacts mass_of(const Scene& scene, const Model& model) {
+  MassFacts facts;
+  double mx = 0.0, my = 0.0;
+  std::unordered_map<std::string, const Node*> nodes;
+  for (const Node& node : scene.nodes) nodes.emplace(node.name, &node);
+  const auto add = [&](double mass, double x, double y) {
+    facts.total += mass;
+    mx += mass * x;
+    my += mass * y;
+  };
+  for (const Member& member : scene.members)
+    for (std::size_t i = 0; i + 1 < member.nodes.size(); ++i) {
+      const Node &a = *nodes.at(member.nodes[i]), &b = *nodes.at(member.nodes[i + 1]);
+      add(mass_per_length(scene, member.section) * std::hypot(b.x - a.x, b.y - a.y), 0.5 * (a.x + b.x),
+          0.5 * (a.y + b.y));
+    }
+  for (const PointMass& point : scene.masses) {
+    const Node& node = *nodes.at(point.node);
+    add(point.mass, node.x, node.y);
+  }
+  if (facts.total > 0.0) facts.x = mx / facts.total, facts.y = my / facts.total;
+  facts.moving_x = moving_mass(model, ".ux");
+  facts.moving_y = moving_mass(model, ".uy");
+  return facts;
+}
+
+std::vector<std::string> free_motions(const Scene& scene, const Model& model,
+                                      const std::vector<ContactSample>& contacts) {
+  if (model.static_start) return model.statics.free_motions;
+  const DofMap map = map_of(scene);
+  const Vector load = static_load(model.loads, model.size());
+  const StaticProblem problem{model.stiffness, load, model.contacts, map};
+  const std::vector<bool> closed = closed_ones(model, contacts);
+  const SparseMatrix k = problem.matrix(closed);
+  std::vector<std::string> names;
+  for (const FreeMotion& f : hold_motions(problem, null_motions(k), closed, true)) {
+    // Without friction or a spring a contact follows the motion and does not hold it.
+    const Contact* holder = f.holder < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.holder)];
+    const bool holds =
+        holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
+    names.push_back(describe_motion(f.motion, map) +
+                    (holds ? fmt::format(", only held by friction at contact '{}'", holder->name)
+                     : has_negative_energy(k, f.motion) ? std::string(", unstable")
+                                                        : std::string(", held by nothing")));
+  }
+  return names;
+}
+
+std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
+  const std::vector<bool> all(model.contacts.size(), true);
+  const Holding holding = hold_contacts(model.contacts, all);
+  const SparseMatrix k = with_springs(model.stiffness, holding.springs);
+  if (holding.springs.empty() || null_motions(with_grips(k, holding.fixed)).cols() > 0) return {};
+  const HeldStructure structure(k, holding.fixed);
+  std::vector<StiffnessRatio> result;
+  const auto add = [&](std::size_t contact, bool normal, const Combination& form, double stiffness) {
+    const double give = form.dot(structure.solve(full(form, model.size())));
+    // 1 / give is the spring and the rest side by side; below roundoff there is no rest.
+    const double rest = give > 0.0 ? 1.0 / give - stiffness : 0.0;
+    result.push_back({static_cast<int>(contact), normal, stiffness, rest > 1e-12 * stiffness ? rest : 0.0});
+  };
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const Contact& c = model.contacts[i];
+    if (c.law == Law::compliant) add(i, true, c.normal, c.normal_stiffness);
+    if (c.tangential_stiffness && !c.tangent.terms.empty()) add(i, false, c.tangent, *c.tangential_stiffness);
+    if (c.shear) add(i, false, c.shear->body, c.shear->stiffness);
+  }
+  return result;
+}
+
+}  // namespace signorini::checks

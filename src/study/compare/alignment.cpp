@@ -1,0 +1,143 @@
+#include "study/compare/alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace signorini {
+
+namespace {
+
+bool same(const LoggedEvent& a, const LoggedEvent& b) {
+  return a.contact == b.contact && a.type == b.type && a.from == b.from && a.to == b.to;
+}
+
+/// One list while it is walked: what is taken, and each contact's next event.
+class Walk {
+ public:
+  Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)
+      : events_(events), t_end_(t_end), instant_(instant) {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      if (events[i].type == "time" || events[i].contact.empty() || events[i].t > t_end + instant) continue;
+      order_.push_back(i);
+      of_contact_[events[i].contact].push_back(i);
+    }
+    taken_.assign(events.size(), false);
+  }
+
+  [[nodiscard]] const LoggedEvent& operator[](std::size_t i) const { return events_[i]; }
+
+  /// The first that is not taken.
+  std::optional<std::size_t> first() {
+    while (head_ < order_.size() && taken_[order_[head_]]) ++head_;
+    if (head_ == order_.size()) return std::nullopt;
+    return order_[head_];
+  }
+
+  std::optional<std::size_t> next_of(const std::string& contact) {
+    const auto found = of_contact_.find(contact);
+    if (found == of_contact_.end()) return std::nullopt;
+    std::size_t& at = next_[contact];
+    while (at < found->second.size() && taken_[found->second[at]]) ++at;
+    if (at == found->second.size()) return std::nullopt;
+    return found->second[at];
+  }
+
+  void take(std::size_t i) { taken_[i] = true; }
+
+  /// Those that are not taken and stand before i.
+  std::vector<std::size_t> passed_over(std::size_t i) {
+    std::vector<std::size_t> list;
+    first();
+    for (std::size_t k = head_; k < order_.size() && order_[k] < i; ++k)
+      if (!taken_[order_[k]]) list.push_back(order_[k]);
+    return list;
+  }
+
+  [[nodiscard]] bool one_instant(std::size_t i, std::size_t j) const {
+    return std::abs(events_[i].t - events_[j].t) <= instant_;
+  }
+  [[nodiscard]] bool undetermined(std::size_t i, std::size_t j) const {
+    return std::abs(events_[i].t - events_[j].t) <=
+           instant_ + events_[i].uncertainty + events_[j].uncertainty;
+  }
+  /// It may lie beyond the end as well, where the other run did not look.
+  [[nodiscard]] bool at_end(std::size_t i) const {
+    return events_[i].t >= t_end_ - instant_ - events_[i].uncertainty;
+  }
+
+  [[nodiscard]] std::size_t remaining() {
+    first();
+    return static_cast<std::size_t>(std::count_if(order_.begin() + static_cast<std::ptrdiff_t>(head_),
+                                                  order_.end(), [&](std::size_t i) { return !taken_[i]; }));
+  }
+
+ private:
+  const std::vector<LoggedEvent>& events_;
+  double t_end_, instant_;
+  std::vector<std::size_t> order_;
+  std::map<std::string, std::vector<std::size_t>> of_contact_;
+  std::map<std::string, std::size_t> next_;
+  std::vector<bool> taken_;
+  std::size_t head_ = 0;
+};
+
+enum class Order { same, one_instant, undetermined, different };
+
+/// May `event` of the reference be taken together with `partner`, although `other` has more before it?
+Order order_of(Walk& reference, Walk& other, std::size_t event, std::size_t partner) {
+  Order order = Order::same;
+  for (const std::size_t before : other.passed_over(partner)) {
+    const auto later = reference.next_of(other[before].contact);
+    const bool known = later && same(reference[*later], other[before]);
+    if (other.one_instant(before, partner) || (known && reference.one_instant(event, *later))) {
+      order = std::max(order, Order::one_instant);
+    } else if (known && (other.undetermined(before, partner) || reference.undetermined(event, *later))) {
+      order = std::max(order, Order::undetermined);
+    } else {
+      return Order::different;
+    }
+  }
+  return order;
+}
+
+}  // namespace
+
+std::string LoggedEvent::name() const { return contact + " " + type + ", " + from + " -> " + to; }
+
+Alignment align(const std::vector<LoggedEvent>& reference, const std::vector<LoggedEvent>& other,
+                const AlignmentSettings& settings) {
+  const double roundoff = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(settings.t_end);
+  const double instant = std::max(settings.instant, roundoff);
+  Walk a(reference, settings.t_end, instant), b(other, settings.t_end, instant);
+  Alignment result;
+  std::optional<std::size_t> event;
+  while ((event = a.first())) {
+    const auto partner = b.next_of(a[*event].contact);
+    if (!partner || !same(a[*event], b[*partner])) {
+      if (partner || !a.at_end(*event)) break;
+      a.take(*event);
+      continue;
+    }
+    const Order order = order_of(a, b, *event, *partner);
+    if (order == Order::different) break;
+    const bool swapped = order == Order::undetermined;
+    result.pairs.push_back({*event, *partner, swapped});
+    result.swapped += swapped ? 1 : 0;
+    a.take(*event);
+    b.take(*partner);
+  }
+  std::optional<std::size_t> rest = b.first();
+  while (!event && rest && b.at_end(*rest)) {
+    b.take(*rest);
+    rest = b.first();
+  }
+  if (!event && !rest) return result;
+  const double never = std::numeric_limits<double>::infinity();
+  result.split = Alignment::Split{std::min(event ? a[*event].t : never, rest ? b[*rest].t : never), event,
+                                  rest, std::max(a.remaining(), b.remaining())};
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,247 @@
+#include "study/compare/comparison.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "study/compare/joined_tables.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool ends_with(const std::string& text, const char* end) { return text.ends_with(end); }
+
+/// Which quantity a column of history.csv is part of.
+Deviation& quantity(Comparison& c, const std::string& column) {
+  if (ends_with(column, ".rz")) return c.rotation;
+  if (ends_with(column, ".wz")) return c.angular_velocity;
+  if (ends_with(column, ".vx") || ends_with(column, ".vy") || ends_with(column, ".v")) return c.velocity;
+  return c.displacement;
+}
+
+struct CommonColumn {
+  std::string name;
+  std::size_t a, b;
+  Deviation* quantity;
+};
+
+std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b, Comparison& c,
+                                         const char* table) {
+  std::vector<CommonColumn> columns;
+  std::vector<std::string> alone;
+  for (std::size_t i = 1; i < a.header().size(); ++i) {
+    const std::string& name = a.header()[i];
+    const auto found = std::find(b.header().begin(), b.header().end(), name);
+    if (found == b.header().end()) {
+      alone.push_back(name);
+    } else {
+      columns.push_back({name, i, static_cast<std::size_t>(found - b.header().begin()), &quantity(c, name)});
+    }
+  }
+  for (std::size_t i = 1; i < b.header().size(); ++i)
+    if (std::find(a.header().begin(), a.header().end(), b.header()[i]) == a.header().end())
+      alone.push_back(b.header()[i]);
+  if (!alone.empty()) {
+    c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
+                                  count_of(alone.size(), "column"), alone[0]));
+  }
+  return columns;
+}
+
+/// A table of differences over time, where one is wanted.
+class Series {
+ public:
+  Series(const ComparisonSettings& settings, const char* kind, std::initializer_list<const char*> columns) {
+    if (settings.folder.empty()) return;
+    file_ = std::make_unique<CsvFile>(settings.folder / (std::string(kind) + settings.slug + ".csv"));
+    block_.text("t");
+    for (const char* column : columns) block_.text(column);
+    block_.end_row();
+    file_->write(block_);
+  }
+  void row(double t, std::initializer_list<double> values) {
+    if (!file_) return;
+    block_.number(t);
+    for (const double value : values) block_.number(value);
+    block_.end_row();
+    constexpr std::size_t much = 1 << 16;
+    if (block_.str().size() > much) file_->write(block_);
+  }
+  void close() {
+    if (file_) file_->write(block_);
+  }
+
+ private:
+  std::unique_ptr<CsvFile> file_;
+  CsvBlock block_;
+};
+
+void compare_motion(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
+                    double split, Comparison& c) {
+  TimeJoin join(a.figures.directory / "history.csv", b.figures.directory / "history.csv");
+  const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), c, "history.csv");
+  for (const CommonColumn& column : columns) c.columns.emplace_back(column.name, Deviation());
+  Series series(settings, "motion-", {"displacement", "velocity"});
+  while (join.next() && join.t() <= settings.t_end) {
+    double displacement = 0.0, velocity = 0.0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const CommonColumn& column = columns[i];
+      const double difference = std::abs(join.a().number(column.a) - join.b().number(column.b));
+      column.quantity->take(difference, join.t(), column.name, split);
+      c.columns[i].second.take(difference, join.t(), column.name, split);
+      if (column.quantity == &c.displacement) displacement = std::max(displacement, difference);
+      if (column.quantity == &c.velocity) velocity = std::max(velocity, difference);
+    }
+    series.row(join.t(), {displacement, velocity});
+    ++c.common_times;
+  }
+  series.close();
+}
+
+void compare_energy(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
+                    double split, Comparison& c) {
+  TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv");
+  Comparison ignored;  // its columns have no other quantity
+  std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
+  std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
+  while (join.next() && join.t() <= settings.t_end) {
+    for (const CommonColumn& column : columns)
+      c.energy.take(std::abs(join.a().number(column.a) - join.b().number(column.b)), join.t(), column.name,
+                    split);
+  }
+}
+
+/// Whether an event of either run lies between two times; both must not decrease from call to call.
+class EventsBetween {
+ public:
+  EventsBetween(const ComparedRun& a, const ComparedRun& b) {
+    for (const ComparedRun* run : {&a, &b})
+      for (const LoggedEvent& event : run->events) times_.push_back(event.t);
+    std::sort(times_.begin(), times_.end());
+  }
+  bool any(double from, double to) {
+    while (at_ < times_.size() && times_[at_] < from) ++at_;
+    return at_ < times_.size() && times_[at_] <= to;
+  }
+
+ private:
+  std::vector<double> times_;
+  std::size_t at_ = 0;
+};
+
+void compare_forces(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
+                    double split, Comparison& c) {
+  ContactRows rows_a(a.figures.directory / "contacts.csv"), rows_b(b.figures.directory / "contacts.csv");
+  EventsBetween events(a, b);
+  Series series(settings, "forces-", {"N", "T"});
+  std::map<std::string, std::pair<Deviation, Deviation>> by_contact;
+
+  // A time is judged when the next one is known: is there an event from the time before up to the next?
+  struct Waiting {
+    double t, before;
+    Greatest greatest;
+    bool any = false;
+  };
+  std::optional<Waiting> waiting;
+  const auto judge = [&](double next) {
+    if (!waiting || !waiting->any || events.any(waiting->before, next)) return;
+    c.force_away.take(waiting->greatest.value, waiting->t, waiting->greatest.where, split);
+  };
+  double before = 0.0;
+  bool more = rows_a.next() && rows_b.next();
+  while (more) {
+    if (!same_time(rows_a.t(), rows_b.t())) {
+      more = (rows_a.t() < rows_b.t() ? rows_a : rows_b).next();
+      continue;
+    }
+    const double t = rows_a.t();
+    if (t > settings.t_end) break;
+    judge(t);
+    waiting = Waiting{t, before, {}, false};
+    before = t;
+    double N = 0.0, T = 0.0;
+    for (const auto& [name, forces] : rows_a.forces()) {
+      const auto found = rows_b.forces().find(name);
+      if (found == rows_b.forces().end()) continue;
+      const double dN = std::abs(forces.N - found->second.N), dT = std::abs(forces.T - found->second.T);
+      by_contact[name].first.take(dN, t, name + ".N", split);
+      by_contact[name].second.take(dT, t, name + ".T", split);
+      for (const auto& [difference, what] : {std::pair(dN, ".N"), std::pair(dT, ".T")}) {
+        c.force.take(difference, t, name + what, split);
+        waiting->greatest.take(difference, t, name + what);
+      }
+      waiting->any = true;
+      N = std::max(N, dN);
+      T = std::max(T, dT);
+    }
+    series.row(t, {N, T});
+    more = rows_a.next() && rows_b.next();
+  }
+  judge(before);
+  series.close();
+  for (const auto& contact : a.figures.facts.contacts) {
+    const auto found = by_contact.find(contact.name);
+    if (found == by_contact.end()) continue;
+    c.columns.emplace_back(contact.name + ".N", found->second.first);
+    c.columns.emplace_back(contact.name + ".T", found->second.second);
+  }
+}
+
+void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
+  const auto has = [](const ComparedRun& run, const std::string& name) {
+    const auto& list = run.figures.facts.contacts;
+    return std::any_of(list.begin(), list.end(), [&](const auto& contact) { return contact.name == name; });
+  };
+  for (const auto& [one, two] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const auto& contact : one->figures.facts.contacts)
+      if (!has(*two, contact.name))
+        c.notes.push_back(fmt::format("contact \"{}\" is in {} only", contact.name, one->figures.name));
+}
+
+}  // namespace
+
+ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name) {
+  ComparedRun run{read_run_figures(directory), read_events(directory)};
+  run.figures.name = name;
+  return run;
+}
+
+Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
+                        const ComparisonSettings& settings) {
+  Comparison c;
+  c.name = other.figures.name;
+  c.t_end = std::min({reference.figures.t, other.figures.t, settings.t_end});
+  if (reference.figures.t != other.figures.t && c.t_end < settings.t_end) {
+    const bool reference_first = reference.figures.t < other.figures.t;
+    const RunFigures& shorter = reference_first ? reference.figures : other.figures;
+    const RunFigures& longer = reference_first ? other.figures : reference.figures;
+    c.notes.push_back(fmt::format("compared up to t = {:.9g}, the end of {}; {} goes on to {:.9g}", c.t_end,
+                                  shorter.name, longer.name, longer.t));
+  }
+  note_contacts(reference, other, c);
+  c.alignment = align(reference.events, other.events, {c.t_end, settings.instant});
+  const double split = c.alignment.split ? c.alignment.split->t : never;
+  for (const AlignedPair& pair : c.alignment.pairs) {
+    const LoggedEvent& event = reference.events[pair.reference];
+    c.event_time.take(std::abs(other.events[pair.other].t - event.t), event.t, event.name(), never);
+  }
+  compare_motion(reference, other, settings, split, c);
+  compare_forces(reference, other, settings, split, c);
+  compare_energy(reference, other, settings, split, c);
+  if (c.common_times < 2 && c.t_end > 0.0) {
+    c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
+                                  c.common_times, c.common_times == 1 ? "time is" : "times are"));
+  }
+  return c;
+}
+
+}  // namespace signorini

@@ -1,0 +1,58 @@
+// comparison.hpp: two runs of one scene, side by side.
+//
+//   Comparison c = compare_runs(read_run_figures("ida"), read_run_figures("exact"), settings);
+//
+// Events are aligned one by one (alignment.hpp); tables are compared row by row at the output times that
+// both runs have, and column by column at the columns that both have. Everything is read as a stream: runs
+// may be larger than memory. Units are those of the scene.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/compare/alignment.hpp"
+#include "study/compare/greatest.hpp"
+#include "study/compare/run_figures.hpp"
+
+namespace signorini {
+
+/// A run's events beside its figures.
+struct ComparedRun {
+  RunFigures figures;
+  std::vector<LoggedEvent> events;
+};
+
+/// Errors: FileError.
+[[nodiscard]] ComparedRun read_compared_run(const std::filesystem::path& directory, const std::string& name);
+
+struct ComparisonSettings {
+  double instant = 0.0;                                    ///< AlignmentSettings::instant
+  double t_end = std::numeric_limits<double>::infinity();  ///< what lies beyond is not compared
+  /// Where the differences over time are written (for pictures): motion-SLUG.csv, forces-SLUG.csv; none if
+  /// empty.
+  std::filesystem::path folder;
+  std::string slug;
+};
+
+struct Comparison {
+  std::string name;    ///< of the run that is compared with the reference
+  double t_end = 0.0;  ///< up to where both runs are there
+  Alignment alignment;
+  Deviation event_time;
+  Deviation displacement, rotation, velocity, angular_velocity;
+  Deviation force;       ///< N and T of the contacts
+  Deviation force_away;  ///< the same, at output times with no event of either run up to their neighbours
+  Deviation energy;      ///< stored, lost and done, each by itself
+  std::vector<std::pair<std::string, Deviation>> columns;  ///< of history.csv; then NAME.N and NAME.T
+  std::size_t common_times = 0;
+  std::vector<std::string> notes;  ///< what could not be compared, one sentence each
+};
+
+/// Errors: FileError; of the settings' folder too.
+[[nodiscard]] Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
+                                      const ComparisonSettings& settings = {});
+
+}  // namespace signorini

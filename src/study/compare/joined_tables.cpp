@@ -1,0 +1,39 @@
+#include "study/compare/joined_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+
+bool same_time(double a, double b) {
+  constexpr double roundoff = 1e-13;  // of grids that were summed up rather than multiplied
+  return std::abs(a - b) <= roundoff * std::max(std::abs(a), std::abs(b));
+}
+
+bool TimeJoin::next() {
+  if (!a_.next() || !b_.next()) return false;
+  for (;;) {
+    const double ta = a_.number(0), tb = b_.number(0);
+    t_ = ta;
+    if (same_time(ta, tb)) return true;
+    if (!(ta < tb ? a_ : b_).next()) return false;
+  }
+}
+
+ContactRows::ContactRows(const std::filesystem::path& path)
+    : reader_(path), contact_(reader_.column("contact")), N_(reader_.column("N")), T_(reader_.column("T")) {
+  pending_ = reader_.next();
+}
+
+bool ContactRows::next() {
+  if (!pending_) return false;
+  t_ = reader_.number(0);
+  forces_.clear();
+  do {
+    forces_[reader_.cell(contact_)] = {reader_.number(N_), reader_.number(T_)};
+    pending_ = reader_.next();
+  } while (pending_ && reader_.number(0) == t_);
+  return true;
+}
+
+}  // namespace signorini

@@ -1,0 +1,42 @@
+// run_figures.hpp: what a run directory says about its run, for tables of several runs.
+//
+//   RunFigures run = read_run_figures("pipeline-run");   std::vector<LoggedEvent> events =
+//   read_events(run.directory);
+//
+// Runs that stopped early, were interrupted or killed have fewer figures: those are absent.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/summary.hpp"
+#include "study/compare/alignment.hpp"
+
+namespace signorini {
+
+struct RunFigures {
+  std::string name;  ///< in tables: the engine, or the directory as given
+  std::filesystem::path directory;
+  RunFacts facts;              ///< outcome: done, stopped, interrupted, running
+  std::string engine, reason;  ///< reason: empty when done
+  double t = 0.0;              ///< reached; the last output time where the summary does not say
+  std::optional<double> wall_time;
+  std::optional<long> steps, factorisations, solves, restarts;
+  std::map<std::string, long> events_by_type;
+  std::map<std::string, double> audit;  ///< relative violations, by the names of summary.json
+  std::map<std::string, double> friction_work;
+  std::optional<double> friction, damping;  ///< dissipated in all
+
+  [[nodiscard]] bool done() const { return facts.outcome == "done"; }
+};
+
+/// Errors: FileError where there is no run.
+[[nodiscard]] RunFigures read_run_figures(const std::filesystem::path& directory);
+
+/// The rows of events.csv. Errors: FileError.
+[[nodiscard]] std::vector<LoggedEvent> read_events(const std::filesystem::path& directory);
+
+}  // namespace signorini

@@ -1,0 +1,275 @@
+#include "study/speed/work_files.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/number.hpp"
+#include "base/version.hpp"
+#include "result/csv.hpp"
+#include "result/units_json.hpp"
+#include "study/speed/frontier.hpp"
+
+namespace signorini {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The quantities of tables for people; files have all.
+constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
+/// All, in the order of limits.hpp.
+constexpr const char* all[] = {"event_time",       "displacement", "rotation",   "velocity",
+                               "angular_velocity", "force",        "force_away", "energy"};
+
+std::string unit_of(const WorkReport& report, const std::string& quantity) {
+  for (const WorkRow& row : report.rows)
+    if (const WorkError* error = row.error(quantity)) return error->unit;
+  return "";
+}
+
+std::vector<std::string> shown_quantities(const WorkReport& report) {
+  std::vector<std::string> list;
+  for (const char* name : shown)
+    if (!unit_of(report, name).empty()) list.emplace_back(name);
+  return list;
+}
+
+std::string heading(const std::string& quantity, const std::string& unit) {
+  std::string name = quantity == "force_away" ? "force away" : quantity;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + " [" + unit + "]";
+}
+
+std::string sequence(const WorkRow& row) {
+  if (!row.events_of_reference) return "";
+  if (row.split.empty() && static_cast<long>(row.alike) == *row.events_of_reference)
+    return fmt::format("all {}", row.alike);
+  const long more = *row.events - static_cast<long>(row.alike);
+  if (more > 0 && static_cast<long>(row.alike) == *row.events_of_reference)
+    return fmt::format("{} and {} more", row.alike, more);
+  return fmt::format("{} of {}", row.alike, *row.events_of_reference);
+}
+
+ErrorRange range_of(const WorkReport& report, const std::string& quantity) {
+  const auto found = report.range.find(quantity);
+  return found == report.range.end() ? ErrorRange() : found->second;
+}
+
+template <class Value>
+std::optional<double> as_number(const std::optional<Value>& value) {
+  if (!value) return std::nullopt;
+  return static_cast<double>(*value);
+}
+
+template <class Value>
+Json as_json(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+
+std::string study_csv(const WorkReport& report) {
+  CsvBlock block;
+  for (const char* name : {"run", "engine", "setting", "line", "reference", "outcome", "reason", "t",
+                           "events", "events_of_reference", "alike", "complete", "t_split", "split"})
+    block.text(name);
+  for (const char* name : all) block.text(name);
+  for (const char* name : {"displacement_whole_run", "wall_time", "wall_time_max", "repeats", "steps",
+                           "factorisations", "solves", "restarts", "energy_balance"})
+    block.text(name);
+  block.end_row();
+  for (const WorkRow& row : report.rows) {
+    const bool ran = row.t.has_value();
+    block.text(row.point.name()).text(row.point.engine).text(row.point.setting()).text(row.point.line());
+    block.text(row.reference ? "true" : "false").text(row.outcome).text(row.reason).number(row.t);
+    block.number(as_number(row.events)).number(as_number(row.events_of_reference));
+    block.number(ran ? std::optional(static_cast<double>(row.alike)) : std::nullopt);
+    block.text(row.complete() ? "true" : "false").number(row.t_split).text(row.split);
+    for (const char* name : all) {
+      const WorkError* error = row.error(name);
+      block.number(error ? std::optional(error->value) : std::nullopt);
+    }
+    const WorkError* displacement = row.error("displacement");
+    block.number(displacement ? std::optional(displacement->whole) : std::nullopt);
+    block.number(row.wall_time());
+    block.number(row.wall_times.empty()
+                     ? std::nullopt
+                     : std::optional(*std::max_element(row.wall_times.begin(), row.wall_times.end())));
+    block.number(static_cast<double>(row.wall_times.size()));
+    for (const auto& count : {row.steps, row.factorisations, row.solves, row.restarts})
+      block.number(as_number(count));
+    block.number(row.balance).end_row();
+  }
+  return block.str();
+}
+
+Json row_json(const WorkRow& row) {
+  Json errors = Json::object();
+  for (const WorkError& error : row.errors)
+    errors[error.quantity] = {{"value", error.value},
+                              {"unit", error.unit},
+                              {"t", error.t},
+                              {"where", error.where},
+                              {"whole_run", error.whole}};
+  Json json = {{"run", row.point.name()},
+               {"engine", row.point.engine},
+               {"setting", row.point.setting()},
+               {"directory", row.directory.string()},
+               {"outcome", row.outcome},
+               {"reason", row.reason},
+               {"t", as_json(row.t)},
+               {"reference", row.reference},
+               {"events", as_json(row.events)},
+               {"alike", row.alike},
+               {"complete", row.complete()}};
+  json["split"] = row.t_split ? Json{{"t", *row.t_split}, {"how", row.split}} : Json();
+  json["errors"] = std::move(errors);
+  json["wall_times"] = row.wall_times;
+  json["steps"] = as_json(row.steps);
+  json["factorisations"] = as_json(row.factorisations);
+  json["solves"] = as_json(row.solves);
+  json["restarts"] = as_json(row.restarts);
+  json["energy_balance"] = as_json(row.balance);
+  return json;
+}
+
+/// What Markdown would take for markup.
+std::string plain_markdown(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("|*_<`\\[]").find(c) != std::string_view::npos) result += '\\';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result;
+}
+
+std::string markdown_table(const WorkTable& table) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    std::string text = "|";
+    for (const std::string& content : cells) text += " " + plain_markdown(content) + " |";
+    return text + "\n";
+  };
+  std::string text = line(table.header) + "|";
+  for (const bool right : table.right) text += right ? "---:|" : "---|";
+  text += "\n";
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string study_markdown(const WorkReport& report, bool picture) {
+  std::string text = "# " + plain_markdown(report.title.empty() ? report.scene : report.title) + "\n\n";
+  text += fmt::format("`{}`: {}.\n{}.\n\n", report.scene, work_circumstances(report), work_reference(report));
+  for (const std::string& sentence : work_conclusions(report)) text += plain_markdown(sentence) + "\n";
+  text += "\n" + markdown_table(work_table(report)) + "\n";
+  if (picture) text += "![error and time](plots/work-precision.png)\n\n";
+  for (const std::string& note : report.notes) text += "- " + plain_markdown(note) + "\n";
+  for (const std::string& failure : work_failures(report)) text += "- " + plain_markdown(failure) + "\n";
+  return text;
+}
+
+}  // namespace
+
+WorkTable work_table(const WorkReport& report) {
+  WorkTable table{{"engine", "setting", "outcome", "events alike"}, {false, false, false, true}, {}};
+  const std::vector<std::string> columns = shown_quantities(report);
+  for (const std::string& name : columns) table.header.push_back(heading(name, unit_of(report, name)));
+  table.header.insert(table.header.end(), {"wall [s]", "steps", "us/step"});
+  table.right.resize(table.header.size(), true);
+  for (const WorkRow& row : report.rows) {
+    std::vector<std::string> cells = {row.point.engine, row.point.setting(), row.outcome, sequence(row)};
+    for (const std::string& name : columns) {
+      const WorkError* error = row.error(name);
+      cells.push_back(error ? fmt::format("{:.1e}", error->value) : "");
+    }
+    const auto wall = row.wall_time();
+    cells.push_back(wall ? fmt::format("{:.3g}", *wall) : "");
+    cells.push_back(row.steps ? std::to_string(*row.steps) : "");
+    cells.push_back(wall && row.steps.value_or(0) > 0
+                        ? fmt::format("{:.2f}", 1e6 * *wall / static_cast<double>(*row.steps))
+                        : "");
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+std::vector<std::string> work_conclusions(const WorkReport& report) {
+  std::vector<std::string> list;
+  for (const char* name : {"event_time", "displacement"})
+    if (!unit_of(report, name).empty())
+      list.push_back(frontier_sentence(report.rows, name, range_of(report, name)));
+  return list;
+}
+
+std::vector<std::string> work_failures(const WorkReport& report) {
+  std::vector<std::string> list;
+  for (const WorkRow& row : report.rows) {
+    const std::string name = row.point.name();
+    if (row.outcome == "refused") {
+      const std::string sentence = fmt::format("{}: refused: {}", row.point.line(), row.reason);
+      if (std::find(list.begin(), list.end(), sentence) == list.end()) list.push_back(sentence);
+    } else if (row.outcome != "done") {
+      list.push_back(
+          fmt::format("{}: {} at t = {:.9g}: {}", name, row.outcome, row.t.value_or(0.0), row.reason));
+    }
+    if (!row.t_split) continue;
+    list.push_back(fmt::format("{}: parts at t = {:.9g}: {}", name, *row.t_split, row.split));
+    if (const WorkError* error = row.error("displacement"))
+      list.back() += fmt::format("; displacement over the whole run: {:.1e}", error->whole);
+  }
+  return list;
+}
+
+std::string work_circumstances(const WorkReport& report) {
+  return fmt::format("{}, {}; {}, {}; Signorini {}, SUNDIALS {}, {}; least of {} without output",
+                     count_of(report.unknowns, "dof"), count_of(report.contacts, "contact"),
+                     report.machine.processor, count_of(report.machine.cores, "core"), version,
+                     sundials_version, report.machine.compiler, count_of(report.repeats, "repeat"));
+}
+
+std::string work_reference(const WorkReport& report) {
+  if (report.reference.empty()) return "no reference";
+  std::string text = "errors against " + report.reference;
+  if (report.compared_until < report.t_end)
+    text += fmt::format(" up to t = {:.9g} of {:.9g}", report.compared_until, report.t_end);
+  return text;
+}
+
+std::string work_json(const WorkReport& report) {
+  Json json = {
+      {"scene", report.scene},
+      {"title", report.title},
+      {"units", units_json(report.units)},
+      {"t_end", report.t_end},
+      {"degrees_of_freedom", report.unknowns},
+      {"contacts", report.contacts},
+      {"machine", {{"processor", report.machine.processor}, {"cores", report.machine.cores}}},
+      {"versions",
+       {{"signorini", version}, {"sundials", sundials_version}, {"compiler", report.machine.compiler}}},
+      {"reference", report.reference},
+      {"compared_until", report.compared_until},
+      {"interrupted", report.interrupted},
+      {"notes", report.notes}};
+  json["known_to"] = Json::object();
+  for (const auto& [name, range] : report.range) json["known_to"][name] = range.floor;
+  json["rows"] = Json::array();
+  for (const WorkRow& row : report.rows) json["rows"].push_back(row_json(row));
+  json["frontier"] = Json::object();
+  for (const std::string& name : shown_quantities(report)) {
+    Json names = Json::array();
+    for (const std::size_t i : frontier(report.rows, name, range_of(report, name)))
+      names.push_back(report.rows[i].point.name());
+    json["frontier"][name] = std::move(names);
+  }
+  json["conclusions"] = work_conclusions(report);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_work(const std::filesystem::path& directory, const WorkReport& report) {
+  write_file(directory / "study.csv", study_csv(report));
+  write_file(directory / "study.json", work_json(report));
+  write_file(directory / "study.md",
+             study_markdown(report, std::filesystem::exists(directory / "plots" / "work-precision.png")));
+}
+
+}  // namespace signorini

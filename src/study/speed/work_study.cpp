@@ -1,0 +1,320 @@
+#include "study/speed/work_study.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/file_name.hpp"
+#include "base/number.hpp"
+#include "result/csv_read.hpp"
+#include "study/speed/decades.hpp"
+#include "study/speed/fingerprint.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Of masses: more than one unit in the last place, less than anything that is known of a structure.
+constexpr double last_digits = 1e-15;
+
+/// The reader takes no tolerance below.
+constexpr double tightest_rtol = 1e-14;
+
+/// A run counts as a reference for so many time limits.
+constexpr double patience = 10.0;
+
+/// Folders are numbered: names that differ in odd characters only stay apart.
+std::string folder_name(std::size_t number, const std::string& name) {
+  return fmt::format("{:03}-{}", number, file_name(name, 80, ".", '-'));
+}
+
+std::vector<Override> capture_velocities(const Scene& scene, const Model& model) {
+  std::vector<Override> list;
+  const double velocity = scene.run.atol.velocity.value_or(scene.run.rtol * model.scales.velocity);
+  for (const Contact& contact : model.contacts)
+    if (contact.law == Law::rigid && !contact.capture_velocity)
+      list.push_back({"contacts." + contact.name + ".capture_velocity", shortest(velocity)});
+  return list;
+}
+
+/// Of a column of displacements, from its least to its greatest value.
+double greatest_motion(const fs::path& directory) {
+  CsvReader history(directory / "history.csv");
+  struct Column {
+    std::size_t index;
+    double least, greatest;
+  };
+  std::vector<Column> columns;
+  for (std::size_t i = 1; i < history.header().size(); ++i) {
+    const std::string& name = history.header()[i];
+    if (name.ends_with(".ux") || name.ends_with(".uy") || name.ends_with(".u"))
+      columns.push_back(
+          {i, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+  }
+  while (history.next())
+    for (Column& column : columns) {
+      column.least = std::min(column.least, history.number(column.index));
+      column.greatest = std::max(column.greatest, history.number(column.index));
+    }
+  double motion = 0.0;
+  for (const Column& column : columns) motion = std::max(motion, column.greatest - column.least);
+  return motion;
+}
+
+/// A time before t with no event of either run near it.
+double quiet_before(double t, const std::vector<LoggedEvent>& a, const std::vector<LoggedEvent>& b) {
+  constexpr double near = 1e-6;  // of t
+  std::vector<double> times = {0.0};
+  for (const auto* events : {&a, &b})
+    for (const LoggedEvent& event : *events)
+      if (event.t < t) times.push_back(event.t);
+  std::sort(times.begin(), times.end(), std::greater<>());
+  double after = t;
+  for (const double before : times) {
+    if (after - before > near * t) return 0.5 * (before + after);
+    after = before;
+  }
+  return 0.0;
+}
+
+/// The reader names what it was told as --set; in a row the setting speaks for itself.
+std::string without_option(const std::string& message) {
+  const std::string option = "--set ";
+  return message.starts_with(option) ? message.substr(option.size()) : message;
+}
+
+}  // namespace
+
+WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
+  const Scene scene = read_scene(request_.scene, request_.settings(""));
+  const Model model = build_model(scene);
+  fingerprint_ = fingerprint_of(scene.resolved);
+  held_ = capture_velocities(scene, model);
+  report_.scene = request_.scene;
+  report_.title = scene.title;
+  report_.units = scene.units;
+  report_.machine = this_machine();
+  report_.t_end = report_.compared_until = scene.run.t_end;
+  report_.repeats = request_.repeats;
+  report_.unknowns = model.dofs.size();
+  report_.contacts = model.contacts.size();
+  if (!held_.empty())
+    report_.notes.push_back(fmt::format("rigid contacts without a capture_velocity have {} {}/{} in all runs",
+                                        held_.front().value, scene.units.length, scene.units.time));
+}
+
+WorkStudy::Prepared WorkStudy::prepare(const WorkPoint& point) const {
+  if (fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
+    throw FileError(request_.scene, "has changed while the study ran; its runs cannot be compared");
+  std::vector<Override> changes = held_;
+  for (const auto& more : {request_.settings(point.engine), point.changes()})
+    changes.insert(changes.end(), more.begin(), more.end());
+  Scene scene = read_scene(request_.scene, changes);
+  Model model = build_model(scene);
+  return {std::move(scene), std::move(model)};
+}
+
+/// Each run is recorded once. Errors: SceneError, UsageError of a varied key, FileError.
+const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkLimits& limits) {
+  const auto found = recorded_.find(point.name());
+  if (found != recorded_.end()) return found->second;
+  const Prepared run = prepare(point);
+  Recorded recorded;
+  std::size_t number = recorded_.size();
+  do  // a folder that holds what is not ours has been left
+    recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
+  while (fs::exists(recorded.directory));
+  const WorkOutcome outcome = record_run(run.scene, run.model, recorded.directory, limits);
+  report_.interrupted = report_.interrupted || outcome.interrupted;
+  recorded.too_slow = outcome.too_slow;
+  return recorded_.emplace(point.name(), std::move(recorded)).first->second;
+}
+
+bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
+  WorkLimits limits = request_.limits;
+  limits.seconds *= patience;
+  try {
+    const Recorded& recorded = record(point, limits);
+    if (recorded.too_slow) {
+      why_not = fmt::format("it takes longer than {:g} s", limits.seconds);
+      return false;
+    }
+    ComparedRun run = read_compared_run(recorded.directory, point.name());
+    if (!run.figures.done())
+      why_not = fmt::format("it {} at t = {:.9g}: {}", run.figures.facts.outcome, run.figures.t,
+                            run.figures.reason);
+    if (!report_.reference.empty() && !(run.figures.t > reference_.figures.t)) return false;
+    reference_ = std::move(run);
+    report_.reference = point.name();
+    return reference_.figures.done();
+  } catch (const SceneError& error) {
+    why_not = error.what();
+    return false;
+  }
+}
+
+/// How far `exact` itself can be trusted: the same run with all masses changed in their last digits.
+void WorkStudy::doubt_reference(const WorkPoint& point) {
+  const fs::path folder = request_.directory / "runs" / "again";
+  Prepared run = prepare(point);
+  run.model.mass *= 1.0 + last_digits;
+  WorkLimits limits = request_.limits;
+  limits.seconds *= patience;
+  const WorkOutcome outcome = record_run(run.scene, run.model, folder, limits);
+  report_.interrupted = report_.interrupted || outcome.interrupted;
+  again_ = read_compared_run(folder, point.name() + " again");
+  doubted_ = true;
+  report_.notes.push_back(fmt::format(
+      "the reference is known to what a change of all masses by {:g} does; smaller errors are not told apart",
+      last_digits));
+  double& until = report_.compared_until;
+  const double whole = until;
+  double decided = whole;
+  while (const auto split = align(reference_.events, again_.events, {until, 0.0}).split) {
+    decided = split->t;
+    until = quiet_before(split->t, reference_.events, again_.events);
+  }
+  if (until < whole)
+    report_.notes.push_back(
+        fmt::format("at t = {:.9g} such a change decides the sequence of events: all runs are compared up to "
+                    "t = {:.9g} only",
+                    decided, until));
+}
+
+bool WorkStudy::choose_reference() {
+  std::string why_not;
+  WorkPoint exact;
+  exact.engine = "exact";
+  if (try_reference(exact, why_not)) return true;
+  report_.notes.push_back("exact is not the reference: " + why_not);
+  WorkPoint tight;
+  tight.engine = "ida";
+  const auto& rtol = request_.ranges.rtol;
+  const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
+  // A tolerance below the rounding of the scene's own forces cannot be met; the next decades can.
+  for (int tries = 0; tries < 3 && !report_.interrupted; ++tries) {
+    tight.accuracy = tidy(std::max(least / 10.0, tightest_rtol) * std::pow(10.0, tries));
+    if (!try_reference(tight, why_not)) continue;
+    report_.notes.push_back(fmt::format(
+        "the reference is the tightest run, {}: errors near its own tolerance say little", tight.name()));
+    return true;
+  }
+  return false;
+}
+
+/// Errors of the reference itself, and errors that are as great as what they are errors of.
+void WorkStudy::take_ranges() {
+  ComparisonSettings settings;
+  settings.t_end = report_.compared_until;
+  if (doubted_) {
+    const Comparison doubt = compare_runs(reference_, again_, settings);
+    for (const Quantity& quantity : quantities(doubt, report_.units))
+      if (quantity.deviation->count > 0) report_.range[quantity.name].floor = quantity.deviation->whole.value;
+  }
+  // Roundoff of the time itself.
+  double& floor = report_.range["event_time"].floor;
+  floor = std::max(floor, std::numeric_limits<double>::epsilon() * report_.compared_until);
+  double events = 1.0;
+  for (const LoggedEvent& event : reference_.events)
+    events += event.type != "time" && event.t <= report_.compared_until ? 1.0 : 0.0;
+  report_.range["event_time"].most = report_.compared_until / events;
+  report_.range["displacement"].most = greatest_motion(reference_.figures.directory);
+}
+
+void WorkStudy::find_reference() {
+  const bool whole = choose_reference();
+  if (report_.reference.empty()) {
+    if (recorded_.empty()) throw Error(ExitCode::scene, report_.notes.back());
+    report_.notes.push_back("there is no reference, so runs have times and no errors");
+    return;
+  }
+  if (!whole) {
+    report_.compared_until = reference_.figures.t;
+    report_.notes.push_back(fmt::format(
+        "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to there", report_.reference,
+        reference_.figures.facts.outcome, reference_.figures.t, reference_.figures.reason));
+  }
+  if (report_.reference == "exact" && !report_.interrupted) {
+    WorkPoint exact;
+    exact.engine = "exact";
+    doubt_reference(exact);
+  }
+  take_ranges();
+}
+
+void WorkStudy::compare(WorkRow& row, const ComparedRun& run) const {
+  const auto changes = [&](const ComparedRun& r) {
+    return std::count_if(r.events.begin(), r.events.end(), [&](const LoggedEvent& event) {
+      return event.type != "time" && event.t <= report_.compared_until;
+    });
+  };
+  row.events = changes(run);
+  if (report_.reference.empty()) return;
+  row.events_of_reference = changes(reference_);
+  row.reference = row.point.name() == report_.reference;
+  row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
+  if (row.reference && !doubted_) return;  // against itself it has no error
+  ComparisonSettings settings;
+  settings.t_end = report_.compared_until;
+  const ComparedRun& other = row.reference ? again_ : run;
+  take_comparison(row, reference_, other, compare_runs(reference_, other, settings));
+}
+
+const WorkRow& WorkStudy::add(const WorkPoint& point) {
+  WorkRow row;
+  row.point = point;
+  try {
+    const Recorded& recorded = record(point, request_.limits);
+    row.directory = recorded.directory;
+    const ComparedRun run = read_compared_run(recorded.directory, point.name());
+    row.outcome = recorded.too_slow ? "too slow" : run.figures.facts.outcome;
+    row.reason = recorded.too_slow ? fmt::format("not at the end after {:g} s", request_.limits.seconds)
+                                   : run.figures.reason;
+    row.t = run.figures.t;
+    row.steps = run.figures.steps;
+    row.factorisations = run.figures.factorisations;
+    row.solves = run.figures.solves;
+    row.restarts = run.figures.restarts;
+    const auto balance = run.figures.audit.find("energy");
+    if (balance != run.figures.audit.end()) row.balance = balance->second;
+    compare(row, run);
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {
+    row.outcome = "refused";
+    row.reason = without_option(error.what());
+  }
+  report_.rows.push_back(std::move(row));
+  return report_.rows.back();
+}
+
+void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t round)>& before) {
+  constexpr double enough = 10.0;  // seconds
+  constexpr double brief = 0.05;   // a round of shorter runs holds several of them
+  constexpr int most = 10;
+  for (std::size_t round = 1; round <= request_.repeats; ++round) {
+    for (WorkRow& row : report_.rows) {
+      if (report_.interrupted) return;
+      if (row.outcome != "done" && row.outcome != "stopped") continue;
+      if (std::accumulate(row.wall_times.begin(), row.wall_times.end(), 0.0) > enough) continue;
+      before(row, round);
+      const Prepared run = prepare(row.point);
+      double least = std::numeric_limits<double>::infinity(), sum = 0.0;
+      for (int i = 0; i < most && sum < brief; ++i) {
+        const WorkOutcome outcome = time_run(run.scene, run.model, request_.limits);
+        report_.interrupted = outcome.interrupted;
+        if (outcome.interrupted || outcome.too_slow) break;  // the machine was busy: no time of this run
+        least = std::min(least, outcome.report.wall_time);
+        sum += outcome.report.wall_time;
+      }
+      if (std::isfinite(least)) row.wall_times.push_back(least);
+    }
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,79 @@
+// sweep_directory.hpp: a sweep on disk, that can be stopped, resumed, shared out and merged.
+//
+//   DIR/sweep.json        what is swept; a directory is continued only with the same
+//   DIR/rows/000001.json  a finished row each, written whole or not at all
+//   DIR/sweep.csv         the table of the finished rows, renewed as they come
+//   DIR/results.json      the same as JSON, at the end
+//   DIR/runs/000001/      the runs, with --keep
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/sweep/share.hpp"
+#include "study/sweep/sweep_row.hpp"
+#include "study/sweep/vary.hpp"
+
+namespace signorini {
+
+/// What is swept. Two sweeps are the same if all but scene and share are equal.
+struct SweepSpec {
+  std::string scene;                  ///< file, as given
+  std::string fingerprint;            ///< of the scene's content with settings and the first values that fit
+  std::vector<std::string> settings;  ///< --set, in order
+  std::vector<Vary> vary;
+  Share share;
+  std::string title;
+  Units units;
+};
+
+/// Errors of all members: FileError.
+class SweepDirectory {
+ public:
+  /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
+  /// removed first. Nobody else can open it before the object, and processes it was handed to, are gone.
+  SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
+  ~SweepDirectory();
+  SweepDirectory(const SweepDirectory&) = delete;
+  SweepDirectory& operator=(const SweepDirectory&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const SweepSpec& spec() const { return spec_; }
+  /// Values of the varied keys, one entry a row of the whole sweep.
+  [[nodiscard]] const std::vector<std::vector<Override>>& points() const { return points_; }
+  /// Finished rows by index.
+  [[nodiscard]] const std::map<std::size_t, SweepRow>& rows() const { return rows_; }
+  [[nodiscard]] std::filesystem::path row_file(std::size_t index) const;
+  [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
+
+  /// Takes the row that has been written to row_file(index).
+  void take(std::size_t index);
+  /// Writes a row and takes it.
+  void add(const SweepRow& row);
+  /// sweep.csv and, at the end, results.json.
+  void write_table() const;
+  void write_results() const;
+
+ private:
+  void lock();
+  void read_rows();
+
+  std::filesystem::path path_;
+  SweepSpec spec_;
+  std::vector<std::vector<Override>> points_;
+  std::map<std::size_t, SweepRow> rows_;
+  int lock_ = -1;
+};
+
+/// DIR/sweep.json. Errors: FileError where there is no sweep.
+[[nodiscard]] SweepSpec read_sweep_spec(const std::filesystem::path& directory);
+/// "--vary was a=0:1:0.1, is a=0:1:0.2"; empty when they are the same but for scene and share.
+[[nodiscard]] std::string difference(const SweepSpec& was, const SweepSpec& is);
+
+/// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0).
+/// Errors: FileError; also where the sweeps are not the same.
+std::vector<std::size_t> merge_sweeps(const std::vector<std::filesystem::path>& from, SweepDirectory& to);
+
+}  // namespace signorini

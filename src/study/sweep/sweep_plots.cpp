@@ -1,0 +1,240 @@
+#include "study/sweep/sweep_plots.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <system_error>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "result/plot_folder.hpp"
+#include "result/plot_parts.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
+                                                "#e7298a", "#666666", "#a6761d", "#17becf"};
+constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
+
+/// Rows that have all values in common but that on the axis.
+struct Curve {
+  std::string name;
+  std::vector<const SweepRow*> rows;
+};
+
+struct Axis {
+  std::size_t key = 0;
+  bool numbers = true;
+  const Vary* vary = nullptr;
+
+  [[nodiscard]] std::string x(const SweepRow& row) const {
+    if (numbers) return shortest(*parse_number(row.values[key]));
+    const auto& values = vary->values;
+    return std::to_string(std::find(values.begin(), values.end(), row.values[key]) - values.begin());
+  }
+};
+
+Axis axis_of(const SweepSpec& spec) {
+  Axis axis;
+  const auto several = std::find_if(spec.vary.begin(), spec.vary.end(),
+                                    [](const Vary& vary) { return vary.values.size() > 1; });
+  if (several != spec.vary.end()) axis.key = static_cast<std::size_t>(several - spec.vary.begin());
+  axis.vary = &spec.vary[axis.key];
+  axis.numbers = std::all_of(axis.vary->values.begin(), axis.vary->values.end(),
+                             [](const std::string& value) { return parse_number(value).has_value(); });
+  return axis;
+}
+
+std::vector<Curve> group(const SweepSpec& spec, const SweepRows& rows, const Axis& axis) {
+  std::vector<Curve> list;
+  std::map<std::vector<std::string>, std::size_t> known;
+  for (const auto& [index, row] : rows) {
+    if (!row.ran()) continue;
+    std::vector<std::string> others = row.values;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis.key));
+    const auto [found, fresh] = known.emplace(others, list.size());
+    if (fresh) {
+      std::string name;
+      for (std::size_t i = 0; i < row.values.size(); ++i) {
+        if (i == axis.key || spec.vary[i].values.size() < 2) continue;
+        name += (name.empty() ? "" : ", ") + row.values[i];
+      }
+      list.push_back({name, {}});
+    }
+    list[found->second].rows.push_back(&row);
+  }
+  return list;
+}
+
+/// What the numbers in the legend are.
+std::string other_keys(const SweepSpec& spec, const Axis& axis) {
+  std::string text;
+  for (std::size_t i = 0; i < spec.vary.size(); ++i)
+    if (i != axis.key && spec.vary[i].values.size() > 1)
+      text += (text.empty() ? "; curves: " : ", ") + spec.vary[i].path;
+  return text;
+}
+
+std::string curve_table(const Curve& curve, const Axis& axis, const std::vector<std::string>& contacts) {
+  CsvBlock block;
+  block.text("x").text("events");
+  for (const std::string& name : contacts)
+    for (const char* figure : {".peak_t", ".peak_n", ".peak_N", ".peak_T", ".friction_work"})
+      block.text(name + figure);
+  block.end_row();
+  // A range may fall, a list has any order; lines run from left to right.
+  std::vector<const SweepRow*> rows = curve.rows;
+  std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
+    return parse_number(axis.x(*a)) < parse_number(axis.x(*b));
+  });
+  for (const SweepRow* row : rows) {
+    block.text(axis.x(*row)).number(static_cast<double>(row->changes()));
+    for (const std::string& name : contacts) {
+      const SweepRow::Contact* c = contact_of(*row, name);
+      const auto figure = [&](double value) { return c ? std::optional<double>(value) : std::nullopt; };
+      const SweepRow::Contact none, &from = c ? *c : none;
+      for (const double value : {from.tangential, from.normal, from.N, from.T, from.friction})
+        block.number(figure(value));
+    }
+    block.end_row();
+  }
+  return block.str();
+}
+
+struct Panel {
+  std::string label;
+  int figure;  ///< 0: events; 1 to 5: of each contact
+};
+
+class Script {
+ public:
+  Script(const SweepSpec& spec, const Axis& axis, const std::vector<Curve>& combinations,
+         const std::vector<std::string>& contacts)
+      : axis_(axis), curves_(combinations), contacts_(contacts) {
+    run_.facts.title = spec.title;
+    run_.facts.outcome = "done";
+    run_.facts.units = spec.units;
+  }
+
+  [[nodiscard]] std::string str(const std::string& name, const std::string& subtitle,
+                                const std::vector<Panel>& panels) const {
+    const int count = static_cast<int>(panels.size()), height = 140 + 320 * count;
+    std::string s = begin_script(run_, {name, subtitle, height, false});
+    const double line = 1.0 / height;
+    const double bottom = 62.0 * line, top = 1.0 - 62.0 * line, space = 26.0 * line;
+    const double each = (top - bottom - space * (count - 1)) / count;
+    s += "set offsets 0,0,graph 0.05,0\n" + x_range();
+    for (int i = 0; i < count; ++i) {
+      const double upper = top - i * (each + space);
+      s += panel(run_, upper - each, upper, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
+      s += "set yrange [0:*]\n";
+      if (!axis_.numbers) s += ticks(i + 1 == count);
+      if (i + 1 == count) s += "set xlabel " + quoted(axis_.vary->path) + "\n";
+      s += plot_command(elements(panels[static_cast<std::size_t>(i)]));
+    }
+    return s + end_script();
+  }
+
+ private:
+  /// Of all values, also where no run began: a hole at an end is seen.
+  [[nodiscard]] std::string x_range() const {
+    double first = 0.0, last = static_cast<double>(axis_.vary->values.size()) - 1.0;
+    if (axis_.numbers) {
+      first = last = *parse_number(axis_.vary->values.front());
+      for (const std::string& value : axis_.vary->values) {
+        first = std::min(first, *parse_number(value));
+        last = std::max(last, *parse_number(value));
+      }
+    }
+    const double air = last > first ? 0.03 * (last - first) : 1.0;
+    return "set xrange [" + shortest(first - air) + ":" + shortest(last + air) + "]\n";
+  }
+
+  [[nodiscard]] std::string ticks(bool named) const {
+    std::string s = "set xtics (";
+    for (std::size_t i = 0; i < axis_.vary->values.size(); ++i)
+      s += (i > 0 ? ", " : "") + quoted(named ? axis_.vary->values[i] : "") + fmt::format(" {}", i);
+    return s + ")\n";
+  }
+
+  [[nodiscard]] std::vector<std::string> elements(const Panel& panel) const {
+    std::vector<std::string> list;
+    const std::size_t curves = panel.figure == 0 ? 1 : contacts_.size();
+    for (std::size_t k = 0; k < curves; ++k) {
+      for (std::size_t c = 0; c < curves_.size() && list.size() < most_curves; ++c) {
+        const int column = panel.figure == 0 ? 2 : 2 + static_cast<int>(5 * k) + panel.figure;
+        const bool alone = panel.figure == 0 || (contacts_.size() == 1 && curves_.size() > 1);
+        std::string title = panel.figure == 0 ? (curves_.size() == 1 ? "events" : "")
+                            : alone           ? ""
+                                              : contacts_[k];
+        if (!curves_[c].name.empty()) title += (title.empty() ? "" : ", ") + curves_[c].name;
+        // Colour says which contact, or which values of the other keys where there are several.
+        const std::size_t colour = curves_.size() > 1 ? c : k;
+        // Curves that coincide show through: later ones are thinner and dashed, on top.
+        const std::size_t i = list.size();
+        list.push_back(fmt::format(
+            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {:.1f} pointtype {} pointsize 0.7{} "
+            "linecolor '{}' title {}",
+            c + 1, column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 7 - 2 * static_cast<int>(k % 3),
+            i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1), colours[colour % colours.size()],
+            signorini::quoted(title)));
+      }
+    }
+    return list;
+  }
+
+  const Axis& axis_;
+  const std::vector<Curve>& curves_;
+  const std::vector<std::string>& contacts_;
+  PlottedRun run_;
+};
+
+bool is_picture_of_sweep(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool named = stem == "motion" || stem == "forces" || stem == "losses";
+  return (is_picture(file) && named) || (file.extension() == ".csv" && stem.starts_with("curve-"));
+}
+
+}  // namespace
+
+std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
+                                        const SweepRows& rows) {
+  const Axis axis = axis_of(spec);
+  const std::vector<Curve> list = group(spec, rows, axis);
+  const std::vector<std::string> contacts = contact_names(rows);
+  if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return {};
+  const fs::path folder = directory / "plots";
+  begin_plot_folder(folder, is_picture_of_sweep);
+  for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
+    write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(list[i], axis, contacts));
+
+  const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
+  const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
+  const Script script(spec, axis, list, contacts);
+  std::vector<fs::path> scripts;
+  const std::string others = other_keys(spec, axis);
+  const auto add = [&](const std::string& name, const std::string& subtitle,
+                       const std::vector<Panel>& panels) {
+    scripts.push_back(folder / (name + ".gp"));
+    write_file(scripts.back(), script.str(name, subtitle + others, panels));
+  };
+  if (!contacts.empty()) {
+    add("motion", "Greatest motion of the contacts from the start",
+        {{"along the tangent" + length, 1}, {"along the normal" + length, 2}});
+    add("forces", "Greatest forces of the contacts", {{"|N|" + force, 3}, {"|T|" + force, 4}});
+    add("losses", "Work lost by friction, and events", {{"friction work" + energy, 5}, {"events", 0}});
+  }
+  return scripts;
+}
+
+void remove_sweep_plots(const fs::path& directory) {
+  clear_plot_folder(directory / "plots", is_picture_of_sweep);
+}
+
+}  // namespace signorini

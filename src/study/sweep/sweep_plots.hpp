@@ -1,0 +1,25 @@
+// sweep_plots.hpp: gnuplot scripts that draw a sweep over its first varied key.
+//
+//   DIR/plots/motion.gp   peaks along tangent and normal, a curve a contact and combination of the other keys
+//   DIR/plots/forces.gp   peaks of |N| and |T|
+//   DIR/plots/losses.gp   friction work, and events
+//   DIR/plots/curve-1.csv x, events, then the figures of every contact: one file a combination
+//
+// The first key with more than one value is the axis; where its values are no numbers, they stand evenly.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "study/sweep/sweep_table.hpp"
+
+namespace signorini {
+
+/// Writes the scripts and returns them; none with fewer than two rows that ran. Errors: FileError.
+std::vector<std::filesystem::path> write_sweep_plots(const std::filesystem::path& directory,
+                                                     const SweepSpec& spec, const SweepRows& rows);
+
+/// Removes what write_sweep_plots and its scripts put there. Errors: FileError.
+void remove_sweep_plots(const std::filesystem::path& directory);
+
+}  // namespace signorini

@@ -1,0 +1,128 @@
+#include "study/sweep/sweep_row.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Only the Report counts.
+class NoRecorder : public Recorder {
+  void event(const Event& /*event*/) override {}
+  void sample(const Sample& /*sample*/) override {}
+};
+
+void take_report(SweepRow& row, const Model& model, const Report& report) {
+  row.outcome = report.outcome.kind == Outcome::Kind::done ? "done" : "stopped";
+  row.reason = report.outcome.reason;
+  row.t = report.outcome.t;
+  row.events = report.events_by_type;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    SweepRow::Contact contact{model.contacts[k].name};
+    if (k < report.peaks.size()) {
+      const Peak& peak = report.peaks[k];
+      contact.tangential = peak.horizontal;
+      contact.normal = peak.vertical;
+      contact.N = peak.N;
+      contact.T = peak.T;
+    }
+    if (k < report.audit.friction_work.size()) contact.friction = report.audit.friction_work[k];
+    row.contacts.push_back(std::move(contact));
+  }
+  row.wall_time = report.wall_time;
+  row.steps = report.counters.steps;
+  const Audit& audit = report.audit;
+  row.balance = audit.energy_scale > 0.0 ? audit.energy.value / audit.energy_scale : 0.0;
+  row.warnings = report.warnings.size();
+}
+
+Report run(const RowTask& task, const Scene& scene, const Model& model) {
+  NoRecorder nothing;
+  if (task.keep.empty()) return simulate(model, scene.run, nothing);
+  remove_run(task.keep);  // what an interrupted sweep left
+  RunDirectory directory(task.keep, scene, model, {false, task.command_line});
+  Report report = simulate(model, scene.run, directory);
+  directory.finish(report);
+  return report;
+}
+
+double number(const Json& json, const char* key) {  // what is no number was written as null
+  const Json& value = json.at(key);
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+}  // namespace
+
+long SweepRow::changes() const {
+  long sum = 0;
+  for (const auto& [type, count] : events) sum += type == "time" ? 0 : count;
+  return sum;
+}
+
+SweepRow compute_row(const RowTask& task) {
+  SweepRow row;
+  row.index = task.index;
+  row.values = task.values;
+  try {
+    const Scene scene = read_scene(task.scene, task.changes);
+    const Model model = build_model(scene);
+    take_report(row, model, run(task, scene, model));
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {
+    row.outcome = "refused";
+    row.reason = error.what();
+  }
+  return row;
+}
+
+std::string row_json(const SweepRow& row) {
+  Json json = {{"row", row.index + 1},       {"values", row.values}, {"outcome", row.outcome},
+               {"reason", row.reason},       {"t", row.t},           {"events", row.events},
+               {"wall_time", row.wall_time}, {"steps", row.steps},   {"energy_balance", row.balance},
+               {"warnings", row.warnings}};
+  json["contacts"] = Json::array();
+  for (const auto& contact : row.contacts)
+    json["contacts"].push_back({{"name", contact.name},
+                                {"tangential", contact.tangential},
+                                {"normal", contact.normal},
+                                {"N", contact.N},
+                                {"T", contact.T},
+                                {"friction_work", contact.friction}});
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+SweepRow read_row(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw FileError(file.string(), "cannot be read");
+  try {
+    const Json json = Json::parse(stream);
+    SweepRow row;
+    row.index = json.at("row").get<std::size_t>() - 1;
+    row.values = json.at("values").get<std::vector<std::string>>();
+    row.outcome = json.at("outcome");
+    row.reason = json.at("reason");
+    row.t = number(json, "t");
+    row.events = json.at("events").get<std::map<std::string, long>>();
+    row.wall_time = number(json, "wall_time");
+    row.steps = json.at("steps");
+    row.balance = number(json, "energy_balance");
+    row.warnings = json.at("warnings");
+    for (const Json& contact : json.at("contacts"))
+      row.contacts.push_back({contact.at("name"), number(contact, "tangential"), number(contact, "normal"),
+                              number(contact, "N"), number(contact, "T"), number(contact, "friction_work")});
+    return row;
+  } catch (const Json::exception& error) {
+    throw FileError(file.string(), std::string("is not a row of a sweep: ") + error.what());
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,28 @@
+// sweep_table.hpp: the rows of a sweep as one table.
+//
+//   sweep.csv  row,PATH,...,outcome,t,reason,events,slip,stick,reversal,separation,contact,impact,time,
+//              NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
+//              wall_time,steps,energy_balance,warnings
+//
+// One group of columns a contact, in the order of the scene; empty where no run began.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/sweep/sweep_directory.hpp"
+
+namespace signorini {
+
+using SweepRows = std::map<std::size_t, SweepRow>;
+
+/// Names of the contacts over all rows, in the order in which they come.
+[[nodiscard]] std::vector<std::string> contact_names(const SweepRows& rows);
+/// A row's contact of that name, if it has one.
+[[nodiscard]] const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name);
+
+[[nodiscard]] std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows);
+[[nodiscard]] std::string sweep_json(const SweepSpec& spec, const SweepRows& rows);
+
+}  // namespace signorini

@@ -1,0 +1,137 @@
+#include "study/sweep/vary.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/number.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr double most_points = 1e6;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  char quote = 0;
+  for (const char c : text) {
+    if (quote != 0) {
+      quote = c == quote ? '\0' : quote;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == separator && depth == 0) {
+      parts.emplace_back();
+      continue;
+    }
+    parts.back() += c;
+  }
+  return parts;
+}
+
+/// Digits after the point that write the number out: 0.1 has one, 1e-3 three, 20 none.
+int decimals(const std::string& number) {
+  const std::size_t e = number.find_first_of("eE"), point = number.find('.');
+  const std::string mantissa = number.substr(0, e);
+  const int after = point == std::string::npos ? 0 : static_cast<int>(mantissa.size() - point - 1);
+  const auto exponent = e == std::string::npos ? 0 : parse_integer(number.substr(e + 1)).value_or(0);
+  return static_cast<int>(std::clamp<long long>(after - exponent, 0, 99));
+}
+
+/// start + k step in decimals, as it would be written by hand.
+double stepped(double start, double step, double k, int digits) {
+  const double value = start + k * step;
+  constexpr int most_digits = 15;
+  if (digits > most_digits) return value;
+  const double scale = std::pow(10.0, digits);
+  constexpr double most_exact = 9e15;  // integers beyond are not all numbers
+  const double scaled = std::round(value * scale);
+  return std::abs(scaled) < most_exact ? scaled / scale : value;
+}
+
+std::vector<std::string> range(const std::string& option, const std::vector<std::string>& parts) {
+  double numbers[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> number = parse_number(parts[i]);
+    if (!number || !std::isfinite(*number))
+      throw UsageError(
+          fmt::format("{}: found \"{}\" in start:stop:step, expected a number", option, parts[i]));
+    numbers[i] = *number;
+  }
+  const auto [start, stop, step] = numbers;
+  if (step == 0.0 || (stop - start) / step < 0.0)
+    throw UsageError(
+        fmt::format("{}: a step of {} does not lead from {} to {}", option, parts[2], parts[0], parts[1]));
+  // A stop that is a step but for roundoff is included.
+  const double steps = std::floor((stop - start) / step * (1.0 + 1e-12) + 1e-9);
+  if (!(steps < most_points)) throw UsageError(option + ": expected at most 1e6 values");
+  const int digits = std::max(decimals(parts[0]), decimals(parts[2]));
+  const bool integers = std::all_of(parts.begin(), parts.end(),
+                                    [](const std::string& part) { return parse_integer(part).has_value(); });
+  std::vector<std::string> values;
+  for (double k = 0.0; k <= steps; ++k) {
+    const double value = stepped(start, step, k, digits);
+    values.push_back(integers ? fmt::format("{:.0f}", value) : shortest(value == 0.0 ? 0.0 : value));
+  }
+  return values;
+}
+
+}  // namespace
+
+Vary parse_vary(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string option = "--vary " + text;
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+    throw UsageError(option + ": expected path=start:stop:step or path=value,value,...");
+  Vary vary{text.substr(0, equals), text.substr(equals + 1), {}};
+  const std::vector<std::string> parts = split(vary.text, ':');
+  if (parts.size() == 3 && split(vary.text, ',').size() == 1) {
+    vary.values = range(option, parts);
+    return vary;
+  }
+  if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(),
+                                      [](const std::string& p) { return parse_number(p).has_value(); }))
+    throw UsageError(
+        fmt::format("{}: found {} numbers between colons, expected start:stop:step", option, parts.size()));
+  vary.values = split(vary.text, ',');
+  for (std::string& value : vary.values) {
+    const std::size_t first = value.find_first_not_of(' ');
+    if (first == std::string::npos) throw UsageError(option + ": found an empty value between commas");
+    value = value.substr(first, value.find_last_not_of(' ') - first + 1);
+  }
+  return vary;
+}
+
+std::vector<std::vector<Override>> points(const std::vector<Vary>& varied) {
+  double count = 1.0;
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    count *= static_cast<double>(varied[i].values.size());
+    for (std::size_t j = 0; j < i; ++j)
+      if (varied[j].path == varied[i].path)
+        throw UsageError("--vary " + varied[i].path + "=" + varied[i].text + ": this key is varied already");
+  }
+  if (count > most_points)
+    throw UsageError(fmt::format("--vary: the ranges make {:.0f} runs, expected at most 1e6", count));
+  std::vector<std::vector<Override>> list(1);
+  for (const Vary& vary : varied) {
+    std::vector<std::vector<Override>> longer;
+    longer.reserve(list.size() * vary.values.size());
+    for (const auto& point : list) {
+      for (const std::string& value : vary.values) {
+        longer.push_back(point);
+        longer.back().push_back({vary.path, value});
+      }
+    }
+    list = std::move(longer);
+  }
+  return list;
+}
+
+}  // namespace signorini

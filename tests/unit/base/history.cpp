@@ -1,0 +1,190 @@
+#include "signorini/history.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/history/history_internal.hpp"
+#include "scene/history_from_spec.hpp"
+
+using namespace signorini;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+HistorySpec spec(HistoryType type, double start, double end) {
+  HistorySpec s;
+  s.type = type;
+  s.start = start;
+  s.end = end;
+  s.start_given = true;
+  return s;
+}
+
+HistorySpec table_spec(std::vector<double> times, std::vector<double> values, bool steffen = false) {
+  HistorySpec s;
+  s.type = HistoryType::table;
+  s.times = std::move(times);
+  s.values = std::move(values);
+  s.steffen = steffen;
+  return s;
+}
+
+std::vector<HistorySpec> every_type() {
+  HistorySpec harmonic = spec(HistoryType::harmonic, 0.2, 1.3);
+  harmonic.omega = 7.0;
+  harmonic.phase = 0.4;
+  HistorySpec polynomial = spec(HistoryType::polynomial, 0.1, 1.5);
+  polynomial.coefficients = {1.0, -2.0, 0.5, 3.0};
+  std::vector<HistorySpec> all{HistorySpec{},
+                               spec(HistoryType::constant, 0.3, 0.9),
+                               spec(HistoryType::step, 0.3, HUGE_VAL),
+                               spec(HistoryType::rectangle, 0.3, 0.9),
+                               spec(HistoryType::triangle, 0.3, 0.9),
+                               spec(HistoryType::half_sine, 0.3, 0.9),
+                               harmonic,
+                               polynomial,
+                               table_spec({0.0, 0.5, 0.5, 1.0, 1.4}, {1.0, 2.0, -1.0, 0.5, 0.5}),
+                               table_spec({0.0, 0.3, 0.5, 1.0, 1.4}, {1.0, 2.0, -1.0, 0.5, 0.5}, true)};
+  for (HistorySpec& s : all) {
+    s.offset = 0.7;
+    s.amplitude = -1.6;
+  }
+  return all;
+}
+
+double at(HistorySpec s, double t) { return make_history(s, "h").value(t); }
+
+}  // namespace
+
+TEST_SUITE("unit/base/history") {
+  TEST_CASE("a piece's derivatives are the limits of differences") {
+    Piece p;
+    p.origin = 0.3;
+    p.coefficients = {1.0, -2.0, 0.5, 3.0, -0.7};
+    p.amplitude = 1.7;
+    p.omega = 2.3;
+    p.phase = 0.4;
+    for (int order = 0; order < 6; ++order)
+      for (double t : {-1.0, 0.3, 0.8, 2.0}) {
+        const double h = 1e-5;
+        const double difference = (p.value(t + h, order) - p.value(t - h, order)) / (2.0 * h);
+        CHECK(p.value(t, order + 1) == doctest::Approx(difference).epsilon(1e-7).scale(100.0));
+      }
+  }
+
+  TEST_CASE("the integral's derivative is the history, for every type") {
+    for (const HistorySpec& s : every_type()) {
+      CAPTURE(static_cast<int>(s.type));
+      const History f = make_history(s, "h"), integral = f.integrated();
+      CHECK(integral.value(0.0) == doctest::Approx(0.0));
+      for (double t : {-0.45, 0.05, 0.15, 0.3, 0.45, 0.55, 0.7, 0.95, 1.05, 1.35, 2.0})
+        CHECK(integral.piece(t).value(t, 1) == doctest::Approx(f.value(t)).epsilon(1e-13));
+      for (const Breakpoint& b : integral.breakpoints()) CHECK_FALSE(b.jump);
+    }
+  }
+
+  TEST_CASE("values of each type, right-continuous, offset everywhere") {
+    CHECK(at(HistorySpec{}, -1e9) == 1.0);
+    CHECK(at(spec(HistoryType::constant, 0.3, HUGE_VAL), 0.29) == 0.0);
+    CHECK(at(spec(HistoryType::step, 0.3, HUGE_VAL), 0.3) == 1.0);
+    CHECK(at(spec(HistoryType::rectangle, 0.3, 0.9), 0.3) == 1.0);
+    CHECK(at(spec(HistoryType::rectangle, 0.3, 0.9), 0.9) == 0.0);
+    CHECK(at(spec(HistoryType::triangle, 0.3, 0.9), 0.6) == doctest::Approx(1.0));
+    CHECK(at(spec(HistoryType::triangle, 0.3, 0.9), 0.75) == doctest::Approx(0.5));
+    CHECK(at(spec(HistoryType::half_sine, 0.3, 0.9), 0.6) == doctest::Approx(1.0));
+    HistorySpec harmonic = spec(HistoryType::harmonic, 1.0, HUGE_VAL);
+    harmonic.omega = 2.0;
+    harmonic.phase = 0.5;
+    CHECK(at(harmonic, 2.0) == doctest::Approx(std::sin(2.5)));
+    CHECK(at(harmonic, 0.999) == 0.0);
+    HistorySpec polynomial = spec(HistoryType::polynomial, 1.0, HUGE_VAL);
+    polynomial.coefficients = {1.0, 2.0, 3.0};
+    CHECK(at(polynomial, 3.0) == doctest::Approx(1.0 + 4.0 + 12.0));
+    HistorySpec shifted = spec(HistoryType::rectangle, 0.3, 0.9);
+    shifted.offset = 5.0;
+    shifted.amplitude = -2.0;
+    CHECK(at(shifted, 0.0) == 5.0);
+    CHECK(at(shifted, 0.5) == 3.0);
+  }
+
+  TEST_CASE("tables: linear, zero outside, a repeated time is a jump") {
+    const History f = make_history(table_spec({1.0, 2.0, 2.0, 4.0}, {0.0, 3.0, -1.0, 1.0}), "h");
+    CHECK(f.value(0.99) == 0.0);
+    CHECK(f.value(1.5) == doctest::Approx(1.5));
+    CHECK(f.value(2.0) == -1.0);
+    CHECK(f.piece_before(2.0).value(2.0) == doctest::Approx(3.0));
+    CHECK(f.value(3.0) == doctest::Approx(0.0));
+    CHECK(f.value(4.0) == 0.0);
+    CHECK(f.piece_before(4.0).value(4.0) == doctest::Approx(1.0));
+    const auto b = f.breakpoints();
+    REQUIRE(b.size() == 3);
+    CHECK_FALSE(b[0].jump);
+    CHECK(b[1].jump);
+    CHECK(b[2].jump);
+  }
+
+  TEST_CASE("Steffen tables meet the points, have a continuous slope and never overshoot") {
+    const std::vector<double> t{0.0, 1.0, 1.5, 3.0, 4.0, 4.2}, y{0.0, 1.0, 1.0, -2.0, 0.0, 5.0};
+    const History f = make_history(table_spec(t, y, true), "h");
+    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+      CHECK(f.value(t[i]) == doctest::Approx(y[i]));
+      CHECK(f.piece_before(t[i + 1]).value(t[i + 1]) == doctest::Approx(y[i + 1]));
+      if (i > 0) CHECK(f.piece(t[i]).value(t[i], 1) == doctest::Approx(f.piece_before(t[i]).value(t[i], 1)));
+      for (double s = 0.0; s < 1.0; s += 0.01) {
+        const double value = f.value(t[i] + s * (t[i + 1] - t[i]));
+        CHECK(value >= std::min(y[i], y[i + 1]) - 1e-14);
+        CHECK(value <= std::max(y[i], y[i + 1]) + 1e-14);
+      }
+    }
+  }
+
+  TEST_CASE("a sine that ends on its zero is a kink, one that ends elsewhere a jump") {
+    HistorySpec s = spec(HistoryType::harmonic, 0.0, 0.1);
+    s.omega = 31.41592653589793;
+    for (double amplitude : {1e-8, 1.0, 1e9}) {
+      s.amplitude = amplitude;
+      const auto b = make_history(s, "h").breakpoints();
+      REQUIRE(b.size() == 2);
+      CHECK_FALSE(b[0].jump);
+      CHECK_FALSE(b[1].jump);
+    }
+    s.end = 0.1 * (1.0 + 1e-10);
+    CHECK(make_history(s, "h").breakpoints()[1].jump);
+    for (const Breakpoint& b : make_history(spec(HistoryType::half_sine, 1e3, 1e3 + 0.1), "h").breakpoints())
+      CHECK_FALSE(b.jump);
+    CHECK(make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").breakpoints()[0].jump);
+  }
+
+  TEST_CASE("a load of amplitude zero has no breakpoints and is constant") {
+    const History f = make_history(spec(HistoryType::step, 0.5, HUGE_VAL), "h").scaled(0.0);
+    CHECK(f.breakpoints().empty());
+    CHECK(f.is_constant());
+    CHECK(make_history(HistorySpec{}, "h").is_constant());
+    CHECK_FALSE(make_history(spec(HistoryType::rectangle, 0.0, 1.0), "h").is_constant());
+  }
+
+  TEST_CASE("histories refuse what has no meaning") {
+    CHECK_THROWS_AS((void)History({1.0, 1.0}, {Piece{}, Piece{}, Piece{}}), std::invalid_argument);
+    CHECK_THROWS_AS((void)History({1.0}, {Piece{}}), std::invalid_argument);
+    CHECK_THROWS_AS((void)make_history(spec(HistoryType::rectangle, 1.0, 0.5), "h"), SceneError);
+    CHECK_THROWS_AS((void)make_history(table_spec({0.0, 2.0, 1.0}, {0.0, 0.0, 0.0}), "h"), SceneError);
+    CHECK_THROWS_AS((void)make_history(table_spec({0.0, 1.0}, {0.0}), "h"), SceneError);
+  }
+
+  TEST_CASE("size and sign of a history within the run") {
+    HistorySpec s = spec(HistoryType::harmonic, 0.0, HUGE_VAL);
+    s.omega = 3.0;
+    s.offset = 1.0;
+    s.amplitude = 0.5;
+    CHECK(magnitude(make_history(s, "h"), 100.0) == doctest::Approx(1.5));
+    CHECK(negative_at(make_history(s, "h"), 100.0) < 0.0);
+    s.amplitude = 1.5;
+    CHECK(negative_at(make_history(s, "h"), 100.0) == doctest::Approx(pi / 2.0));
+    s.amplitude = -1.5;
+    CHECK(negative_at(make_history(s, "h"), 100.0) == doctest::Approx(pi / 6.0));
+    CHECK(negative_at(make_history(spec(HistoryType::half_sine, 0.0, 0.3), "h"), 1.0) < 0.0);
+    CHECK(magnitude(make_history(spec(HistoryType::triangle, 0.5, 0.6), "h"), 1.0) == doctest::Approx(1.0));
+  }
+}

@@ -1,0 +1,211 @@
+// Lemke's method against its own conditions and against enumeration, on thousands of random problems.
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "decide/complementarity.hpp"
+#include "decide/coulomb_problem.hpp"
+
+using namespace signorini;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+using Kind = JointItem::Kind;
+
+MatrixXd random_matrix(std::mt19937_64& random, Eigen::Index rows, Eigen::Index columns) {
+  std::normal_distribution<double> normal;
+  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+bool solves(const MatrixXd& M, const VectorXd& q, const VectorXd& z) {
+  const VectorXd w = q + M * z;
+  const double zero = 1e-10 * (1.0 + z.cwiseAbs().maxCoeff());
+  return w.minCoeff() >= -zero && z.minCoeff() >= 0.0 && w.cwiseProduct(z).cwiseAbs().maxCoeff() <= zero;
+}
+
+/// Number of solutions with different z, by all choices of active sets.
+int count_solutions(const MatrixXd& M, const VectorXd& q) {
+  const Eigen::Index n = q.size();
+  std::vector<VectorXd> found;
+  for (int code = 0; code < (1 << n); ++code) {
+    std::vector<Eigen::Index> active;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (code >> i & 1) active.push_back(i);
+    VectorXd z = VectorXd::Zero(n);
+    if (!active.empty()) {
+      const MatrixXd block = M(active, active);
+      const VectorXd x = block.fullPivLu().solve(VectorXd(-q(active)));
+      z(active) = x;
+    }
+    if (z.minCoeff() < -1e-12 || !solves(M, q, z.cwiseMax(0.0))) continue;
+    bool known = false;
+    for (const VectorXd& other : found) known = known || (other - z).norm() < 1e-7 * (1.0 + z.norm());
+    if (!known) found.push_back(z);
+  }
+  return static_cast<int>(found.size());
+}
+
+/// m contacts on a body whose inverse mass in their coordinates is random, positive definite.
+JointProblem random_problem(std::mt19937_64& random, std::size_t m, double friction, bool only_frictional) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto size = static_cast<Eigen::Index>(2 * m);
+  const MatrixXd a = random_matrix(random, size, size + 2);
+  JointProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
+  for (std::size_t i = 0; i < m; ++i) {
+    JointItem item;
+    const double choice = uniform(random);
+    item.kind = only_frictional || choice < 0.5 ? Kind::frictional
+                : choice < 0.7                  ? Kind::normal
+                : choice < 0.9                  ? Kind::sliding
+                                                : Kind::pressed;
+    item.static_friction = friction * uniform(random);
+    item.kinetic_friction = item.static_friction;
+    item.sign = uniform(random) < 0.5 ? 1 : -1;
+    item.pressing = uniform(random);
+    p.items.push_back(item);
+  }
+  return p;
+}
+
+/// Signorini's and Coulomb's conditions.
+void check_conditions(const JointProblem& p, const JointSolution& s) {
+  const double zero = 1e-9 * (1.0 + s.force.cwiseAbs().maxCoeff() + p.b.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const JointItem& item = p.items[i];
+    const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+    const double l = item.kind == Kind::pressed ? item.pressing : s.force[n];
+    const double k = s.force[t], rn = s.response[n], rt = s.response[t];
+    if (item.kind != Kind::pressed) {
+      CHECK(l >= -zero);
+      CHECK(rn >= -zero);
+      CHECK(std::abs(l * rn) <= zero * (1.0 + std::abs(l) + std::abs(rn)));
+    }
+    if (item.kind == Kind::normal) continue;
+    const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
+    if (item.kind == Kind::sliding) {
+      CHECK(std::abs(k + item.sign * item.kinetic_friction * l) <= zero);
+      continue;
+    }
+    CHECK(std::abs(k) <= f * l + zero);
+    if (std::abs(rt) > 1e3 * zero) CHECK(std::abs(k + (rt > 0.0 ? 1 : -1) * f * l) <= 1e3 * zero);
+  }
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/decide/complementarity");
+
+TEST_CASE("Lemke solves thousands of problems with P-matrices, each with exactly one solution") {
+  std::mt19937_64 random(1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Eigen::Index n = 1 + trial % 7;
+    const MatrixXd a = random_matrix(random, n, n), skew = random_matrix(random, n, n);
+    const MatrixXd M = a * a.transpose() + 0.1 * MatrixXd::Identity(n, n) + (skew - skew.transpose());
+    const VectorXd q = random_matrix(random, n, 1);
+    const auto z = solve_complementarity(M, q);
+    REQUIRE(z.has_value());
+    CHECK(solves(M, q, *z));
+    CHECK(count_solutions(M, q) == 1);
+  }
+}
+
+TEST_CASE("a ray is reported, and only where enumeration finds nothing either, for copositive matrices") {
+  std::mt19937_64 random(2);
+  int none = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Eigen::Index n = 1 + trial % 5;
+    const MatrixXd a = random_matrix(random, n, std::max<Eigen::Index>(1, n / 2));
+    const MatrixXd M = a * a.transpose();  // singular for n > 1
+    const VectorXd q = random_matrix(random, n, 1);
+    const auto z = solve_complementarity(M, q);
+    if (z) {
+      CHECK(solves(M, q, *z));
+    } else {
+      ++none;
+      CHECK(count_solutions(M, q) == 0);
+    }
+  }
+  CHECK(none > 100);
+}
+
+TEST_CASE("degenerate right sides: zeros and ties do not cycle") {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<int> small(-1, 1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Eigen::Index n = 2 + trial % 6;
+    const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return static_cast<double>(small(random)); });
+    const MatrixXd M = a * a.transpose() + MatrixXd::Identity(n, n);
+    const VectorXd q = VectorXd::NullaryExpr(n, [&] { return static_cast<double>(small(random)); });
+    const auto z = solve_complementarity(M, q);
+    REQUIRE(z.has_value());
+    CHECK(solves(M, q, *z));
+  }
+}
+
+TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is among the enumerated ones") {
+  std::mt19937_64 random(4);
+  int unique = 0, none = 0, several = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const auto m = static_cast<std::size_t>(1 + trial % 3);
+    const JointProblem p = random_problem(random, m, 2.0, false);
+    const std::vector<JointSolution> all = all_solutions(p);
+    const auto one = solve(p);
+    CHECK(one.has_value() == !all.empty());
+    (all.empty() ? none : all.size() == 1 ? unique : several) += 1;
+    if (!may_have_many(p)) CHECK(all.size() == 1);
+    if (!one) continue;
+    check_conditions(p, *one);
+    bool among = false;
+    for (const JointSolution& s : all)
+      among = among || (s.response - one->response).norm() <= 1e-7 * (1.0 + one->response.norm());
+    CHECK(among);
+  }
+  CHECK(unique > 2000);
+  CHECK(none > 10);  // Painleve: these matrices couple strongly
+  CHECK(several > 10);
+}
+
+TEST_CASE("an impact without restitution has a solution whatever the friction, and never gains energy") {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto m = static_cast<std::size_t>(1 + trial % 4);
+    const JointProblem p = random_problem(random, m, 3.0, true);
+    const auto s = solve(p);
+    REQUIRE(s.has_value());
+    check_conditions(p, *s);
+    const double loss = -0.5 * s->force.dot(p.b + s->response);
+    CHECK(loss >= -1e-9 * (1.0 + s->force.squaredNorm()));
+  }
+}
+
+TEST_CASE(
+    "static above kinetic friction: what sticks has the static coefficient, what slips the kinetic one") {
+  JointProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
+  p.b << -1.0, 0.4;
+  auto s = solve(p);
+  REQUIRE(s.has_value());
+  CHECK(s->response[1] == doctest::Approx(0.0));
+  CHECK(s->force[1] == doctest::Approx(-0.4));
+  p.b << -1.0, 0.6;
+  s = solve(p);
+  REQUIRE(s.has_value());
+  CHECK(s->force[1] == doctest::Approx(-0.3));
+  CHECK(s->response[1] == doctest::Approx(0.3));
+}
+
+TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where it may also let go") {
+  // g'' = b_n + (W_nn - s f W_nt) l with a negative factor
+  JointProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
+  p.W << 1.0, 0.9, 0.9, 1.2;
+  p.b << -1.0, 0.0;
+  CHECK(!solve(p).has_value());
+  CHECK(all_solutions(p).empty());
+  p.b << 1.0, 0.0;
+  CHECK(all_solutions(p).size() == 2);
+  CHECK(may_have_many(p));
+}
+
+TEST_SUITE_END();

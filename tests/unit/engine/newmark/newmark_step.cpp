@@ -1,0 +1,77 @@
+#include "engine/newmark/newmark_step.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "motion/jet.hpp"
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// Two masses, one of them on a compliant contact that slips.
+Model model() {
+  return build_model(parse_scene(
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+      "1.0\n"
+      "initial = { u = [0.1, -0.02], v = [0.3, 0.1] }\n[matrices]\nmass = [[2.0, 0.1], [0.1, 1.0]]\n"
+      "damping = [[0.2, 0.0], [0.0, 0.1]]\nstiffness = [[30.0, -5.0], [-5.0, 20.0]]\n"
+      "[[contacts]]\nname = \"c\"\nlaw = \"compliant\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\n"
+      "normal_stiffness = 1e3\ntangential_stiffness = 1e3\nfriction = 0.4\n"
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 3.0\nhistory = { type = \"harmonic\", omega = 2.0 "
+      "}\n",
+      "test.toml"));
+}
+
+}  // namespace
+
+TEST_SUITE("unit/engine/newmark/newmark_step") {
+  TEST_CASE("the formulas of average acceleration, equilibrium and the limit hold at the end of a step") {
+    const Model m = model();
+    const Structure structure(m);
+    Expander expander(m, structure);
+    const Mode mode{{State::slip_plus, 0.0}};
+    REQUIRE(expander.set(mode));
+    const Forcing forcing(m, 0.0, Side::after);
+    Point from{m.u0, m.v0, Vector::Zero(2)}, to;
+    expander.consistent(forcing, 0.0, from);
+    NewmarkStep step(m, structure);
+    step.set({1}, rows_of(m, mode), expander.taylor().kinds());
+    // From a thousandth of a period of the contact's spring to far above it, and to the clock's resolution.
+    for (double h : {1e-16, 1e-9, 1e-4, 1e-2, 10.0}) {
+      CAPTURE(h);
+      REQUIRE(step.take(forcing, from, h, h, false, to));
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        const double u = from.u[i] + h * from.v[i] + 0.25 * h * h * (from.a[i] + to.a[i]);
+        const double v = from.v[i] + 0.5 * h * (from.a[i] + to.a[i]);
+        CHECK(to.u[i] == doctest::Approx(u).epsilon(1e-13));
+        CHECK(to.v[i] == doctest::Approx(v).epsilon(1e-13));
+      }
+      CHECK(to.forces[1] == -0.4 * to.forces[0]);  // to the last bit
+      CHECK(step.residual(forcing, h, to) < 1e-12 * (1.0 + 1e3 * to.u.cwiseAbs().maxCoeff()));
+    }
+  }
+
+  TEST_CASE("a factorisation is kept for a length that comes again in the same states") {
+    const Model m = model();
+    const Structure structure(m);
+    Expander expander(m, structure);
+    NewmarkStep step(m, structure);
+    const Mode stick{{State::stick, 0.0}}, slip{{State::slip_plus, 0.0}};
+    const Forcing forcing(m, 0.0, Side::after);
+    Point from{m.u0, m.v0, Vector::Zero(2), Vector::Zero(2)}, to;
+    for (int i = 0; i < 5; ++i)
+      for (const Mode& mode : {stick, slip}) {
+        REQUIRE(expander.set(mode));
+        step.set({static_cast<unsigned char>(mode[0].state)}, rows_of(m, mode), expander.taylor().kinds());
+        REQUIRE(step.take(forcing, from, 0.01, 0.01, true, to));
+        REQUIRE(step.take(forcing, from, 0.02, 0.01, true, to));
+      }
+    Counters counters;
+    step.count(counters);
+    CHECK(counters.factorisations == 2);
+    CHECK(counters.solves == 20);
+  }
+}

@@ -1,0 +1,130 @@
+// Deformed shapes on disk and as pictures.
+#include <doctest/doctest.h>
+
+#include "result/frame_data.hpp"
+#include "result/plots.hpp"
+#include "result/run_directory.hpp"
+#include "unit/model/scenes.hpp"
+#include "unit/result/made_up.hpp"
+
+using namespace signorini;
+using namespace signorini::made_up;
+
+namespace {
+
+/// A cantilever of two elements from L to R with a tip displacement, a contact at its tip.
+struct Tip {
+  Scene scene = test::beam(4.0, 2, 1e6, 2e3, 0.1);
+  Model model;
+  Vector u, v;
+  Tip() {
+    scene.supports = {test::support("L", true, true, true)};
+    scene.contacts = {test::support_contact("foot", "R", 1e6)};
+    scene.resolved = "schema = 1\n";
+    model = build_model(scene);
+    u = v = Vector::Zero(model.size());
+    u[test::dof(model, "R.uy")] = 0.02;
+    u[test::dof(model, "R.ux")] = 0.01;
+  }
+  void feed(RunDirectory& directory, double t, bool frame) const {
+    Sample s;
+    s.t = t;
+    s.u = &u;
+    s.v = &v;
+    s.contacts = {{State::stick, 0.0, 0.01, 0.0, 0.0, -30.0, 4.0}};
+    directory.sample(s);
+    if (frame) directory.frame(s);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/result/frames");
+
+TEST_CASE("frames: two rows an element, one a named node, forces on the body") {
+  const Folder folder;
+  const Tip tip;
+  RunDirectory directory(folder / "run", tip.scene, tip.model);
+  tip.feed(directory, 0.0, false);
+  CHECK_FALSE(std::filesystem::exists(folder / "run" / "frames.csv"));
+  tip.feed(directory, 0.5, true);
+  CHECK(slurp(folder / "run" / "frames.csv") ==
+        "t,kind,element,node,x,y,ux,uy,rz\n"
+        "0.5,beam,1,L,0,0,0,0,0\n"
+        "0.5,beam,1,L-R.1,2,0,0,0,0\n"
+        "0.5,beam,2,L-R.1,2,0,0,0,0\n"
+        "0.5,beam,2,R,4,0,0.01,0.02,0\n"
+        "0.5,support,,L,0,0,0,0,0\n"
+        "0.5,node,,R,4,0,0.01,0.02,0\n");
+  CHECK(slurp(folder / "run" / "frame_contacts.csv") ==
+        "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n"
+        "0.5,foot,stick,R,4,0,0.01,0.02,0,1,1,-0,-30,4\n");
+  const auto frames = read_frames(folder / "run", 0.0, 1.0);
+  REQUIRE(frames.size() == 1);
+  REQUIRE(frames[0].elements.size() == 2);
+  REQUIRE(frames[0].forces.size() == 1);
+  CHECK(frames[0].forces[0].fx == -4.0);
+  CHECK(frames[0].forces[0].fy == 30.0);
+  CHECK(read_frames(folder / "run", 0.6, 1.0).empty());
+}
+
+TEST_CASE("frames: the drawn curve is the beam's own, and magnification keeps it readable") {
+  Frame::Element e{"beam", {0.0, 0.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0, 0.0}};
+  e.b.rz = 0.4;
+  // A turned end without displacement: u = L (s^3 - s^2) rz.
+  CHECK(between(e, 0.5).uy == doctest::Approx(-2.0 * 0.125 * 0.4));
+  CHECK(between(e, 0.5).ux == 0.0);
+  e.kind = "bar";
+  CHECK(between(e, 0.5).uy == 0.0);
+
+  Frame frame;
+  frame.elements = {{"beam", {0.0, 0.0, 0.0, 0.0, 0.0}, {10.0, 0.0, 0.0, 3e-3, 0.0}}};
+  frame.points = {{"L", true, frame.elements[0].a}, {"R", false, frame.elements[0].b}};
+  CHECK(scales_of({frame}).magnification == 200.0);
+  frame.points[1].at.uy = 20.0;
+  CHECK(scales_of({frame}).magnification == 1.0);
+}
+
+TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnified") {
+  Frame frame;
+  frame.points = {{"L", false, {0.0, 0.0, 0.51, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.49, 0.0, 0.0}}};
+  frame.elements = {{"bar", frame.points[0].at, frame.points[1].at}};
+  std::vector<Frame> frames{frame};
+  take_out_slides(frames);
+  CHECK(frames[0].slid_x == doctest::Approx(0.5));
+  CHECK(frames[0].points[0].at.x == doctest::Approx(0.5));
+  CHECK(frames[0].points[0].at.ux == doctest::Approx(0.01));
+  CHECK(frames[0].elements[0].b.ux == doctest::Approx(-0.01));
+  CHECK(scales_of(frames).magnification == 100.0);
+  frame.points[1].at.ux = -0.4;  // a deformation as large as the motion: nothing is taken out
+  frames = {frame};
+  take_out_slides(frames);
+  CHECK(frames[0].slid_x == 0.0);
+  CHECK(frames[0].points[0].at.ux == 0.51);
+}
+
+TEST_CASE("frames: one picture a frame, and --force clears them away") {
+  const Folder folder;
+  const Tip tip;
+  {
+    RunDirectory directory(folder / "run", tip.scene, tip.model);
+    tip.feed(directory, 0.0, true);
+    tip.feed(directory, 0.5, true);
+    tip.feed(directory, 1.0, false);
+    Report one = report();  // of one contact
+    one.peaks.resize(1);
+    one.audit.friction_work = {0.5};
+    one.audit.friction.contact = 0;
+    (void)directory.finish(one);
+    const auto scripts = write_plots(folder / "run");
+    std::string names;
+    for (const auto& script : scripts) names += script.stem().string() + " ";
+    CHECK(names == "displacement contact-foot states cone frame-1 frame-2 energy ");
+  }
+  RunDirectory again(folder / "run", tip.scene, tip.model, {true, {}});
+  tip.feed(again, 0.0, false);
+  CHECK_FALSE(std::filesystem::exists(folder / "run" / "frames.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "run" / "plots"));
+}
+
+TEST_SUITE_END();

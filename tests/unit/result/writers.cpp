@@ -1,0 +1,159 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "result/csv.hpp"
+#include "result/csv_read.hpp"
+#include "result/writers.hpp"
+#include "signorini/error.hpp"
+#include "unit/result/made_up.hpp"
+
+using namespace signorini;
+using namespace signorini::made_up;
+
+TEST_SUITE_BEGIN("unit/result/writers");
+
+TEST_CASE("csv: numbers read back exactly") {
+  const Folder folder;
+  const std::vector<double> numbers = {0.0,
+                                       -0.0,
+                                       0.1,
+                                       1.0 / 3.0,
+                                       -1.9390000000000001e-3,
+                                       6.02214076e23,
+                                       1e-310,
+                                       std::numeric_limits<double>::max(),
+                                       std::nextafter(1.0, 2.0)};
+  {
+    CsvFile file(folder / "numbers.csv");
+    CsvBlock block;
+    block.text("x").end_row();
+    for (const double x : numbers) block.number(x).end_row();
+    file.write(block);
+  }
+  CsvReader reader(folder / "numbers.csv");
+  for (const double x : numbers) {
+    REQUIRE(reader.next());
+    CHECK(reader.number(0) == x);
+    CHECK(std::signbit(reader.number(0)) == std::signbit(x));
+  }
+  CHECK_FALSE(reader.next());
+}
+
+TEST_CASE("csv: the shortest digits that do") {
+  CsvBlock block;
+  block.number(0.1).number(1e6).number(-0.3).number(std::optional<double>{}).end_row();
+  CHECK(block.str() == "0.1,1e+06,-0.3,\n");
+}
+
+TEST_CASE("csv: names with commas, quotes and line breaks survive") {
+  const Folder folder;
+  {
+    CsvFile file(folder / "names.csv");
+    CsvBlock block;
+    block.text("name").text("other").end_row();
+    block.text("pad, \"left\"\nor so").text("plain").end_row();
+    file.write(block);
+  }
+  CsvReader reader(folder / "names.csv");
+  REQUIRE(reader.next());
+  CHECK(reader.cell(0) == "pad, \"left\"\nor so");
+  CHECK(reader.cell(1) == "plain");
+}
+
+TEST_CASE("csv: every block is on disk when write returns") {
+  const Folder folder;
+  CsvFile file(folder / "a.csv");
+  CsvBlock block;
+  block.text("t").end_row();
+  file.write(block);
+  CHECK(slurp(folder / "a.csv") == "t\n");
+  block.number(1.5).end_row();
+  file.write(block);
+  CHECK(slurp(folder / "a.csv") == "t\n1.5\n");
+}
+
+TEST_CASE("csv: a row cut short by a kill is left out when reading") {
+  const Folder folder;
+  spill(folder / "a.csv", "t,x\n1,2\n3,4");
+  CsvReader reader(folder / "a.csv");
+  CHECK(reader.next());
+  CHECK_FALSE(reader.next());
+}
+
+TEST_CASE("csv: a full disk is an error with the file's name") {
+  if (!std::filesystem::exists("/dev/full")) return;
+  CsvFile file("/dev/full");
+  CsvBlock block;
+  block.text("t").end_row();
+  try {
+    file.write(block);
+    FAIL("no error");
+  } catch (const FileError& error) {
+    CHECK(error.code() == ExitCode::file);
+    CHECK(std::string(error.what()).find("/dev/full: cannot be written: No space left") == 0);
+  }
+}
+
+TEST_CASE("csv: a file that cannot be created is an error") {
+  const Folder folder;
+  CHECK_THROWS_AS(CsvFile(folder / "no" / "such.csv"), FileError);
+}
+
+TEST_CASE("events.csv: header, gaps of sliders, impulses, load jumps") {
+  const Folder folder;
+  const Model m = model();
+  {
+    EventWriter writer(folder / "events.csv", m);
+    writer.write(slip(0.125));
+    Event pad = slip(0.25);
+    pad.contact = 1;
+    pad.gap = 7.0;
+    pad.impulse_n = 2.5;
+    pad.guard_rate = -4.0;
+    pad.t_uncertainty = 1e-9;
+    writer.write(pad);
+    Event load;
+    load.t = 0.5;
+    writer.write(load);
+  }
+  CHECK(slurp(folder / "events.csv") ==
+        "t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t,"
+        "guard_rate,t_uncertainty\n"
+        "0.125,foot,slip,stick,slip-,0,-58.86,-17.658,-58.86,-17.658,0,0,0,0,,,,\n"
+        "0.25,\"pad, left\",slip,stick,slip-,,-58.86,-17.658,-58.86,-17.658,0,0,0,0,2.5,,-4,1e-09\n"
+        "0.5,,time,,,,,,,,,,,,,,,\n");
+}
+
+TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
+  const Folder folder;
+  const Model m = model();
+  struct Tables : Recorder {
+    Tables(const Folder& f, const Model& model_of)
+        : history(f / "history.csv", model_of),
+          contacts(f / "contacts.csv", model_of),
+          energy(f / "energy.csv") {}
+    void event(const Event&) override {}
+    void sample(const Sample& s) override {
+      history.write(s);
+      contacts.write(s);
+      energy.write(s);
+    }
+    HistoryWriter history;
+    ContactWriter contacts;
+    EnergyWriter energy;
+  } tables(folder, m);
+  feed(tables, 0.001);
+  CHECK(slurp(folder / "history.csv") == "t,A.ux,A.uy,A.vx,A.vy\n0.001,0.25,-0.5,1,0\n");
+  CHECK(slurp(folder / "contacts.csv") ==
+        "t,contact,state,gap,ut,vt,slip,N,T\n"
+        "0.001,foot,stick,0.001,0.25,0,0,-58.86,3\n"
+        "0.001,\"pad, left\",slip-,,0.25,1,0.25,-1,-0.3\n");
+  CHECK(slurp(folder / "energy.csv") ==
+        "t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance\n"
+        "0.001,0.5,0,0,0,0,0,0,0,0.5\n");
+}
+
+TEST_SUITE_END();

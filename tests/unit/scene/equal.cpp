@@ -1,0 +1,94 @@
+#include "unit/scene/equal.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
+
+namespace signorini::testing {
+
+namespace {
+
+// Hexadecimal floating point shows every bit.
+class Dump {
+ public:
+  std::string text;
+
+  template <class... Values>
+  void line(const char* what, const Values&... values) {
+    text += what;
+    (add(values), ...);
+    text += '\n';
+  }
+
+ private:
+  void add(double value) { text += fmt::format(" {:a}", value); }
+  void add(int value) { text += fmt::format(" {}", value); }
+  void add(bool value) { text += value ? " true" : " false"; }
+  void add(const std::string& value) { text += " '" + value + "'"; }
+  void add(const std::array<double, 2>& v) { text += fmt::format(" ({:a}, {:a})", v[0], v[1]); }
+  void add(const std::pair<std::string, double>& v) { text += fmt::format(" {} = {:a}", v.first, v.second); }
+  void add(const MatrixSpec::Entry& e) { text += fmt::format(" {},{} = {:a}", e.row, e.column, e.value); }
+  void add(const InitialSpec::Component& c) {
+    text += fmt::format(" {}.{} = {:a}", c.node, c.component, c.value);
+  }
+  void add(const HistorySpec& h) {
+    text += fmt::format(" history {}", static_cast<int>(h.type));
+    add(h.offset), add(h.amplitude), add(h.start), add(h.end), add(h.omega), add(h.phase);
+    add(h.coefficients), add(h.times), add(h.values), add(h.steffen), add(h.start_given);
+  }
+  void add(const Direction& d) { add(d.node), add(d.vector), add(d.dofs), add(d.against); }
+  template <class T>
+  void add(const std::optional<T>& value) {
+    if (value) {
+      add(*value);
+    } else {
+      text += " none";
+    }
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    text += fmt::format(" {}:", values.size());
+    for (const T& value : values) add(value);
+  }
+};
+
+void dump_structure(Dump& dump, const Scene& s) {
+  for (const auto& x : s.sections) dump.line("section", x.name, x.EA, x.EI, x.mass_per_length);
+  for (const auto& x : s.nodes) dump.line("node", x.name, x.x, x.y);
+  for (const auto& x : s.members)
+    dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar,
+              x.mass == MassKind::lumped);
+  for (const auto& x : s.masses) dump.line("mass", x.node, x.mass, x.inertia);
+  for (const auto& x : s.springs) dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping);
+  for (const auto& x : s.supports) dump.line("support", x.node, x.ux, x.uy, x.rz);
+  if (!s.matrices) return;
+  dump.line("dofs", s.matrices->dofs);
+  for (const MatrixSpec* m : {&s.matrices->mass, &s.matrices->damping, &s.matrices->stiffness}) {
+    dump.line("matrix", m->size, m->entries);
+  }
+}
+
+}  // namespace
+
+std::string dump(const Scene& s) {
+  Dump dump;
+  dump.line("title", s.title, s.units.force, s.units.mass, s.units.length, s.units.time, s.gravity);
+  dump.line("run", s.run.t_end, static_cast<int>(s.run.engine), s.run.rtol, s.run.atol.displacement,
+            s.run.atol.velocity, s.run.atol.force, s.run.output_dt, s.run.output_times, s.run.frames,
+            s.run.max_order, s.run.max_events_at_once, s.run.dt);
+  dump.line("initial", s.initial.is_static, s.initial.u, s.initial.v, s.initial.components);
+  dump.line("damping", s.damping.alpha, s.damping.beta, s.damping.alpha_over_omega1);
+  if (s.reduction) dump.line("reduction", s.reduction->cutoff_omega);
+  dump_structure(dump, s);
+  for (const auto& c : s.contacts) {
+    dump.line("contact", c.name, static_cast<int>(c.law), c.normal, c.tangent, c.gap, c.normal_stiffness,
+              c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
+              c.friction.stribeck_velocity, c.normal_force, c.surface_velocity, c.initial_shear,
+              c.tangential_damping, c.restitution, c.capture_velocity);
+  }
+  for (const auto& l : s.loads) dump.line("load", l.direction, l.amplitude, l.history);
+  if (s.base_motion) dump.line("base", s.base_motion->direction, s.base_motion->acceleration);
+  return dump.text;
+}
+
+}  // namespace signorini::testing

@@ -1,0 +1,112 @@
+// --set path=value: what it reaches, and that every mistake in it is a wrong command line.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "signorini/scene.hpp"
+
+using namespace signorini;
+
+namespace {
+
+const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml";
+
+Scene with(const std::vector<Override>& overrides) { return read_scene(pipeline, overrides); }
+
+void check_refused(const Override& change, const std::string& message) {
+  INFO(change.path, "=", change.value);
+  CHECK_THROWS_WITH_AS((void)with({change}), doctest::Contains(message.c_str()), UsageError);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/scene/override");
+
+TEST_CASE("overrides reach every kind of place") {
+  CHECK(with({{"run.rtol", "1e-10"}}).run.rtol == 1e-10);
+  CHECK(with({{"run.t_end", "2"}}).run.t_end == 2.0);
+  CHECK(with({{"run.engine", "exact"}}).run.engine == Engine::exact);
+  CHECK(with({{"title", "two words"}}).title == "two words");
+  CHECK(with({{"run.initial", "{ A = { ux = 0.1 } }"}}).initial.components.size() == 1);
+  CHECK(with({{"run.atol.force", "1e-3"}}).run.atol.force == 1e-3);
+  CHECK(with({{"gravity.2", "-1.62"}}).gravity[1] == -1.62);
+  CHECK(with({{"sections.pipe.EI", "1e6"}}).sections[0].EI == 1e6);
+  CHECK(with({{"members.1.elements.2", "5"}}).members[0].elements == std::vector{4, 5});
+  CHECK(with({{"loads.1.amplitude", "3"}}).loads[0].amplitude == 3.0);
+  CHECK(with({{"loads.1.history.end", "0.2"}}).loads[0].history.end == 0.2);
+  CHECK(with({{"reduction.cutoff_omega", "100"}}).reduction->cutoff_omega == 100.0);
+  CHECK(with({{"reduction.cutoff_omega", "100"}, {"reduction.cutoff_frequency", "5"}})
+            .reduction->cutoff_omega == doctest::Approx(10.0 * std::acos(-1.0)));
+}
+
+TEST_CASE("overrides choose contacts by name, by number, or all") {
+  for (const char* path : {"contacts.second.friction", "contacts.2.friction"}) {
+    const Scene scene = with({{path, "0.7"}});
+    CHECK(scene.contacts[0].friction.static_ == 0.3);
+    CHECK(scene.contacts[1].friction.static_ == 0.7);
+  }
+  const Scene all = with({{"contacts.*.friction", "0.9"}});
+  CHECK(all.contacts[0].friction.kinetic == 0.9);
+  CHECK(all.contacts[1].friction.kinetic == 0.9);
+}
+
+TEST_CASE("friction as a number gives way to a table") {
+  const Scene scene = with({{"contacts.first.friction.static", "0.4"}});
+  CHECK(scene.contacts[0].friction.static_ == 0.4);
+  CHECK(scene.contacts[0].friction.kinetic == 0.3);
+  CHECK(with({{"contacts.*.friction", "{ static = 0.5 }"}}).contacts[1].friction.kinetic == 0.5);
+}
+
+TEST_CASE("an override replaces its alternative") {
+  const Scene scene = with({{"damping.alpha", "2.0"}, {"run.output_times", "[0.5]"}});
+  CHECK(scene.damping.alpha == 2.0);
+  CHECK_FALSE(scene.damping.alpha_over_omega1);
+  CHECK_FALSE(scene.run.output_dt);
+}
+
+TEST_CASE("overrides stand in run.toml") {
+  const Scene scene = with({{"contacts.*.friction.static", "0.4"}, {"nodes.B", "[0.0, 7.0]"}});
+  const Scene again = parse_scene(scene.resolved, "run.toml");
+  CHECK(again.resolved == scene.resolved);
+  CHECK(again.nodes[1].y == 7.0);
+}
+
+TEST_CASE("wrong overrides name themselves") {
+  check_refused({"run.rtol", "abc"},
+                "--set run.rtol=abc: run.rtol: found the string \"abc\", expected a number");
+  check_refused({"run.rtol", "-1"}, "--set run.rtol=-1: run.rtol: found the number -1");
+  check_refused({"run.rtoll", "1e-3"}, "run.rtoll: unknown key; did you mean \"rtol\"?");
+  check_refused({"runn.rtol", "1e-3"}, "--set runn.rtol=1e-3: unknown key; did you mean \"run\"?");
+  check_refused({"contacts.frist.friction", "1"},
+                "no \"frist\" among the 2 of contacts; did you mean \"first\"?");
+  check_refused({"contacts.3.friction", "1"}, "no \"3\" among the 2 of contacts");
+  check_refused({"masses.*.mass", "1"}, "masses");
+  check_refused({"run.t_end.x", "1"}, "run.t_end is the number 1.2, not a table");
+  check_refused({"run.t_end", "1e-1O"}, "found the string \"1e-1O\", expected a number > 0");
+  check_refused({"run.t_end", ""}, "the value is not TOML");
+  check_refused({"run.t_end", "1 2"}, "the value is not TOML");
+  check_refused({"run.t_end", "1\nrtol = 2"}, "the value is not TOML");
+  check_refused({"run..t_end", "1"}, "expected path=value");
+  check_refused({"", "1"}, "expected path=value");
+  check_refused({"contacts.first.law", "rigid"},
+                "contacts.first.normal_stiffness: has no meaning for a contact with law = \"rigid\"");
+  check_refused({"schema", "2"}, "schema: found the number 2, expected 1");
+  check_refused({"contacts", "3"}, "contacts: found the number 3, expected tables");
+}
+
+TEST_CASE("an override that breaks another line of the file is a wrong command line, too") {
+  check_refused({"contacts.first.friction.static", "0.2"}, "--set contacts.first.friction.static=0.2: ");
+  check_refused({"nodes.B", "[0.0, 0.0]"}, "--set nodes.B=[0.0, 0.0]: ");
+  check_refused({"units.force", "MN"}, "--set units.force=MN");
+  check_refused({"contacts.second.name", "first"}, "found \"first\" twice");
+}
+
+TEST_CASE("a wrong scene stays a wrong scene under a good override") {
+  const std::string file = SIGNORINI_TEST_DATA "/scenes/bad/friction_negative.toml";
+  CHECK_THROWS_AS((void)read_scene(file, {{"run.rtol", "1e-6"}}), SceneError);
+  CHECK_NOTHROW((void)read_scene(file, {{"contacts.floor.friction", "0.3"}}));
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,153 @@
+// Two made-up runs, small enough to be compared by hand.
+#include "study/compare/comparison.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "signorini/error.hpp"
+#include "study/compare/limits.hpp"
+
+using namespace signorini;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "signorini-compare-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  struct Tables {
+    std::string events, history, contacts, energy;
+    std::string outcome = R"({"kind": "done", "t": 4, "t_end": 4, "reason": ""})";
+  };
+  [[nodiscard]] ComparedRun run(const std::string& name, const Tables& tables) const {
+    fs::create_directory(path_ / name);
+    const auto write = [&](const char* file, const std::string& text) {
+      std::ofstream(path_ / name / file, std::ios::binary) << text;
+    };
+    write("summary.json",
+          R"({"title": "", "outcome": )" + tables.outcome +
+              R"(, "units": {"force": "N", "mass": "kg", "length": "m", "time": "s"}, "contacts":
+                              [{"name": "c", "law": "slider", "static_friction": 1, "kinetic_friction": 1}]})");
+    write("events.csv", "t,contact,event,from,to,t_uncertainty\n" + tables.events);
+    write("history.csv", tables.history);
+    write("contacts.csv", "t,contact,N,T\n" + tables.contacts);
+    write("energy.csv", "t,kinetic,balance\n" + tables.energy);
+    return read_compared_run(path_ / name, name);
+  }
+
+ private:
+  fs::path path_;
+};
+
+const Folder::Tables reference = {"1.5,c,slip,stick,slip+,1e-9\n2,,time,,,\n3.5,c,stick,slip+,stick,\n",
+                                  "t,A.ux,A.rz,A.vx\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n4,4,0,0\n",
+                                  "0,c,-1,0\n1,c,-1,0\n2,c,-1,0\n3,c,-1,0\n4,c,-1,0\n",
+                                  "0,0,0\n1,1,0\n2,2,0\n3,3,0\n4,4,0\n"};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/study/compare/comparison");
+
+TEST_CASE("comparison: greatest differences, when and where") {
+  const Folder folder;
+  const ComparedRun a = folder.run("a", reference);
+  Folder::Tables other = reference;
+  other.events = "1.5,c,slip,stick,slip+,\n2,,time,,,\n3.25,c,stick,slip+,stick,\n";
+  other.history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1,1.25,0,0\n2,2,0.5,0\n3,2.5,0,-8\n4,4,0,0\n";
+  other.contacts = "0,c,-1,0.125\n1,c,-1,0\n2,c,-3,0\n3,c,-1,0\n4,c,-1,0\n";
+  other.energy = "0,0,7\n1,1,0\n2,2,0\n3,4,0\n4,4,0\n";
+  const Comparison c = compare_runs(a, folder.run("b", other));
+  CHECK_FALSE(c.alignment.split);
+  CHECK(c.notes.empty());
+  CHECK(c.common_times == 5);
+  CHECK(c.event_time.whole.value == 0.25);
+  CHECK(c.event_time.whole.t == 3.5);
+  CHECK(c.event_time.whole.where == "c stick, slip+ -> stick");
+  CHECK(c.displacement.whole.value == 0.5);
+  CHECK(c.displacement.whole.t == 3.0);
+  CHECK(c.displacement.whole.where == "A.ux");
+  CHECK(c.rotation.whole.value == 0.5);
+  CHECK(c.velocity.whole.value == 8.0);
+  CHECK(c.angular_velocity.count == 0);
+  CHECK(c.force.whole.value == 2.0);
+  CHECK(c.force.whole.where == "c.N");
+  // Every time but the first has an event between its neighbours: 0 alone, 0 to 1, is away from them.
+  CHECK(c.force_away.count == 1);
+  CHECK(c.force_away.whole.value == 0.125);
+  CHECK(c.force_away.whole.where == "c.T");
+  CHECK(c.energy.whole.value == 1.0);  // the balance is a sum, and no energy of its own
+  CHECK(c.columns.size() == 5);
+  CHECK(c.columns.back().first == "c.T");
+}
+
+TEST_CASE("comparison: before and after the sequences part") {
+  const Folder folder;
+  Folder::Tables other = reference;
+  other.events = "1.5,c,slip,stick,slip+,\n2.5,c,reversal,slip+,slip-,\n";
+  other.history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1,1.25,0,0\n2,2,0,0\n3,9,0,0\n4,4,0,0\n";
+  const ComparedRun a = folder.run("a", reference), b = folder.run("b", other);
+  const Comparison c = compare_runs(a, b);
+  REQUIRE(c.alignment.split);
+  CHECK(c.alignment.split->t == 2.5);
+  CHECK(c.displacement.whole.value == 6.0);
+  CHECK(c.displacement.until_split.value == 0.25);
+  CHECK(c.displacement.until_split.t == 1.0);
+
+  const auto broken = [&](const std::vector<std::string>& limits) {
+    return exceeded(parse_limits(limits), a.figures, b.figures, c).size();
+  };
+  CHECK(broken({}) == 0);
+  CHECK(broken({"displacement=6"}) == 0);
+  CHECK(broken({"displacement=5.9"}) == 1);
+  CHECK(broken({"sequence=0"}) == 1);
+  CHECK(broken({"sequence=1"}) == 0);
+  CHECK(broken({"event_time=1"}) == 1);  // of the events that have no partner
+  CHECK(broken({"event_time=1", "sequence=1"}) == 0);
+}
+
+TEST_CASE("comparison: other output times, other columns, a run that is cut off") {
+  const Folder folder;
+  const ComparedRun a = folder.run("a", reference);
+  Folder::Tables other = reference;
+  other.outcome = R"({"kind": "running", "t_end": 4})";
+  other.events = "1.5,c,slip,stick,slip+,\n";
+  other.history = "t,A.ux,B.ux\n0,0,0\n0.5,77,0\n1,1,0\n2,2.5,0\n3,3";
+  other.contacts = "0,c,-1,0\n0.5,c,-77,0\n2,c,-2,0\n";
+  other.energy = "0,0,0\n2,2,0\n";
+  const ComparedRun b = folder.run("b", other);
+  CHECK(b.figures.t == 2.0);  // the last whole row
+  const Comparison c = compare_runs(a, b);
+  CHECK(c.t_end == 2.0);
+  CHECK_FALSE(c.alignment.split);  // the reference's next event lies beyond
+  CHECK(c.common_times == 3);
+  CHECK(c.displacement.whole.value == 0.5);
+  CHECK(c.force.whole.value == 1.0);
+  REQUIRE(c.notes.size() == 2);
+  CHECK(c.notes[0] == "compared up to t = 2, the end of b; a goes on to 4");
+  CHECK(c.notes[1] == "history.csv: 3 columns in one of the two runs only, the first is \"A.rz\"");
+  CHECK(exceeded(parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
+}
+
+TEST_CASE("comparison: what is no number is greater than any limit") {
+  Greatest greatest;
+  greatest.take(1.0, 1.0, "a");
+  greatest.take(std::nan(""), 2.0, "b");
+  greatest.take(3.0, 3.0, "c");
+  CHECK(std::isnan(greatest.value));
+  CHECK(greatest.where == "b");
+  CHECK_FALSE(greatest.value <= 1e300);
+}
+
+TEST_SUITE_END();

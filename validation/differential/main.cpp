@@ -3,8 +3,10 @@
 //   signorini_differential --from 1 --count 1000
 //   signorini_differential --seed 17 --shrink --keep disagreements
 //   signorini_differential --scene disagreements/seed-17.toml
+//   signorini_differential --transformed exact --from 1 --count 1000      (metamorphic.hpp)
 //
-// One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, 2 for a wrong command line.
+// One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
+// has another answer, 2 for a wrong command line.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +18,7 @@
 
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
+#include "differential/metamorphic.hpp"
 #include "differential/shrink.hpp"
 
 namespace {
@@ -30,6 +33,8 @@ struct Asked {
   long run_steps = JudgeSettings{}.steps;
   bool shrink = false, print = false;
   std::string keep, scene;
+  std::string transformed;  ///< engine that computes scenes written in other ways
+  std::uint64_t seed_of_ways = 1;
 };
 
 std::string describe(const Judgement& judgement) {
@@ -139,6 +144,52 @@ void examine(const std::string& name, const std::string& text, const Asked& aske
       << (asked.shrink ? smaller(text, judgement, settings) : text);
 }
 
+/// Of scenes written in other ways.
+struct Ways {
+  long scenes = 0, compared = 0, same = 0, unlike = 0, refused = 0, to_end = 0;
+  std::size_t events = 0;
+  double worst = 0.0;
+
+  void print() const {
+    fmt::print(
+        "\n| scenes | written otherwise | same | to the end | UNLIKE | REFUSED | events | error/allowed |\n");
+    fmt::print("|---|---|---|---|---|---|---|---|\n| {} | {} | {} | {} | {} | {} | {} | {:.2g} |\n", scenes,
+               compared, same, to_end, unlike, refused, events, worst);
+  }
+  [[nodiscard]] int exit_code() const { return unlike + refused > 0 ? 1 : 0; }
+};
+
+void rewrite(const std::string& name, const std::string& text, const Asked& asked, Ways& ways) {
+  MetamorphicSettings settings;
+  settings.engine = asked.transformed == "ida" ? Engine::ida : Engine::exact;
+  settings.bounds.steps = asked.run_steps;
+  settings.bounds.seconds = JudgeSettings{}.seconds;
+  const Scene scene = parse_scene(text, asked.scene.empty() ? name + ".toml" : asked.scene);
+  const Metamorphic judge(scene, settings);
+  if (!judge.hindrance().empty()) {
+    fmt::print("{}: not for this: {}\n", name, judge.hindrance());
+    return;
+  }
+  ++ways.scenes;
+  for (const Transformed& other : transformations(scene, asked.seed_of_ways)) {
+    const Sameness found = judge.compare(other);
+    ++ways.compared;
+    ways.events += found.events;
+    ways.to_end += found.to_end ? 1 : 0;
+    const bool same = found.verdict == Sameness::Verdict::same;
+    const bool refused = found.verdict == Sameness::Verdict::refused;
+    ++(same ? ways.same : refused ? ways.refused : ways.unlike);
+    if (same) ways.worst = std::max(ways.worst, found.worst);
+    fmt::print("{} {}: {} {} events, {:.2g} of allowed{}{}\n", name, other.name,
+               same      ? "same"
+               : refused ? "REFUSED"
+                         : "UNLIKE",
+               found.events, found.worst, found.to_end ? "" : ", not to the end",
+               found.what.empty() ? "" : "  -- " + found.what);
+    std::fflush(stdout);
+  }
+}
+
 Asked read_command_line(int argc, char** argv, CLI::App& app) {
   Asked asked;
   std::uint64_t seed = 0;
@@ -151,6 +202,9 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
   app.add_option("--keep", asked.keep, "directory for scenes on which engines disagree");
   app.add_flag("--print", asked.print, "print the scenes, run nothing");
   app.add_option("--scene", asked.scene, "judge a scene file instead of drawn ones")->excludes(one);
+  app.add_option("--transformed", asked.transformed, "write each scene in other ways, too, and run it with")
+      ->check(CLI::IsMember({"exact", "ida"}));
+  app.add_option("--ways", asked.seed_of_ways, "seed of angles, orders and scales");
   app.parse(argc, argv);
   if (*one) {
     asked.from = seed;
@@ -171,11 +225,25 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   Tally tally;
+  Ways ways;
+  const auto look_at = [&](const std::string& name, const std::string& text) {
+    if (asked.transformed.empty())
+      examine(name, text, asked, tally);
+    else
+      rewrite(name, text, asked, ways);
+  };
+  const auto finish = [&] {
+    if (!asked.transformed.empty())
+      ways.print();
+    else if (asked.scene.empty())
+      tally.print();
+    return std::max(tally.exit_code(), ways.exit_code());
+  };
   if (!asked.scene.empty()) {
     std::ifstream file(asked.scene);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    examine(std::filesystem::path(asked.scene).stem().string(), text, asked, tally);
-    return tally.exit_code();
+    look_at(std::filesystem::path(asked.scene).stem().string(), text);
+    return finish();
   }
   const auto start = std::chrono::steady_clock::now();
   for (long i = 0; i < asked.count; ++i) {
@@ -189,8 +257,7 @@ int main(int argc, char** argv) {
       fmt::print("time is up before seed {}\n", seed);
       break;
     }
-    examine(fmt::format("seed-{}", seed), text, asked, tally);
+    look_at(fmt::format("seed-{}", seed), text);
   }
-  if (!asked.print) tally.print();
-  return tally.exit_code();
+  return asked.print ? 0 : finish();
 }

@@ -1,0 +1,126 @@
+#include "scene/quantities.hpp"
+
+namespace signorini {
+namespace {
+
+using Visit = std::function<void(double&, const Unit&)>;
+
+constexpr Unit plain{}, force{1, 0, 0}, length{0, 1, 0}, duration{0, 0, 1}, rate{0, 0, -1};
+constexpr Unit velocity{0, 1, -1}, acceleration{0, 1, -2}, mass{1, -1, 2}, inertia{1, 1, 2};
+constexpr Unit stiffness{1, -1, 0}, damping{1, -1, 1};
+
+void visit_optional(std::optional<double>& x, const Unit& unit, const Visit& visit) {
+  if (x) visit(*x, unit);
+}
+
+/// What is outside the shape has the unit of f; a load has it in its own amplitude.
+void visit_history(HistorySpec& f, const Unit& unit, const Visit& visit) {
+  visit(f.offset, unit);
+  visit(f.amplitude, unit);
+  visit(f.start, duration);
+  visit(f.end, duration);
+  visit(f.omega, rate);
+  visit(f.phase, plain);
+  for (std::size_t j = 0; j < f.coefficients.size(); ++j)
+    visit(f.coefficients[j], Unit{0, 0, -static_cast<int>(j)});
+  for (double& t : f.times) visit(t, duration);
+  for (double& x : f.values) visit(x, plain);
+}
+
+void visit_run(RunSpec& run, const Visit& visit) {
+  visit(run.t_end, duration);
+  visit_optional(run.atol.displacement, length, visit);
+  visit_optional(run.atol.velocity, velocity, visit);
+  visit_optional(run.atol.force, force, visit);
+  visit_optional(run.output_dt, duration, visit);
+  if (run.output_times)
+    for (double& t : *run.output_times) visit(t, duration);
+  for (double& t : run.frames) visit(t, duration);
+  visit_optional(run.dt, duration, visit);
+}
+
+void visit_initial(InitialSpec& initial, const Visit& visit) {
+  for (double& u : initial.u) visit(u, length);
+  for (double& v : initial.v) visit(v, velocity);
+  for (InitialSpec::Component& c : initial.components) {
+    const bool rotation = c.component == "rz" || c.component == "wz";
+    const bool rates = c.component[0] == 'v' || c.component[0] == 'w';
+    visit(c.value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
+  }
+}
+
+void visit_structure(Scene& scene, const Visit& visit) {
+  for (Section& s : scene.sections) {
+    visit(s.EA, force);
+    visit(s.EI, Unit{1, 2, 0});
+    visit(s.mass_per_length, Unit{1, -2, 2});
+  }
+  for (Node& node : scene.nodes) {
+    visit(node.x, length);
+    visit(node.y, length);
+  }
+  for (PointMass& m : scene.masses) {
+    visit(m.mass, mass);
+    visit(m.inertia, inertia);
+  }
+  for (Spring& s : scene.springs) {
+    visit(s.stiffness, stiffness);
+    visit(s.damping, damping);
+  }
+  if (!scene.matrices) return;
+  for (MatrixSpec::Entry& e : scene.matrices->mass.entries) visit(e.value, mass);
+  for (MatrixSpec::Entry& e : scene.matrices->damping.entries) visit(e.value, damping);
+  for (MatrixSpec::Entry& e : scene.matrices->stiffness.entries) visit(e.value, stiffness);
+}
+
+void visit_contact(ContactSpec& c, const Visit& visit) {
+  visit(c.gap, length);
+  visit(c.normal_stiffness, stiffness);
+  visit_optional(c.tangential_stiffness, stiffness, visit);
+  visit(c.normal_damping, damping);
+  visit(c.tangential_damping, damping);
+  visit_optional(c.friction.stribeck_velocity, velocity, visit);
+  visit_history(c.normal_force, force, visit);
+  visit_history(c.surface_velocity, velocity, visit);
+  visit(c.initial_shear, force);
+  visit_optional(c.capture_velocity, velocity, visit);
+}
+
+/// x^n of a power of two is one, so products stay exact.
+double power(double x, int n) {
+  double result = 1.0;
+  for (int i = 0; i < n; ++i) result *= x;
+  for (int i = 0; i > n; --i) result /= x;
+  return result;
+}
+
+}  // namespace
+
+double factor_of(const Unit& unit, const Factors& factors) {
+  return power(factors.force, unit.force) * power(factors.length, unit.length) *
+         power(factors.time, unit.time);
+}
+
+void visit_quantities(Scene& scene, const Visit& visit) {
+  for (double& g : scene.gravity) visit(g, acceleration);
+  visit_run(scene.run, visit);
+  visit_initial(scene.initial, visit);
+  visit(scene.damping.alpha, rate);
+  visit(scene.damping.beta, duration);
+  visit_optional(scene.damping.alpha_over_omega1, plain, visit);
+  if (scene.reduction) visit(scene.reduction->cutoff_omega, rate);
+  visit_structure(scene, visit);
+  for (ContactSpec& c : scene.contacts) visit_contact(c, visit);
+  for (LoadSpec& load : scene.loads) {
+    visit(load.amplitude, force);
+    visit_history(load.history, plain, visit);
+  }
+  if (scene.base_motion) visit_history(scene.base_motion->acceleration, acceleration, visit);
+}
+
+Scene rescaled(Scene scene, const Factors& factors) {
+  visit_quantities(scene, [&](double& x, const Unit& unit) { x *= factor_of(unit, factors); });
+  return scene;
+}
+
+}  // namespace signorini

@@ -1,0 +1,39 @@
+// quantities.hpp: every number of a scene, with its unit; and the scene in other units.
+//
+//   [x] = force^a length^b time^c,      mass = force time^2 / length
+//
+//   Scene in_millimetres = rescaled(scene, {1.0, 1000.0, 1.0});     // the same motion, all lengths times
+//   1000
+//
+// Displacements of [matrices] have units of their own, which nobody knows: a factor for lengths must be 1
+// there.
+#pragma once
+
+#include <functional>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// Exponents; all zero: a plain number.
+struct Unit {
+  int force = 0, length = 0, time = 0;
+};
+
+/// Of the units of force, length and time; positive and finite.
+struct Factors {
+  double force = 1.0, length = 1.0, time = 1.0;
+};
+/// What a quantity of this unit is multiplied by.
+[[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
+
+/// Calls `visit` with all numbers that describe the motion, in an order that depends on the scene's structure
+/// alone. Coefficients of friction and restitution, unit vectors, tolerances without a unit, relaxation and
+/// counts are left out.
+void visit_quantities(Scene& scene, const std::function<void(double&, const Unit&)>& visit);
+
+/// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
+/// powers of two and nothing leaves the range of a double.
+[[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
+
+}  // namespace signorini

@@ -1,0 +1,178 @@
+#include "differential/metamorphic.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "differential/neighbour.hpp"
+#include "differential/random.hpp"
+
+namespace signorini::differential {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// Forces are compared relative to the greatest one, after the events' times have had their say.
+constexpr double force_off = 1e-9;
+constexpr double steps_per_tolerance = 5.0;  // a step of ida spends a fifth of it (docs/theory.md)
+constexpr double margin = 5.0;               // JudgeSettings::margin
+constexpr int neighbours = 6;
+
+/// What computes a run, at which tolerance.
+struct Means {
+  Engine engine = Engine::exact;
+  double rtol = 1e-10;
+
+  [[nodiscard]] RunSpec of(const Scene& scene) const {
+    RunSpec run = scene.run;
+    run.engine = engine;
+    run.rtol = rtol;
+    run.atol = {};
+    return run;
+  }
+};
+
+Track run_scene(const Scene& scene, const Means& means, const Bounds& bounds) {
+  try {
+    return differential::run(build_model(scene), means.of(scene), bounds);
+  } catch (const SceneError& error) {
+    Track track;
+    track.end = Track::End::refused;
+    track.said = error.what();
+    return track;
+  }
+}
+
+/// Units of force, length and time in N, m and s, the other way round.
+constexpr Factors systems[] = {{1e-3, 1.0, 1.0},                            // kN, m
+                               {1.0, 1e3, 1.0},                             // N, mm
+                               {1e-6, 1.0, 1e3},                            // MN, m, ms
+                               {1.0 / 4.4482216152605, 1.0 / 0.3048, 1.0},  // lbf, ft
+                               {1e5, 1e2, 1.0}};                            // dyn, cm
+
+}  // namespace
+
+std::vector<Transformed> transformations(const Scene& scene, std::uint64_t seed) {
+  std::vector<Transformed> all;
+  Random draw(seed);
+  const auto add = [&](std::optional<Transformed> other) {
+    if (other) all.push_back(std::move(*other));
+  };
+  const double degree = std::numbers::pi / 180.0;
+  for (const double angle : {7.0, 45.0, 90.0, draw.rounded(0.0, 360.0, 3), draw.rounded(0.0, 360.0, 3)})
+    add(turned(scene, angle * degree));
+  add(mirrored(scene));
+  add(permuted(scene, seed));
+  add(permuted(scene, seed + 1));
+  add(reversed(scene));
+  for (const Factors& system : systems) add(in_units(scene, system));
+  for (const double exponent : {-20.0, -9.0, draw.rounded(-20.0, 20.0, 2), 12.0, 20.0}) {
+    const double scale = std::pow(10.0, exponent);
+    add(in_units(scene, {scale, 1.0, 1.0}));
+    add(in_units(scene, {1.0, scale, 1.0}));
+    add(in_units(scene, {1.0, 1.0, scale}));
+  }
+  for (const int exponent : {-50, -30, 30}) add(in_units(scene, {std::ldexp(1.0, exponent), 1.0, 1.0}));
+  return all;
+}
+
+struct Metamorphic::Members {
+  Scene scene;
+  MetamorphicSettings settings;
+  std::string hindrance;
+  Model model;
+  Means means;  ///< of the reference: exact, or ida ten times sharper where friction is not linear
+  Track reference;
+  Weights weights;
+  Deviation spread;
+
+  /// Runs of the same scene, off by one rounding.
+  void disturb() {
+    for (int j = 0; j < settings.disturbances; ++j) {
+      const Scene other = disturbed(scene, static_cast<std::uint64_t>(j));
+      const Track track = run_scene(other, means, settings.bounds);
+      if (track.end != Track::End::refused)
+        spread.include(deviation(reference, track, weights, scene.run.t_end));
+    }
+  }
+
+  /// What steps of ida may have been off together, relative.
+  [[nodiscard]] double delta_of(const Track& track) const {
+    const double errors = static_cast<double>(track.report.counters.steps) / steps_per_tolerance;
+    return margin * settings.rtol * std::max(1.0, errors);
+  }
+
+  [[nodiscard]] Promise promise_of(const Track& track) const {
+    Promise promise;
+    promise.least_time = 64.0 * eps * scene.run.t_end;
+    if (settings.engine == Engine::exact) {
+      promise.spread = spread;
+      promise.factor = settings.factor;
+      promise.delta = force_off;
+      promise.blur = 0.0;
+      return promise;
+    }
+    promise.delta = delta_of(track);
+    promise.blur = promise.delta / settings.rtol;
+    promise.resolution = margin;
+    const RunSpec run = means.of(scene);
+    const Weights whole = weights_of(model, reference);
+    for (int j = 0; j < neighbours; ++j) {
+      const Model near =
+          neighbour(model, whole, promise.delta, scene.run.t_end, static_cast<std::uint64_t>(j));
+      promise.spread.include(
+          deviation(reference, differential::run(near, run, settings.bounds), weights, scene.run.t_end));
+    }
+    return promise;
+  }
+};
+
+Metamorphic::Metamorphic(const Scene& scene, const MetamorphicSettings& settings)
+    : m_(std::make_unique<Members>()) {
+  m_->scene = scene;
+  m_->settings = settings;
+  for (const ContactSpec& contact : scene.contacts)
+    if (contact.friction.stribeck_velocity) m_->means = {Engine::ida, 0.1 * settings.rtol};
+  if (settings.engine != Engine::ida && m_->means.engine == Engine::ida) {
+    m_->hindrance = "its friction is not linear";
+    return;
+  }
+  m_->reference = run_scene(scene, m_->means, settings.bounds);
+  if (m_->reference.end == Track::End::refused) m_->hindrance = m_->reference.said;
+  if (m_->reference.end == Track::End::too_long) m_->hindrance = "it takes too long";
+  if (!m_->hindrance.empty()) return;
+  m_->model = build_model(scene);
+  m_->weights.force = weights_of(m_->model, m_->reference).force;
+  if (settings.engine == Engine::exact) m_->disturb();
+}
+
+Metamorphic::~Metamorphic() = default;
+
+const std::string& Metamorphic::hindrance() const { return m_->hindrance; }
+
+Sameness Metamorphic::compare(const Transformed& other) const {
+  Sameness result;
+  Track track = run_scene(other.scene, {m_->settings.engine, m_->settings.rtol}, m_->settings.bounds);
+  if (track.end == Track::End::refused) {
+    result.verdict = Sameness::Verdict::refused;
+    result.what = track.said;
+    return result;
+  }
+  const Promise promise = m_->promise_of(track);
+  const std::string said = track.said;
+  track = mapped_back(std::move(track), other, m_->reference, m_->scene);
+  const Deviation found = deviation(m_->reference, track, m_->weights, m_->scene.run.t_end);
+  const Finding finding = check(found, promise);
+  result.verdict = finding.kept ? Sameness::Verdict::same : Sameness::Verdict::unlike;
+  result.worst = finding.worst;
+  result.events = found.aligned;
+  result.to_end = finding.to_end;
+  result.what = finding.what;
+  if (!finding.kept && !said.empty()) result.what += " (" + said + ")";
+  if (finding.kept && found.splits()) result.what = "parts where disturbed runs do: " + found.split;
+  return result;
+}
+
+}  // namespace signorini::differential

@@ -1,0 +1,223 @@
+#include "differential/transform.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "differential/random.hpp"
+
+namespace signorini::differential {
+namespace {
+
+/// A linear map of the plane, without a change of lengths.
+struct Map {
+  double xx = 1.0, xy = 0.0, yx = 0.0, yy = 1.0;
+  double turn = 1.0;  ///< of rotations: its determinant
+
+  [[nodiscard]] std::array<double, 2> operator()(double x, double y) const {
+    return {xx * x + xy * y, yx * x + yy * y};
+  }
+  void apply(std::array<double, 2>& v) const { v = (*this)(v[0], v[1]); }
+};
+
+/// Components of one node belong together: ux with uy, vx with vy.
+void move_initial(InitialSpec& initial, const Map& map) {
+  std::map<std::string, std::map<std::string, InitialSpec::Component>> nodes;
+  for (const InitialSpec::Component& c : initial.components) nodes[c.node][c.component] = c;
+  initial.components.clear();
+  for (auto& [node, parts] : nodes) {
+    for (const char* turning : {"rz", "wz"})
+      if (const auto it = parts.find(turning); it != parts.end()) {
+        it->second.value *= map.turn;
+        initial.components.push_back(it->second);
+      }
+    for (const char* kind : {"u", "v"}) {
+      const auto value = [&](const char* axis) {
+        const auto it = parts.find(std::string(kind) + axis);
+        return it == parts.end() ? 0.0 : it->second.value;
+      };
+      const std::array<double, 2> moved = map(value("x"), value("y"));
+      for (std::size_t i = 0; i < 2; ++i)
+        if (moved[i] != 0.0)
+          initial.components.push_back({node, std::string(kind) + (i == 0 ? "x" : "y"), moved[i], {}});
+    }
+  }
+}
+
+void move(Scene& scene, const Map& map) {
+  map.apply(scene.gravity);
+  for (Node& node : scene.nodes) {
+    const std::array<double, 2> place = map(node.x, node.y);
+    node.x = place[0];
+    node.y = place[1];
+  }
+  for (Spring& spring : scene.springs) map.apply(spring.direction);
+  for (ContactSpec& contact : scene.contacts) {
+    if (contact.normal) map.apply(contact.normal->vector);
+    if (contact.tangent) map.apply(contact.tangent->vector);
+  }
+  for (LoadSpec& load : scene.loads) map.apply(load.direction.vector);
+  if (scene.base_motion) map.apply(scene.base_motion->direction.vector);
+  move_initial(scene.initial, map);
+}
+
+template <class T>
+void shuffle(std::vector<T>& list, Random& draw) {
+  for (std::size_t i = list.size(); i > 1; --i)
+    std::swap(list[i - 1], list[static_cast<std::size_t>(draw.integer(0, static_cast<int>(i) - 1))]);
+}
+
+double size_of(const Scene& scene) {
+  double size = 0.0;
+  for (const Node& node : scene.nodes) size = std::max({size, std::abs(node.x), std::abs(node.y)});
+  return size;
+}
+
+State mirror_image(State state) {
+  if (state == State::slip_plus) return State::slip_minus;
+  return state == State::slip_minus ? State::slip_plus : state;
+}
+
+std::string mirror_image(const std::string& state) {
+  return state == "slip+" ? "slip-" : state == "slip-" ? "slip+" : state;
+}
+
+/// Symmetric entries alike.
+void disturb(MatrixSpec& matrix, Random& draw) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  std::map<std::pair<int, int>, double> factors;
+  for (MatrixSpec::Entry& e : matrix.entries) {
+    const auto [it, first] = factors.try_emplace(std::minmax(e.row, e.column), 1.0);
+    if (first) it->second += eps * draw.real(-1.0, 1.0);
+    e.value *= it->second;
+  }
+}
+
+}  // namespace
+
+std::optional<Transformed> turned(const Scene& scene, double angle) {
+  if (scene.matrices) return std::nullopt;
+  for (const Support& support : scene.supports)
+    if (support.ux != support.uy) return std::nullopt;
+  Transformed result{fmt::format("turned by {:.10g} degrees", angle * 180.0 / std::numbers::pi), scene, {}};
+  const double c = std::cos(angle), s = std::sin(angle);
+  move(result.scene, {c, -s, s, c, 1.0});
+  return result;
+}
+
+std::optional<Transformed> mirrored(const Scene& scene) {
+  if (scene.matrices) return std::nullopt;
+  Transformed result{"mirrored", scene, {}, true};
+  move(result.scene, {-1.0, 0.0, 0.0, 1.0, -1.0});
+  for (ContactSpec& contact : result.scene.contacts) {
+    if (contact.tangent)
+      for (double& t : contact.tangent->vector) t = -t;
+    contact.surface_velocity.offset = -contact.surface_velocity.offset;
+    contact.surface_velocity.amplitude = -contact.surface_velocity.amplitude;
+    contact.initial_shear = -contact.initial_shear;
+  }
+  return result;
+}
+
+Transformed permuted(const Scene& scene, std::uint64_t seed) {
+  Transformed result{fmt::format("permuted by seed {}", seed), scene, {}};
+  Random draw(seed);
+  shuffle(result.scene.nodes, draw);
+  shuffle(result.scene.members, draw);
+  shuffle(result.scene.masses, draw);
+  shuffle(result.scene.springs, draw);
+  shuffle(result.scene.supports, draw);
+  shuffle(result.scene.contacts, draw);
+  shuffle(result.scene.loads, draw);
+  return result;
+}
+
+std::optional<Transformed> reversed(const Scene& scene) {
+  if (scene.members.empty()) return std::nullopt;
+  Transformed result{"reversed", scene, {}};
+  for (Member& member : result.scene.members) {
+    std::reverse(member.nodes.begin(), member.nodes.end());
+    std::reverse(member.elements.begin(), member.elements.end());
+  }
+  return result;
+}
+
+std::optional<Transformed> in_units(const Scene& scene, const Factors& factors) {
+  if (scene.matrices && factors.length != 1.0) return std::nullopt;
+  return Transformed{
+      fmt::format("forces x {:g}, lengths x {:g}, times x {:g}", factors.force, factors.length, factors.time),
+      rescaled(scene, factors), factors};
+}
+
+Scene disturbed(const Scene& scene, std::uint64_t seed) {
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  Scene result = scene;
+  Random draw(seed);
+  const auto relative = [&] { return 1.0 + eps * draw.real(-1.0, 1.0); };
+  visit_quantities(result, [&](double& x, const Unit&) { x *= relative(); });
+  result.run = scene.run;
+  if (scene.matrices) {
+    result.matrices = scene.matrices;
+    for (MatrixSpec* matrix :
+         {&result.matrices->mass, &result.matrices->damping, &result.matrices->stiffness})
+      disturb(*matrix, draw);
+  }
+  const double size = size_of(scene);
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    result.nodes[i].x = scene.nodes[i].x + eps * size * draw.real(-1.0, 1.0);
+    result.nodes[i].y = scene.nodes[i].y + eps * size * draw.real(-1.0, 1.0);
+  }
+  const auto bend = [&](std::array<double, 2>& v) {
+    const double length = std::hypot(v[0], v[1]);
+    for (double& x : v) x += eps * length * draw.real(-1.0, 1.0);
+  };
+  for (ContactSpec& contact : result.contacts) {
+    const double friction = relative();
+    contact.friction.static_ *= friction;
+    contact.friction.kinetic *= friction;
+    contact.restitution = std::min(1.0, contact.restitution * relative());
+    if (!scene.matrices && contact.normal) bend(contact.normal->vector);
+    if (!scene.matrices && contact.tangent) bend(contact.tangent->vector);
+  }
+  for (LoadSpec& load : result.loads)
+    if (!scene.matrices) bend(load.direction.vector);
+  return result;
+}
+
+Track mapped_back(Track track, const Transformed& from, const Track& reference, const Scene& scene) {
+  track.t /= from.factors.time;
+  for (LoggedEvent& event : track.events) {
+    event.t /= from.factors.time;
+    event.uncertainty /= from.factors.time;
+    if (!from.mirrored) continue;
+    event.from = mirror_image(event.from);
+    event.to = mirror_image(event.to);
+  }
+  std::vector<std::size_t> place;  // of the scene's contacts in the transformed one
+  for (const ContactSpec& contact : scene.contacts) {
+    const auto& others = from.scene.contacts;
+    const auto it = std::find_if(others.begin(), others.end(),
+                                 [&](const ContactSpec& other) { return other.name == contact.name; });
+    place.push_back(static_cast<std::size_t>(it - others.begin()));
+  }
+  for (std::size_t i = 0; i < track.rows.size(); ++i) {
+    Result::Row& row = track.rows[i];
+    row.t = i < reference.rows.size() ? reference.rows[i].t : row.t / from.factors.time;
+    std::vector<ContactSample> contacts;
+    for (const std::size_t k : place) {
+      ContactSample sample = row.contacts[k];
+      sample.N /= from.factors.force;
+      sample.T /= from.mirrored ? -from.factors.force : from.factors.force;
+      if (from.mirrored) sample.state = mirror_image(sample.state);
+      contacts.push_back(sample);
+    }
+    row.contacts = std::move(contacts);
+  }
+  return track;
+}
+
+}  // namespace signorini::differential

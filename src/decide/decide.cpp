@@ -7,6 +7,8 @@
 #include <limits>
 #include <tuple>
 
+#include "motion/hold.hpp"
+
 namespace signorini {
 namespace {
 
@@ -53,12 +55,13 @@ std::vector<Memory> states(const Mode& mode) {
 
 }  // namespace
 
-Decider::Decider(const Model& model, Expander& expander, int max_rounds, double capture_velocity)
-    : model_(model),
-      expander_(expander),
+Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
+    : model_(systems.model()),
+      systems_(systems),
+      jets_(systems),
       max_rounds_(max_rounds),
       capture_velocity_(capture_velocity),
-      impacts_(model, expander, capture_velocity) {}
+      impacts_(systems, capture_velocity) {}
 
 std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
                                                 const Instant& instant, bool first,
@@ -98,12 +101,13 @@ std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& je
 }
 
 bool Decider::evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,
-                       std::vector<MotionJet>& jets) const {
-  if (!expander_.set(mode)) return false;
+                       std::vector<MotionJet>& jets) {
+  decision.system = systems_.of(mode);
+  if (!decision.system) return false;
   decision.u = instant.u;
   decision.v = instant.v;
-  expander_.hold(after, instant.t, mode, decision.u, decision.v);
-  decision.jet = expander_.expand(after, instant.t, decision.u, decision.v, jets);
+  hold(model_, *decision.system, after, instant.t, decision.u, decision.v);
+  decision.jet = jets_.make(decision.system, after, instant.t, decision.u, decision.v, jets);
   decision.u = decision.jet.u.col(0);
   decision.v = decision.jet.u.col(1);
   decision.mode = mode;
@@ -118,7 +122,7 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, double t, const V
   return result;
 }
 
-Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) const {
+Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
   Decision decision;
   const std::size_t count = model_.contacts.size();
   decision.visited.assign(count, false);
@@ -233,7 +237,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   return decision;
 }
 
-Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) const {
+Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {
   Decision decision;
   decision.visited.assign(mode.size(), false);
   decision.jumped.assign(mode.size(), false);

@@ -61,6 +61,7 @@ struct Decision {
   bool consistent = false;
   std::string reason;  ///< why not: contacts, guards
   Mode mode;
+  ModeSystemPtr system;  ///< of `mode`; engines go on with it
   Vector u, v;
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
@@ -98,13 +99,13 @@ struct Participant;  // decide/levels.hpp
 class Decider {
  public:
   /// capture_velocity: of rigid contacts that have none of their own.
-  Decider(const Model& model, Expander& expander, int max_rounds, double capture_velocity);
+  Decider(ModeSystems& systems, int max_rounds, double capture_velocity);
 
   /// `before` and `after`: the forcing on both sides of the instant.
-  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after) const;
+  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
   /// Takes the states of `mode` as they are, from an engine that finds states itself and no instants:
   /// forces and accelerations that follow from them, the same before and after.
-  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) const;
+  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
 
  private:
   struct Failure {
@@ -118,7 +119,7 @@ class Decider {
   void follow_forcing(const Instant& instant, const Forcing& before, const Forcing& after,
                       const std::vector<ContactMotion>& motion, Mode& mode) const;
   bool evaluate(const Instant& instant, const Forcing& after, const Mode& mode, Decision& decision,
-                std::vector<MotionJet>& jets) const;
+                std::vector<MotionJet>& jets);
   /// What is known at an instant of the contacts whose forces may jump.
   struct Joint {
     bool sliders = false;                ///< sliders that stick rigidly take part
@@ -132,10 +133,11 @@ class Decider {
   };
   [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
                                            Decision& decision, const std::vector<MotionJet>& jets,
-                                           const std::vector<Failure>& failed, Mode& mode) const;
+                                           const std::vector<Failure>& failed, Mode& mode);
   void follow_velocity(const Instant& instant, const Forcing& after, const std::vector<ContactMotion>& before,
                        Mode& mode) const;
-  void settle_resting(Instant& instant, const Forcing& forcing, const std::vector<std::size_t>& touching,
+  void settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                      const std::vector<std::size_t>& touching,
                       const std::vector<Participant>& participants) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
                                          const Instant& instant) const;
@@ -145,7 +147,8 @@ class Decider {
                                               const Vector& v) const;
 
   const Model& model_;
-  Expander& expander_;
+  ModeSystems& systems_;
+  JetMaker jets_;
   int max_rounds_;
   double capture_velocity_;
   Impacts impacts_;

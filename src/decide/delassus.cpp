@@ -5,19 +5,18 @@
 
 namespace signorini {
 
-Delassus delassus(const Model& model, const Expander& expander, const std::vector<std::size_t>& contacts) {
+Delassus delassus(const Model& model, const ModeSystem& system, const std::vector<std::size_t>& contacts) {
   const auto n = static_cast<Eigen::Index>(model.size());
   const auto m = static_cast<Eigen::Index>(contacts.size());
   Delassus d{Eigen::MatrixXd(n, 2 * m), Eigen::MatrixXd(2 * m, 2 * m)};
-  Vector x(n + 2 * static_cast<Eigen::Index>(model.contacts.size()));
+  Vector x(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
   for (Eigen::Index j = 0; j < 2 * m; ++j) {
     const Contact& contact = model.contacts[contacts[static_cast<std::size_t>(j / 2)]];
     x.setZero();
     (j % 2 == 0 ? contact.normal : contact.tangent).add_to(x, 1.0);
-    expander.taylor().solve(x.data());
+    system.solve(x.data(), work.data());
     for (Eigen::Index i = 0; i < n; ++i)
-      d.effect(i, j) =
-          expander.taylor().kinds()[static_cast<std::size_t>(i)] == Taylor::Kind::massive ? x[i] : 0.0;
+      d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive ? x[i] : 0.0;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& other = model.contacts[contacts[static_cast<std::size_t>(i)]];
       d.W(2 * i, j) = other.normal.dot(d.effect.col(j));
@@ -44,8 +43,7 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     miss[i] = f.value - f.form->dot(v);
   }
   v += effect * W.completeOrthogonalDecomposition().solve(miss);
-  for (const Fixed& f : fixed)  // one degree of freedom: exact
-    if (f.form->terms.size() == 1) v[f.form->terms[0].first] = f.value / f.form->terms[0].second;
+  for (const Fixed& f : fixed) set_exactly(*f.form, f.value, v);
 }
 
 }  // namespace signorini

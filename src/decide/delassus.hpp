@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "motion/jet.hpp"
+#include "motion/mode_system.hpp"
 
 namespace signorini {
 
@@ -29,8 +29,7 @@ struct Fixed {
 /// them to the rounding of an elimination only.
 void settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
 
-/// In the mode that the expander has in force.
-[[nodiscard]] Delassus delassus(const Model& model, const Expander& expander,
+[[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
                                 const std::vector<std::size_t>& contacts);
 
 }  // namespace signorini

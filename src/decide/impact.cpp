@@ -34,27 +34,26 @@ Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus&
   const Eigen::MatrixXd W = d.W(normals, normals);
   const Eigen::MatrixXd effect = d.effect(Eigen::all, normals);
   u -= effect * W.completeOrthogonalDecomposition().solve(gap);
-  for (const std::size_t c : touching)  // one degree of freedom: exact, not to roundoff
-    if (const Contact& contact = model_.contacts[c]; contact.normal.terms.size() == 1)
-      u[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
+  for (const std::size_t c : touching) set_exactly(model_.contacts[c].normal, -model_.contacts[c].gap, u);
   return u;
 }
 
-Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u) const {
-  if (!expander_.set(released(model_, mode))) return u;
-  return closed(touching, delassus(model_, expander_, touching), u);
+Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u) {
+  const ModeSystemPtr system = systems_.of(released(model_, mode));
+  return system ? closed(touching, delassus(model_, *system, touching), u) : u;
 }
 
 Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
-                      const std::vector<std::size_t>& touching, const Vector& u, const Vector& v) const {
+                      const std::vector<std::size_t>& touching, const Vector& u, const Vector& v) {
   Impact impact;
   impact.v = v;
   impact.impulses.resize(model_.contacts.size());
-  if (!expander_.set(released(model_, mode))) {
+  const ModeSystemPtr system = systems_.of(released(model_, mode));
+  if (!system) {
     impact.reason = "the mass matrix is singular";
     return impact;
   }
-  const Delassus d = delassus(model_, expander_, touching);
+  const Delassus d = delassus(model_, *system, touching);
   const auto m = static_cast<Eigen::Index>(touching.size());
   Eigen::VectorXd before(2 * m), restitution(m);
   JointProblem problem{d.W, {}, {}};

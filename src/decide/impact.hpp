@@ -13,6 +13,8 @@
 
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
+#include "motion/forcing.hpp"
+#include "motion/mode_systems.hpp"
 
 namespace signorini {
 
@@ -35,22 +37,20 @@ struct Impact {
 
 class Impacts {
  public:
-  Impacts(const Model& model, Expander& expander, double capture_velocity)
-      : model_(model), expander_(expander), capture_velocity_(capture_velocity) {}
+  Impacts(ModeSystems& systems, double capture_velocity)
+      : model_(systems.model()), systems_(systems), capture_velocity_(capture_velocity) {}
 
   /// u with the gaps of all that touch closed, by the smallest change in the norm of M; mode: of all others.
-  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching,
-                             const Vector& u) const;
+  [[nodiscard]] Vector close(const Mode& mode, const std::vector<std::size_t>& touching, const Vector& u);
   /// u, v: before; touching: contacts with g = 0, rigid ones; mode: of all others.
   [[nodiscard]] Impact solve(const Forcing& forcing, double t, const Mode& mode,
-                             const std::vector<std::size_t>& touching, const Vector& u,
-                             const Vector& v) const;
+                             const std::vector<std::size_t>& touching, const Vector& u, const Vector& v);
 
  private:
   [[nodiscard]] Vector closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const;
 
   const Model& model_;
-  Expander& expander_;
+  ModeSystems& systems_;
   double capture_velocity_;  // where a contact has none of its own
 };
 

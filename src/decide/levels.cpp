@@ -114,8 +114,7 @@ std::string JointDecision::refusal(const JointProblem& problem, const std::vecto
 }
 
 std::string JointDecision::decide(const Instant& instant, const Forcing& forcing,
-                                  const std::vector<Participant>& participants, const Mode& old,
-                                  Mode& mode) const {
+                                  const std::vector<Participant>& participants, const Mode& old, Mode& mode) {
   std::vector<Entry> entries;
   for (const Participant& who : participants) {
     entries.push_back({who});
@@ -134,8 +133,9 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
         contacts.push_back(entries[i].who.contact);
       }
     if (undecided.empty()) break;
-    if (!expander_.set(mode)) return dependent_rows;
-    (void)expander_.expand(forcing, instant.t, instant.u, instant.v, jets);
+    const ModeSystemPtr system = systems_.of(mode);
+    if (!system) return dependent_rows;
+    const Jet jet_now = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets);
 
     const auto size = static_cast<Eigen::Index>(2 * undecided.size());
     JointProblem problem;
@@ -156,7 +156,7 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
     const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
                                      [](const JointItem& item) { return item.kind == Kind::pressed; });
     if (problem.b.isZero(0.0) && !pressed) continue;
-    problem.W = delassus(model_, expander_, contacts).W;
+    problem.W = delassus(model_, *jet_now.system, contacts).W;
     const auto solution = solve(problem);
     if (!solution) return refusal(problem, contacts, false);
     if (undecided.size() <= most_compared && may_have_many(problem)) {

@@ -33,13 +33,13 @@ struct Participant {
 
 class JointDecision {
  public:
-  JointDecision(const Model& model, Expander& expander) : model_(model), expander_(expander) {}
+  JointDecision(ModeSystems& systems, JetMaker& jets)
+      : model_(systems.model()), systems_(systems), jets_(jets) {}
 
   /// Changes the states of the participants, open in `mode`; old: what they were. Returns an empty text, or
   /// why there are none.
   [[nodiscard]] std::string decide(const Instant& instant, const Forcing& forcing,
-                                   const std::vector<Participant>& participants, const Mode& old,
-                                   Mode& mode) const;
+                                   const std::vector<Participant>& participants, const Mode& old, Mode& mode);
 
  private:
   enum class Standing : unsigned char { apex, limit, decided };
@@ -52,7 +52,8 @@ class JointDecision {
                                     bool several) const;
 
   const Model& model_;
-  Expander& expander_;
+  ModeSystems& systems_;
+  JetMaker& jets_;
 };
 
 }  // namespace signorini

@@ -55,7 +55,7 @@ void Decider::follow_velocity(const Instant& instant, const Forcing& after,
 }
 
 /// What counts as zero becomes zero, for all contacts at once: setting one to zero moves the others.
-void Decider::settle_resting(Instant& instant, const Forcing& forcing,
+void Decider::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
                              const std::vector<std::size_t>& touching,
                              const std::vector<Participant>& participants) const {
   std::vector<Fixed> fixed;
@@ -69,13 +69,13 @@ void Decider::settle_resting(Instant& instant, const Forcing& forcing,
     if (contact.has_friction() && !who->slipping)
       fixed.push_back({row + 1, &contact.tangent, forcing.surface(touching[i], instant.t, 1)});
   }
-  if (!settled(fixed, instant.v)) settle(delassus(model_, expander_, touching), fixed, instant.v);
+  if (!settled(fixed, instant.v)) settle(delassus(model_, free, touching), fixed, instant.v);
 }
 
 /// Impacts where there are any, then the states. Returns why it cannot, or nothing.
 std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
                                     const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
-                                    Mode& mode) const {
+                                    Mode& mode) {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
@@ -121,9 +121,10 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   }
   // Without forces at all that touch: how fast each is pulled back.
   for (const std::size_t c : touching) mode[c] = {State::open, 0.0};
-  if (!expander_.set(mode)) return "the equations of motion without rigid contacts are singular";
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return "the equations of motion without rigid contacts are singular";
   std::vector<MotionJet> free;
-  (void)expander_.expand(after, instant.t, instant.u, instant.v, free);
+  const Jet free_jet = jets_.make(system, after, instant.t, instant.u, instant.v, free);
   std::vector<Participant> participants;
   for (const std::size_t c : touching) {
     const Contact& contact = model_.contacts[c];
@@ -142,7 +143,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     participants.push_back(who);
   }
   const Vector moving = instant.v;
-  settle_resting(instant, after, touching, participants);
+  settle_resting(instant, after, *free_jet.system, touching, participants);
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
   decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
   for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
@@ -153,7 +154,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     who.kinetic = joint.kinetic[c];
     participants.push_back(who);
   }
-  std::string reason = JointDecision(model_, expander_).decide(instant, after, participants, old, mode);
+  std::string reason = JointDecision(systems_, jets_).decide(instant, after, participants, old, mode);
   for (const Participant& who : participants) {
     joint.decided[who.contact] = true;
     if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;

@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "linear/triangular_factors.hpp"
+#include "linear/factor_reader.hpp"
 
 namespace signorini {
 namespace {
@@ -25,13 +25,16 @@ struct Klu::Handles {
   klu_l_common common{};
   klu_l_symbolic* symbolic = nullptr;
   klu_l_numeric* numeric = nullptr;
+  FactorReader reader;
   TriangularFactors factors;
+  std::vector<double> work;
 };
 
 Klu::Klu(const std::vector<std::int64_t>& column_start, const std::vector<std::int64_t>& row)
     : h_(std::make_unique<Handles>()), column_start_(column_start), row_(row) {
   klu_l_defaults(&h_->common);
   const auto n = static_cast<SuiteSparse_long>(column_start.size()) - 1;
+  h_->work.resize(column_start.size() - 1);
   h_->symbolic = klu_l_analyze(n, raw(column_start_), raw(row_), &h_->common);
   if (h_->symbolic == nullptr && h_->common.status != KLU_SINGULAR)
     throw std::runtime_error("KLU could not analyse the system matrix");
@@ -50,7 +53,7 @@ bool Klu::factor(const std::vector<double>& values) {
   if (h_->numeric == nullptr || h_->common.status == KLU_SINGULAR) return false;
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   fresh_rcond_ = h_->common.rcond;
-  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, true);
+  h_->reader.read(h_->symbolic, h_->numeric, &h_->common, true, h_->factors);
   return fresh_rcond_ >= std::numeric_limits<double>::epsilon();
 }
 
@@ -63,10 +66,12 @@ bool Klu::refactor(const std::vector<double>& values) {
     return factor(values);
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   if (h_->common.rcond < kept_quality * fresh_rcond_) return factor(values);
-  h_->factors.take(h_->symbolic, h_->numeric, &h_->common, false);
+  h_->reader.read(h_->symbolic, h_->numeric, &h_->common, false, h_->factors);
   return true;
 }
 
-void Klu::solve(double* b) { h_->factors.solve(b); }
+void Klu::solve(double* b) { h_->factors.solve(b, h_->work.data()); }
+
+const TriangularFactors& Klu::factors() const { return h_->factors; }
 
 }  // namespace signorini

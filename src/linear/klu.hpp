@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "linear/triangular_factors.hpp"
+
 namespace signorini {
 
 class Klu {
@@ -23,6 +25,8 @@ class Klu {
   bool refactor(const std::vector<double>& values);
   /// b := A^-1 b.
   void solve(double* b);
+  /// Of the last factorisation that succeeded.
+  [[nodiscard]] const TriangularFactors& factors() const;
 
   long factorisations = 0, refactorisations = 0;
 

@@ -31,13 +31,6 @@ std::size_t position(const std::vector<std::int64_t>& start, const std::vector<s
   return static_cast<std::size_t>(std::lower_bound(begin, end, row) - rows.begin());
 }
 
-double component(const Combination& combination, int dof) {
-  double sum = 0.0;
-  for (const auto& [index, factor] : combination.terms)
-    if (index == dof) sum += factor;
-  return sum;
-}
-
 std::vector<int> touched(const Contact& contact) {
   std::set<int> dofs;
   for (const auto& term : contact.normal.terms) dofs.insert(term.first);
@@ -80,6 +73,13 @@ std::vector<std::int64_t> rows_of_pattern(const Pattern& pattern) {
 }
 
 }  // namespace
+
+double component(const Combination& combination, int dof) {
+  double sum = 0.0;
+  for (const auto& [index, factor] : combination.terms)
+    if (index == dof) sum += factor;
+  return sum;
+}
 
 std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
   std::vector<Rows> result;

@@ -5,8 +5,8 @@
 //
 // The weights say what an unknown of that column stands for. IDA solves for dv where there is mass
 // (w = cj, 1, 1/cj) and du where there is none (0, cj, 1); the expansion in time solves for v', for u'
-// of damped and u of undamped massless degrees of freedom (motion/jet.hpp); Newmark would put
-// (1/(beta dt^2), gamma/(beta dt), 1). Order of unknowns and rows: the n degrees of freedom, then N_k
+// of damped and u of undamped massless degrees of freedom (motion/mode_system.hpp); Newmark puts
+// (1, h/2, h^2/4). Order of unknowns and rows: the n degrees of freedom, then N_k
 // and T_k of each contact in turn. The pattern is the union over all states: one for the whole run.
 #pragma once
 
@@ -23,6 +23,9 @@ namespace signorini {
 struct Weights {
   double acceleration = 0.0, velocity = 0.0, displacement = 0.0;
 };
+
+/// The factor of one degree of freedom in a form.
+[[nodiscard]] double component(const Combination& combination, int dof);
 
 /// Rows of all contacts in a mode.
 [[nodiscard]] std::vector<Rows> rows_of(const Model& model, const Mode& mode);

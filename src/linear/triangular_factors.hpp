@@ -8,43 +8,32 @@
 // other come in turn. An IDA step is one solve, a step of the series thirty: they outnumber factorisations.
 #pragma once
 
-#include <klu.h>
-
+#include <cstddef>
 #include <vector>
 
 namespace signorini {
 
 class TriangularFactors {
  public:
-  /// Takes over what KLU has factored. pattern: also the indices, after a factorisation with fresh pivots.
-  void take(klu_l_symbolic* symbolic, klu_l_numeric* numeric, klu_l_common* common, bool pattern);
-  /// b := A^-1 b
-  void solve(double* b);
+  /// b := A^-1 b; both of length size(), work: for scratch.
+  void solve(double* b, double* work) const;
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  /// Memory held.
+  [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// As KLU hands them out.
-  struct Raw {
-    std::vector<SuiteSparse_long> start, row;
-    std::vector<double> value;
-    [[nodiscard]] std::size_t begin(std::size_t k) const { return static_cast<std::size_t>(start[k]); }
-    void resize(std::size_t columns, SuiteSparse_long entries);
-  };
-  /// Columns in the order in which a sweep takes them.
+  friend class FactorReader;  // linear/factor_reader.hpp makes them
+  /// Entries column after column; those of the i-th column end at end[i].
   struct Columns {
-    std::vector<int> column, end, row;
+    std::vector<int> column, end, row;  // column: in the order in which a sweep takes them
     std::vector<double> value;
-    std::vector<std::size_t> from;  // place of each value in Raw
+    [[nodiscard]] std::size_t bytes() const;
   };
-  static void order(const Raw& raw, const std::vector<SuiteSparse_long>& blocks, bool lower, Columns& c);
-  static void arrange(const std::vector<int>& level, const std::vector<SuiteSparse_long>& blocks,
-                      bool backwards, std::vector<int>& columns);
   static void sweep(const Columns& c, std::size_t begin, std::size_t end, double* x);
 
-  Raw raw_lower_, raw_upper_, raw_off_;
   Columns lower_, upper_, off_;
-  std::vector<SuiteSparse_long> rows_long_, columns_long_, blocks_;
-  std::vector<int> rows_, columns_;
-  std::vector<double> scale_, inverse_scale_, inverse_pivot_, x_;
+  std::vector<int> rows_, columns_, blocks_;  // permutations; beginnings of blocks
+  std::vector<double> inverse_scale_, inverse_pivot_;
 };
 
 }  // namespace signorini

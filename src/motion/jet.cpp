@@ -48,19 +48,16 @@ void fill(const Contact& contact, std::size_t c, const Series& series, Derivativ
 
 }  // namespace
 
-Expander::Expander(const Model& model, const Structure& structure)
-    : model_(model),
-      taylor_(model, structure),
+JetMaker::JetMaker(ModeSystems& systems)
+    : model_(systems.model()),
+      taylor_(systems),
       // u^(k) of massless degrees of freedom is known one or two levels later
-      levels_(taylor_.massless() ? orders + 2 : orders) {}
+      levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
-Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Vector& v,
-                     std::vector<MotionJet>& result) const {
-  taylor_.expand(forcing, t, u, v, levels_, 1.0, series_);
-  Jet jet;
-  jet.t = t;
-  jet.u = series_.u;
-  jet.forces = series_.forces;
+Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                   const Vector& v, std::vector<MotionJet>& result) {
+  taylor_.expand(system, forcing, t, u, v, levels_, 1.0, series_);
+  Jet jet{t, series_.u, series_.forces, taylor_.system()};
   double factorial = 1.0;
   for (Eigen::Index k = 2; k < levels_ + 3; ++k) {
     factorial *= static_cast<double>(k);
@@ -68,12 +65,12 @@ Jet Expander::expand(const Forcing& forcing, double t, const Vector& u, const Ve
     if (k <= levels_) jet.forces.col(k) *= factorial;
   }
   const Disturbance disturbance;
-  taylor_.expand(forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
-  motions(result);
+  taylor_.expand(system, forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  motions(*jet.system, result);
   return jet;
 }
 
-void Expander::motions(std::vector<MotionJet>& result) const {
+void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result) const {
   result.resize(model_.contacts.size());
   // One sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
@@ -81,7 +78,7 @@ void Expander::motions(std::vector<MotionJet>& result) const {
   };
   Derivatives a, b;
   for (std::size_t c = 0; c < result.size(); ++c) {
-    const Rows& rows = taylor_.rows()[c];
+    const Rows& rows = system.rows()[c];
     fill(model_.contacts[c], c, series_, a);
     fill(model_.contacts[c], c, disturbed_, b);
     const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
@@ -123,49 +120,6 @@ void Expander::motions(std::vector<MotionJet>& result) const {
       d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
       d.pressing = noise_factor * epsilon * terms.pressing;
       d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
-    }
-  }
-}
-
-void Expander::consistent(const Forcing& forcing, double t, Point& point) const {
-  taylor_.expand(forcing, t, point.u, point.v, taylor_.massless() ? 1 : 0, 1.0, series_);
-  point = {series_.u.col(0), series_.u.col(1), series_.forces.col(0), 2.0 * series_.u.col(2)};
-}
-
-/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows.
-void Expander::correct(const std::vector<double>& misses, Vector& x) const {
-  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return;
-  const Eigen::Index n = x.size();
-  Vector change = Vector::Zero(n + static_cast<Eigen::Index>(misses.size()));
-  for (std::size_t i = 0; i < misses.size(); ++i) change[n + static_cast<Eigen::Index>(i)] = misses[i];
-  taylor_.solve(change.data());
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (taylor_.kinds()[static_cast<std::size_t>(i)] == Taylor::Kind::massive) x[i] += change[i];
-}
-
-void Expander::hold(const Forcing& forcing, double t, const Mode& mode, Vector& u, Vector& v) const {
-  std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
-  for (std::size_t c = 0; c < mode.size(); ++c) {
-    const Contact& contact = model_.contacts[c];
-    if (contact.law == Law::rigid && mode[c].state != State::open) {
-      places[2 * c] = -(contact.gap + contact.normal.dot(u));
-      rates[2 * c] = -contact.normal.dot(v);
-    }
-    if (mode[c].state == State::stick && contact.sticks_rigidly())
-      rates[2 * c + 1] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
-  }
-  correct(places, u);
-  correct(rates, v);
-  for (std::size_t c = 0; c < mode.size(); ++c) {  // one degree of freedom: exact, not to roundoff
-    const Contact& contact = model_.contacts[c];
-    if (contact.law == Law::rigid && mode[c].state != State::open && contact.normal.terms.size() == 1) {
-      const auto& [dof, factor] = contact.normal.terms[0];
-      u[dof] = (0.0 - contact.gap) / factor;
-      v[dof] = 0.0;
-    }
-    if (mode[c].state == State::stick && contact.sticks_rigidly() && contact.tangent.terms.size() == 1) {
-      const auto& [dof, factor] = contact.tangent.terms[0];
-      v[dof] = forcing.surface(c, t, 1) / factor;
     }
   }
 }

@@ -9,48 +9,39 @@
 #pragma once
 
 #include "contact/transition.hpp"
-#include "motion/point.hpp"
 #include "motion/taylor.hpp"
 
 namespace signorini {
 
 /// Derivatives: column k of order k. u: n rows; forces: (N_1, T_1, N_2, ...)^(k).
 struct Jet {
+  /// The orders up to which motions of contacts are needed to decide their states.
+  static constexpr int orders = static_cast<int>(MotionJet::orders) - 1;
+
   double t = 0.0;
   Eigen::MatrixXd u, forces;
+  ModeSystemPtr system;  ///< of the mode, with friction at the slip rates of this instant
 
   [[nodiscard]] auto v() const { return u.col(1); }
   [[nodiscard]] auto a() const { return u.col(2); }
 };
 
-class Expander {
+/// Makes jets; room for the series behind them is its own.
+class JetMaker {
  public:
-  /// The orders up to which motions of contacts are needed to decide their states.
-  static constexpr int orders = static_cast<int>(MotionJet::orders) - 1;
+  explicit JetMaker(ModeSystems& systems);
 
-  Expander(const Model& model, const Structure& structure);
-
-  /// Puts a mode in force. False: its rows are linearly dependent, forces would not be unique.
-  bool set(const Mode& mode) { return taylor_.set(mode); }
-  /// The series behind the jets, for engines that step with it.
-  [[nodiscard]] Taylor& taylor() const { return taylor_; }
   /// The jet at t from u and v (v of massless degrees of freedom is not read), and the motion of every
-  /// contact in it, orders 0 to `orders`, with its noise.
-  [[nodiscard]] Jet expand(const Forcing& forcing, double t, const Vector& u, const Vector& v,
-                           std::vector<MotionJet>& motions) const;
-  /// Level 0 alone: makes forces, accelerations and v of massless degrees of freedom consistent with u, v.
-  void consistent(const Forcing& forcing, double t, Point& point) const;
-  /// v += the smallest impulsive change that makes t.v equal the surface velocity at contacts that stick
-  /// without tangential stiffness, and n.v = 0 at closed rigid ones; u likewise, g = 0 at closed rigid ones.
-  void hold(const Forcing& forcing, double t, const Mode& mode, Vector& u, Vector& v) const;
+  /// contact in it, orders 0 to Jet::orders, with its noise.
+  [[nodiscard]] Jet make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
+                         const Vector& v, std::vector<MotionJet>& motions);
 
  private:
-  void motions(std::vector<MotionJet>& result) const;
-  void correct(const std::vector<double>& misses, Vector& x) const;
+  void motions(const ModeSystem& system, std::vector<MotionJet>& result) const;
 
   const Model& model_;
-  mutable Taylor taylor_;
-  mutable Series series_, disturbed_;  // of the last jet
+  Taylor taylor_;
+  Series series_, disturbed_;  // of the last jet
   int levels_;
 };
 

@@ -24,26 +24,26 @@ void name_fixed_steps(const RunSpec& spec, Settings& settings) {
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_stepper(const Model& model, const Structure& structure, Expander& expander,
+std::unique_ptr<Stepper> make_stepper(const Model& model, const Structure& structure, ModeSystems& systems,
                                       const RunSpec& spec, Settings& settings) {
   settings.engine = to_string(spec.engine);
   switch (spec.engine) {
     case Engine::exact:
       settings.max_order = most_levels;
       settings.max_order_reason = "Taylor series as long as rounding needs; rtol has no part in it";
-      return std::make_unique<ExactEngine>(model, structure, expander, spec.t_end);
+      return std::make_unique<ExactEngine>(model, structure, systems, spec.t_end);
     case Engine::newmark:
       name_fixed_steps(spec, settings);
-      return std::make_unique<NewmarkEngine>(model, structure, expander, spec, settings);
+      return std::make_unique<NewmarkEngine>(model, structure, systems, spec, settings);
     case Engine::friction_iteration:
       name_fixed_steps(spec, settings);
-      return std::make_unique<FrictionIteration>(model, structure, expander, spec);
+      return std::make_unique<FrictionIteration>(model, structure, spec);
     case Engine::automatic:
     case Engine::ida:
       break;
   }
   choose_order(model, spec, settings);
-  return std::make_unique<IdaEngine>(model, structure, expander, settings, spec.t_end);
+  return std::make_unique<IdaEngine>(model, structure, systems, settings, spec.t_end);
 }
 
 }  // namespace signorini

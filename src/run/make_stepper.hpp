@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/stepper.hpp"
-#include "motion/jet.hpp"
+#include "motion/mode_systems.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -12,7 +12,7 @@ namespace signorini {
 /// spec.engine is no longer `automatic`. Fills settings: engine, order, step. The others must outlive the
 /// stepper, but for settings. Errors: SceneError where a step is needed and not given.
 [[nodiscard]] std::unique_ptr<Stepper> make_stepper(const Model& model, const Structure& structure,
-                                                    Expander& expander, const RunSpec& spec,
+                                                    ModeSystems& systems, const RunSpec& spec,
                                                     Settings& settings);
 
 }  // namespace signorini

@@ -44,13 +44,13 @@ class Run {
         spec_(spec),
         recorder_(recorder),
         structure_(model),
-        expander_(model, structure_),
-        decider_(model, expander_, spec.max_events_at_once, settings.capture_velocity),
+        systems_(model, structure_),
+        decider_(systems_, spec.max_events_at_once, settings.capture_velocity),
         auditor_(model, structure_),
         grid_(spec.grid()),
         forcing_(model, 0.0, Side::after),
         breakpoints_(breakpoints(model, spec.t_end)) {
-    stepper_ = make_stepper(model, structure_, expander_, spec, settings);
+    stepper_ = make_stepper(model, structure_, systems_, spec, settings);
     report_.settings = std::move(settings);
   }
 
@@ -366,7 +366,7 @@ class Run {
   const RunSpec& spec_;
   Recorder& recorder_;
   Structure structure_;
-  Expander expander_;
+  ModeSystems systems_;
   Decider decider_;
   Auditor auditor_;
   std::vector<double> grid_;

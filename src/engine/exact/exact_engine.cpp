@@ -8,6 +8,7 @@
 #include <random>
 
 #include "motion/clock.hpp"
+#include "motion/hold.hpp"
 
 namespace signorini {
 namespace {
@@ -25,12 +26,10 @@ constexpr int most_touches = 5;                   // warnings about one and the 
 
 }  // namespace
 
-ExactEngine::ExactEngine(const Model& model, const Structure& structure, const Expander& expander,
-                         double t_end)
+ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end)
     : model_(model),
       structure_(structure),
-      expander_(expander),
-      taylor_(expander.taylor()),
+      taylor_(systems),
       t_end_(t_end),
       norm_(model),
       contacts_(model.contacts.size()),
@@ -53,10 +52,9 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, const E
 }
 
 /// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
-double ExactEngine::growth_of(const Mode& mode) {
-  const std::vector<State> states = states_of(mode);
-  const auto known = growth_.find(states);
-  if (known != growth_.end()) return known->second;
+double ExactEngine::growth_of(const ModeSystemPtr& system) {
+  const std::vector<State> states = states_of(system->mode());
+  if (const double* known = growth_.find(states)) return *known;
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
   std::mt19937_64 random(1);  // the same motion in every run
@@ -66,14 +64,14 @@ double ExactEngine::growth_of(const Mode& mode) {
     v[i] = fastest_ * uniform(random) / scales_[static_cast<std::size_t>(i)];
   }
   Series series;
-  taylor_.expand(Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
+  taylor_.expand(system, Forcing::none(model_), 0.0, u, v, probe_levels, 1.0 / fastest_, series);
   double greatest = 0.0;
   for (Eigen::Index k = probe_levels / 2; k + 2 <= probe_levels - 2; ++k) {
     const double a = norm_.of(series.u.col(k)), b = norm_.of(series.u.col(k + 2));
     if (a > 0.0)
       greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
-  return growth_[states] = growth_margin * greatest;
+  return growth_.insert(states, growth_margin * greatest, states.size() * sizeof(State));
 }
 
 void ExactEngine::start(const Segment& segment) {
@@ -81,7 +79,7 @@ void ExactEngine::start(const Segment& segment) {
   const Decision& decision = *segment.decision;
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
-  growth_now_ = std::max({growth_of(decision.mode), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
+  growth_now_ = std::max({growth_of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   last_ = first_step();
   polynomial_ = segment.forcing->greatest_degree();
   for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
@@ -176,7 +174,8 @@ bool ExactEngine::stands(double x) const {
 /// the series then reaches.
 double ExactEngine::expand(double scale) {
   const int late = taylor_.massless() ? 2 : 0;  // u_k of massless parts is complete two levels later
-  taylor_.begin(*segment_.forcing, t_, end_.u, end_.v, most_levels, scale, series_);
+  taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, most_levels, scale,
+                series_);
   std::size_t measured = 0;
   for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
     taylor_.extend(*segment_.forcing, level, series_);
@@ -321,7 +320,7 @@ Step ExactEngine::advance() {
   evaluate_at(x, end_);  // sharper than at the rounded time
   t_ = end;
   // Roundoff in g'' adds up twice over a long phase.
-  expander_.hold(*segment_.forcing, t_, segment_.decision->mode, end_.u, end_.v);
+  hold(model_, *segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v);
   return step_;
 }
 

@@ -20,11 +20,13 @@ namespace signorini {
 
 /// Terms of a series at most.
 inline constexpr int most_levels = 30;
+/// Growths of modes are kept longer than their systems: one takes a series to find and 8 bytes to keep.
+inline constexpr CacheBounds most_growths{16384, std::size_t{1} << 20};
 
 class ExactEngine final : public Stepper {
  public:
-  /// The expander stands for the mode of the segment while it runs.
-  ExactEngine(const Model& model, const Structure& structure, const Expander& expander, double t_end);
+  /// All but t_end must outlive it.
+  ExactEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -44,7 +46,7 @@ class ExactEngine final : public Stepper {
     int leading = 0;  // leaving: the guard is x^leading times a polynomial that is positive at 0
   };
 
-  [[nodiscard]] double growth_of(const Mode& mode);
+  [[nodiscard]] double growth_of(const ModeSystemPtr& system);
   [[nodiscard]] double first_step() const;
   void weigh();
   void measure(std::size_t first, std::size_t last);
@@ -57,12 +59,11 @@ class ExactEngine final : public Stepper {
 
   const Model& model_;
   const Structure& structure_;
-  const Expander& expander_;
-  Taylor& taylor_;
+  Taylor taylor_;
   const double t_end_;
   FlowNorm norm_;
   std::size_t degree_ = 0;  // of all polynomials on the last step
-  std::map<std::vector<State>, double> growth_;
+  BoundedCache<std::vector<State>, double> growth_{most_growths};
   Segment segment_;
   Series series_;
   std::vector<ContactSeries> contacts_;

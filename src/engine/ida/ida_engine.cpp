@@ -9,15 +9,15 @@
 
 namespace signorini {
 
-IdaEngine::IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
+IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems,
                      const Settings& settings, double t_end)
     : model_(model),
-      expander_(expander),
+      consistent_(systems),
       settings_(settings),
       powers_(model, structure),
       bdf_(model, structure, settings, counters),
       history_(guards_per_contact * model.contacts.size() + powers_.count()),
-      flights_(model, structure, expander, t_end),
+      flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
     accelerations_ = accelerations_ || contact.normal_damping > 0.0;
@@ -72,7 +72,7 @@ void IdaEngine::evaluate(double t, Point& point) {
   if (flight_) return flights_.motion().evaluate(t, point);
   bdf_.evaluate(t, point);
   if (accelerations_)
-    expander_.consistent(*segment_.forcing, t, point);
+    consistent_.make(segment_.decision->system, *segment_.forcing, t, point);
   else
     point.a.resize(0);  // what stands there is of another time
 }
@@ -100,7 +100,7 @@ Step IdaEngine::advance() {
     return step;
   }
   bdf_.evaluate(bdf.end, point_);
-  if (accelerations_) expander_.consistent(*segment_.forcing, bdf.end, point_);
+  if (accelerations_) consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
   fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
   step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
@@ -130,8 +130,8 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   if (candidates.empty()) return std::nullopt;
   std::optional<Located> first;
   for (const Located& c : candidates) {
-    const double time = locate(bdf_, expander_, *segment_.forcing, model_, guards[c.slot],
-                               c.slot / guards_per_contact, step.begin, step.end, c.time, resolution);
+    const double time =
+        locate(bdf_, consistent_, segment_, model_, c.slot, step.begin, step.end, c.time, resolution);
     if (!first || time < first->time) first = Located{c.slot, time};
   }
   if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;

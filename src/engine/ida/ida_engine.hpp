@@ -11,14 +11,15 @@
 #include "engine/ida/ida_stepper.hpp"
 #include "engine/ida/short_flight.hpp"
 #include "engine/stepper.hpp"
+#include "motion/consistent.hpp"
 
 namespace signorini {
 
 class IdaEngine final : public Stepper {
  public:
-  /// The expander stands for the mode of the segment while it runs.
-  IdaEngine(const Model& model, const Structure& structure, const Expander& expander,
-            const Settings& settings, double t_end);
+  /// The first three must outlive it.
+  IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Settings& settings,
+            double t_end);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -39,7 +40,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
 
   const Model& model_;
-  const Expander& expander_;
+  ConsistentMotion consistent_;
   const Settings settings_;
   Powers powers_;
   IdaStepper bdf_;

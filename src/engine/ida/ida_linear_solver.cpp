@@ -20,17 +20,8 @@ IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure,
 void IdaLinearSolver::set_mode(const Mode& mode) {
   rows_ = rows_of(model_, mode);
   fresh_ = true;
-  held_.clear();
-  for (std::size_t k = 0; k < rows_.size(); ++k)
-    for (const bool tangent : {false, true}) {
-      const Combination& form = tangent ? model_.contacts[k].tangent : model_.contacts[k].normal;
-      const Form& row = tangent ? rows_[k].tangent : rows_[k].normal;
-      const bool prescribes = tangent ? row.at != 0.0 : row.an != 0.0 && row.N == 0.0;
-      if (!prescribes || form.terms.size() != 1) continue;
-      const auto& [dof, factor] = form.terms[0];
-      held_.push_back({static_cast<std::size_t>(dof),
-                       static_cast<std::size_t>(layout_.dofs) + 2 * k + (tangent ? 1 : 0), factor, 0.0});
-    }
+  pinned_ = pinned_by(model_, rows_);
+  held_.resize(pinned_.size());
 }
 
 bool IdaLinearSolver::factor() {
@@ -50,9 +41,13 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     for (std::size_t i = 0; i < n; ++i) rhs_[i] = layout_.velocity[i] >= 0 ? b[layout_.velocity[i]] : b[i];
     std::copy(b + n + massive, b + massive + rhs_.size(), rhs_.data() + n);
   }
-  for (Held& h : held_) h.value = rhs_[h.row] / (cj_ * h.factor);
+  const Unknowns at{n, rows_.size()};
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const Pinned& p = pinned_[i];
+    held_[i] = rhs_[p.tangent ? at.tangent(p.contact) : at.normal(p.contact)] / (cj_ * p.factor);
+  }
   matrix_.solve(rhs_.data());
-  for (const Held& h : held_) rhs_[h.dof] = h.value;
+  for (std::size_t i = 0; i < held_.size(); ++i) rhs_[pinned_[i].dof] = held_[i];
   const double step = 1.0 / cj_;
   if (all_massive) {
     for (std::size_t i = 0; i < n; ++i) x[i] = step * (rhs_[i] + b[i]);

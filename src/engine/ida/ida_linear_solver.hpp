@@ -11,7 +11,9 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include "linear/pinned.hpp"
 #include "linear/system_matrix.hpp"
+#include "linear/unknowns.hpp"
 
 namespace signorini {
 
@@ -54,11 +56,8 @@ class IdaLinearSolver {
   std::vector<Rows> rows_;
   std::vector<Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.
-  struct Held {
-    std::size_t dof, row;
-    double factor, value;
-  };
-  std::vector<Held> held_;
+  std::vector<Pinned> pinned_;
+  std::vector<double> held_;  // their values
   std::vector<double> rhs_;
   double cj_ = 1.0;
   bool fresh_ = true;

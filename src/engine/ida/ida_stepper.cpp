@@ -130,7 +130,7 @@ struct IdaStepper::Memory {
     problem.fill(jet, 0, NV_DATA_S(y));
     problem.weights(NV_DATA_S(y), NV_DATA_S(work));
     double factorial = 1.0;
-    for (std::size_t order = 2; order <= static_cast<std::size_t>(Expander::orders); ++order) {
+    for (std::size_t order = 2; order <= static_cast<std::size_t>(Jet::orders); ++order) {
       factorial *= static_cast<double>(order);
       problem.fill(jet, order, NV_DATA_S(yp));
       const double norm = N_VWrmsNorm(yp, work);

@@ -8,13 +8,14 @@
 #pragma once
 
 #include "engine/ida/ida_stepper.hpp"
+#include "motion/consistent.hpp"
 
 namespace signorini {
 
 /// Refines `time`, a root of guard `slot` found on [begin, end] of the last step; returns it unchanged
 /// where the recomputed guard has no fall there. Brackets by doubling, then Brent's method (GSL).
-[[nodiscard]] double locate(IdaStepper& stepper, const Expander& expander, const Forcing& forcing,
-                            const Model& model, const GuardStart& guard, std::size_t contact, double begin,
-                            double end, double time, double resolution);
+[[nodiscard]] double locate(IdaStepper& stepper, ConsistentMotion& consistent, const Segment& segment,
+                            const Model& model, std::size_t slot, double begin, double end, double time,
+                            double resolution);
 
 }  // namespace signorini

@@ -16,9 +16,8 @@ bool is_linear(const Model& model, const Mode& mode) {
 
 }  // namespace
 
-ShortFlight::ShortFlight(const Model& model, const Structure& structure, const Expander& expander,
-                         double t_end)
-    : model_(model), series_(std::make_unique<ExactEngine>(model, structure, expander, t_end)) {}
+ShortFlight::ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end)
+    : model_(model), series_(std::make_unique<ExactEngine>(model, structure, systems, t_end)) {}
 
 std::optional<Step> ShortFlight::take(const Segment& segment,
                                       const std::function<double(const Contact&)>& level) {

@@ -16,7 +16,7 @@ namespace signorini {
 
 class ShortFlight {
  public:
-  ShortFlight(const Model& model, const Structure& structure, const Expander& expander, double t_end);
+  ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
 
   /// The step to the hit, if the segment begins with such a flight. level: gap of a contact from which on the
   /// integrator sees it by itself.

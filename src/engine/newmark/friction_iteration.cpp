@@ -15,15 +15,13 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double unchanged = 1e-12;   // of the greatest contact force: a bound has stopped changing
 constexpr double rounding = 64.0;     // units of epsilon of the terms of a difference
 constexpr double same_length = 1e-9;  // of dt
-constexpr unsigned char slips = 100;  // key: T is given, whatever its direction
-constexpr unsigned char stops = 101;  // key: comes to rest within the step, without tangential stiffness
+constexpr int slips = 100;            // key: T is given, whatever its direction
+constexpr int stops = 101;            // key: comes to rest within the step, without tangential stiffness
 
 }  // namespace
 
-FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const Expander& expander,
-                                     const RunSpec& run)
+FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const RunSpec& run)
     : model_(model),
-      expander_(expander),
       dt_(run.dt.value()),
       relaxation_(run.relaxation),
       most_(run.max_iterations),
@@ -39,7 +37,7 @@ void FrictionIteration::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   mode_ = decision.mode;
   key_in_force_.clear();
-  step_.set({}, signorini::rows_of(model_, mode_), expander_.taylor().kinds());
+  step_.set({}, signorini::rows_of(model_, mode_), decision.system->kinds());
   ++counters.restarts;
 }
 
@@ -64,7 +62,7 @@ void FrictionIteration::put_in_force() {
     const Contact& contact = model_.contacts[k];
     const Side& side = sides_[k];
     rows[k] = signorini::rows(contact, {side.state, side.anchor});
-    key_[k] = static_cast<unsigned char>(side.state);
+    key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
       tangent = {};
@@ -80,7 +78,7 @@ void FrictionIteration::put_in_force() {
   }
   if (key_ == key_in_force_) return;
   key_in_force_ = key_;
-  step_.set(key_, std::move(rows), expander_.taylor().kinds());
+  step_.set(key_, std::move(rows), segment_.decision->system->kinds());
 }
 
 /// The state that the iterate asks of contact k, its bound given.
@@ -111,7 +109,7 @@ bool FrictionIteration::new_states() {
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const State state = state_of(k);
     changed = changed || state != sides_[k].state;
-    key_[k] = static_cast<unsigned char>(state);
+    key_[k] = static_cast<int>(state);
   }
   for (std::size_t k = 0; k < sides_.size(); ++k) sides_[k].state = static_cast<State>(key_[k]);
   return changed;

@@ -19,9 +19,8 @@ namespace signorini {
 
 class FrictionIteration final : public Stepper {
  public:
-  /// The expander stands for the mode of the segment while it runs. run.dt must be given.
-  FrictionIteration(const Model& model, const Structure& structure, const Expander& expander,
-                    const RunSpec& run);
+  /// The first two must outlive it. run.dt must be given.
+  FrictionIteration(const Model& model, const Structure& structure, const RunSpec& run);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -46,7 +45,6 @@ class FrictionIteration final : public Stepper {
   [[nodiscard]] std::string iterate(double h, bool kept);
 
   const Model& model_;
-  const Expander& expander_;
   const double dt_, relaxation_;
   const int most_;
   NewmarkStep step_;

@@ -25,10 +25,10 @@ constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 
 }  // namespace
 
-NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, const Expander& expander,
+NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems,
                              const RunSpec& run, const Settings& settings)
     : model_(model),
-      expander_(expander),
+      consistent_(systems),
       settings_(settings),
       dt_(run.dt.value()),
       linear_(run.refine == Refine::linear),
@@ -36,7 +36,7 @@ NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, con
       step_(model, structure),
       works_(model, structure),
       watched_(guards_per_contact * model.contacts.size()),
-      settles_(expander.taylor().massless()),
+      settles_(has_massless(model)),
       regular_(dt_) {}
 
 void NewmarkEngine::start(const Segment& segment) {
@@ -45,8 +45,8 @@ void NewmarkEngine::start(const Segment& segment) {
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
-  for (const ContactState& s : decision.mode) key.push_back(static_cast<unsigned char>(s.state));
-  step_.set(std::move(key), rows_of(model_, decision.mode), expander_.taylor().kinds());
+  for (const ContactState& s : decision.mode) key.push_back(static_cast<int>(s.state));
+  step_.set(std::move(key), rows_of(model_, decision.mode), decision.system->kinds());
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
@@ -138,7 +138,7 @@ double NewmarkEngine::value_of(std::size_t slot, double t, const Point& point) c
 /// A step of length h from the beginning of this one, to t.
 bool NewmarkEngine::take(double h, double t, bool kept, Point& to) {
   if (!step_.take(*segment_.forcing, begin_, t, h, kept, to)) return false;
-  if (settles_) expander_.consistent(*segment_.forcing, t, to);
+  if (settles_) consistent_.make(segment_.decision->system, *segment_.forcing, t, to);
   return true;
 }
 

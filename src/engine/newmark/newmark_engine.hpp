@@ -16,13 +16,14 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
+#include "motion/consistent.hpp"
 
 namespace signorini {
 
 class NewmarkEngine final : public Stepper {
  public:
-  /// The expander stands for the mode of the segment while it runs. run.dt must be given.
-  NewmarkEngine(const Model& model, const Structure& structure, const Expander& expander, const RunSpec& run,
+  /// The first three must outlive it. run.dt must be given.
+  NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run,
                 const Settings& settings);
 
   void start(const Segment& segment) override;
@@ -68,7 +69,7 @@ class NewmarkEngine final : public Stepper {
   Step failed(std::string reason) const;
 
   const Model& model_;
-  const Expander& expander_;
+  ConsistentMotion consistent_;
   const Settings settings_;
   const double dt_;
   const bool linear_, doubling_;

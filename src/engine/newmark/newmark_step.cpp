@@ -6,74 +6,69 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_kept = 32;  // factorisations: modes that a run comes back to
+// Two lengths (dt, and what doubling compares it with) for each of 16 modes that a cycle comes back to; in
+// bytes as much as mode systems may take (motion/mode_systems.hpp).
+constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
 
 }  // namespace
 
 NewmarkStep::NewmarkStep(const Model& model, const Structure& structure)
-    : model_(model), structure_(structure), weights_(static_cast<std::size_t>(structure.size)) {
+    : model_(model),
+      structure_(structure),
+      workshop_(model, structure),
+      kept_(most_kept),
+      odd_(model, structure),
+      weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = none_ = u_;
   x_.setZero(structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()));
-  kept_.reserve(most_kept);
-  odd_.matrix = std::make_unique<SystemMatrix>(model, structure);
+  work_ = x_;
 }
 
-void NewmarkStep::set(Key key, std::vector<Rows> rows, const std::vector<Taylor::Kind>& kinds) {
+void NewmarkStep::set(Key key, std::vector<Rows> rows, const std::vector<DofKind>& kinds) {
   key_ = std::move(key);
   rows_ = std::move(rows);
   kinds_ = kinds;
   last_ = nullptr;
 }
 
-bool NewmarkStep::factor(Factored& place, double h) {
+bool NewmarkStep::factor(SystemMatrix& matrix, double h, bool fresh) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = kinds_[i] == Taylor::Kind::massive  ? Weights{1.0, 0.5 * h, 0.25 * h * h}
-                  : kinds_[i] == Taylor::Kind::damped ? Weights{0.0, 1.0, 0.5 * h}
-                                                      : Weights{0.0, 0.0, 1.0};
-  const bool fresh = place.key != key_ || place.h == 0.0;
-  place.key = key_;
-  place.h = h;
-  if (place.matrix->set(rows_, weights_, fresh)) return true;
-  place.h = 0.0;  // holds nothing
-  return false;
+    weights_[i] = kinds_[i] == DofKind::massive  ? Weights{1.0, 0.5 * h, 0.25 * h * h}
+                  : kinds_[i] == DofKind::damped ? Weights{0.0, 1.0, 0.5 * h}
+                                                 : Weights{0.0, 0.0, 1.0};
+  return matrix.set(rows_, weights_, fresh);
 }
 
-SystemMatrix* NewmarkStep::matrix_for(double h, bool kept) {
-  if (last_ != nullptr && last_->h == h) return last_->matrix.get();
+const TriangularFactors* NewmarkStep::factors_for(double h, bool kept) {
+  if (last_ != nullptr && last_h_ == h) return last_;
   last_ = nullptr;
-  ++clock_;
+  last_h_ = h;
   if (!kept) {
-    if ((odd_.key != key_ || odd_.h != h) && !factor(odd_, h)) return nullptr;
-    last_ = &odd_;
-    return odd_.matrix.get();
-  }
-  for (Factored& f : kept_)
-    if (f.h == h && f.key == key_) {
-      last_ = &f;
-      f.used = clock_;
-      return f.matrix.get();
+    if (odd_key_ != key_ || odd_h_ != h) {
+      const bool fresh = odd_key_ != key_ || odd_h_ == 0.0;
+      odd_key_ = key_;
+      odd_h_ = factor(odd_, h, fresh) ? h : 0.0;
+      if (odd_h_ == 0.0) return nullptr;
     }
-  if (kept_.size() < most_kept) {
-    kept_.push_back({{}, 0.0, 0, std::make_unique<SystemMatrix>(model_, structure_)});
-    last_ = &kept_.back();
-  } else {
-    last_ = &*std::min_element(kept_.begin(), kept_.end(),
-                               [](const Factored& a, const Factored& b) { return a.used < b.used; });
+    return last_ = &odd_.klu().factors();
   }
-  last_->used = clock_;
-  if (factor(*last_, h)) return last_->matrix.get();
-  last_ = nullptr;
-  return nullptr;
+  const std::pair<Key, double> place(key_, h);
+  last_ = kept_.find(place);
+  if (last_ == nullptr && factor(workshop_, h, true)) {
+    const TriangularFactors& factors = workshop_.klu().factors();
+    last_ = &kept_.insert(place, factors, factors.bytes());
+  }
+  return last_;
 }
 
 bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, double h, bool kept, Point& to) {
-  SystemMatrix* matrix = matrix_for(h, kept);
-  if (matrix == nullptr) return false;
+  const TriangularFactors* factors = factors_for(h, kept);
+  if (factors == nullptr) return false;
   const auto n = static_cast<std::size_t>(structure_.size);
   const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
   for (std::size_t i = 0; i < n; ++i) {  // what is known of the motion at t1
-    const bool massive = kinds_[i] == Taylor::Kind::massive, damped = kinds_[i] == Taylor::Kind::damped;
+    const bool massive = kinds_[i] == DofKind::massive, damped = kinds_[i] == DofKind::damped;
     u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
     v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
   }
@@ -95,7 +90,7 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
     x_.data()[n + 2 * k] = -r;
     x_.data()[n + 2 * k + 1] = -q;
   }
-  matrix->solve(x_.data());
+  factors->solve(x_.data(), work_.data());
   ++solves_;
 
   to.u.resize(from.u.size());
@@ -106,11 +101,11 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   const double* x = x_.data();
   for (std::size_t i = 0; i < n; ++i) {
     a1[i] = 0.0;
-    if (kinds_[i] == Taylor::Kind::massive) {
+    if (kinds_[i] == DofKind::massive) {
       u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
       v1[i] = v_.data()[i] + 0.5 * h * x[i];
       a1[i] = x[i];
-    } else if (kinds_[i] == Taylor::Kind::damped) {
+    } else if (kinds_[i] == DofKind::damped) {
       u1[i] = u_.data()[i] + 0.5 * h * x[i];
       v1[i] = x[i];
     } else {
@@ -141,12 +136,8 @@ double NewmarkStep::residual(const Forcing& forcing, double t, const Point& poin
 
 void NewmarkStep::count(Counters& counters) const {
   counters.solves = solves_;
-  counters.factorisations = odd_.matrix->klu().factorisations;
-  counters.refactorisations = odd_.matrix->klu().refactorisations;
-  for (const Factored& f : kept_) {
-    counters.factorisations += f.matrix->klu().factorisations;
-    counters.refactorisations += f.matrix->klu().refactorisations;
-  }
+  counters.factorisations = odd_.klu().factorisations + workshop_.klu().factorisations;
+  counters.refactorisations = odd_.klu().refactorisations;
 }
 
 }  // namespace signorini

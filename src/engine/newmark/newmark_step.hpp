@@ -9,9 +9,10 @@
 // nothing is divided by h, so a step may be as short as the clock tells.
 #pragma once
 
-#include <memory>
-
-#include "motion/taylor.hpp"
+#include "base/bounded_cache.hpp"
+#include "linear/dof_kinds.hpp"
+#include "linear/system_matrix.hpp"
+#include "motion/point.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -19,12 +20,12 @@ namespace signorini {
 class NewmarkStep {
  public:
   /// Names what of the rows stands in the matrix: equal keys, equal matrices.
-  using Key = std::vector<unsigned char>;
+  using Key = std::vector<int>;
 
   NewmarkStep(const Model& model, const Structure& structure);
 
   /// Puts rows in force. `kinds`: which unknown each degree of freedom has.
-  void set(Key key, std::vector<Rows> rows, const std::vector<Taylor::Kind>& kinds);
+  void set(Key key, std::vector<Rows> rows, const std::vector<DofKind>& kinds);
   /// Constants of rows may change without a new factorisation.
   [[nodiscard]] std::vector<Rows>& rows() { return rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
@@ -37,26 +38,24 @@ class NewmarkStep {
   void count(Counters& counters) const;
 
  private:
-  struct Factored {
-    Key key;
-    double h = 0.0;
-    long used = 0;
-    std::unique_ptr<SystemMatrix> matrix;
-  };
-  [[nodiscard]] SystemMatrix* matrix_for(double h, bool kept);
-  bool factor(Factored& place, double h);
+  [[nodiscard]] const TriangularFactors* factors_for(double h, bool kept);
+  [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
 
   const Model& model_;
   const Structure& structure_;
   Key key_;
   std::vector<Rows> rows_;
-  std::vector<Taylor::Kind> kinds_;
-  std::vector<Factored> kept_;
-  Factored odd_;              // for lengths that will not come again
-  Factored* last_ = nullptr;  // what the last step used; null after a change of rows
+  std::vector<DofKind> kinds_;
+  SystemMatrix workshop_;
+  BoundedCache<std::pair<Key, double>, TriangularFactors> kept_;  // by rows and length
+  SystemMatrix odd_;                                              // for a length that will not come again
+  Key odd_key_;
+  double odd_h_ = 0.0;                       // 0: it holds nothing
+  const TriangularFactors* last_ = nullptr;  // what the last step used; null after a change of rows
+  double last_h_ = 0.0;
   std::vector<Weights> weights_;
-  Vector u_, v_, none_, x_;  // known parts of the motion, the right-hand side and solution
-  long clock_ = 0, solves_ = 0;
+  Vector u_, v_, none_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
+  long solves_ = 0;
 };
 
 }  // namespace signorini

@@ -46,13 +46,13 @@ Model blocks(const std::vector<std::vector<double>>& mass, const std::vector<dou
 
 Decision start(const Model& model) {
   const Structure structure(model);
-  Expander expander(model, structure);
+  ModeSystems systems(model, structure);
   const Forcing forcing(model, 0.0, Side::after);
   Instant instant;
   instant.u = model.u0;
   instant.v = model.v0;
   instant.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
-  return Decider(model, expander, 100, 1e-9).decide(instant, forcing, forcing);
+  return Decider(systems, 100, 1e-9).decide(instant, forcing, forcing);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "motion/jet.hpp"
+#include "motion/consistent.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -31,14 +31,15 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
   TEST_CASE("the formulas of average acceleration, equilibrium and the limit hold at the end of a step") {
     const Model m = model();
     const Structure structure(m);
-    Expander expander(m, structure);
+    ModeSystems systems(m, structure);
     const Mode mode{{State::slip_plus, 0.0}};
-    REQUIRE(expander.set(mode));
+    const ModeSystemPtr system = systems.of(mode);
+    REQUIRE(system);
     const Forcing forcing(m, 0.0, Side::after);
     Point from{m.u0, m.v0, Vector::Zero(2)}, to;
-    expander.consistent(forcing, 0.0, from);
+    ConsistentMotion(systems).make(system, forcing, 0.0, from);
     NewmarkStep step(m, structure);
-    step.set({1}, rows_of(m, mode), expander.taylor().kinds());
+    step.set({1}, system->rows(), system->kinds());
     // From a thousandth of a period of the contact's spring to far above it, and to the clock's resolution.
     for (double h : {1e-16, 1e-9, 1e-4, 1e-2, 10.0}) {
       CAPTURE(h);
@@ -57,15 +58,16 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
   TEST_CASE("a factorisation is kept for a length that comes again in the same states") {
     const Model m = model();
     const Structure structure(m);
-    Expander expander(m, structure);
+    ModeSystems systems(m, structure);
     NewmarkStep step(m, structure);
     const Mode stick{{State::stick, 0.0}}, slip{{State::slip_plus, 0.0}};
     const Forcing forcing(m, 0.0, Side::after);
     Point from{m.u0, m.v0, Vector::Zero(2), Vector::Zero(2)}, to;
     for (int i = 0; i < 5; ++i)
       for (const Mode& mode : {stick, slip}) {
-        REQUIRE(expander.set(mode));
-        step.set({static_cast<unsigned char>(mode[0].state)}, rows_of(m, mode), expander.taylor().kinds());
+        const ModeSystemPtr system = systems.of(mode);
+        REQUIRE(system);
+        step.set({static_cast<int>(mode[0].state)}, system->rows(), system->kinds());
         REQUIRE(step.take(forcing, from, 0.01, 0.01, true, to));
         REQUIRE(step.take(forcing, from, 0.02, 0.01, true, to));
       }

@@ -1,0 +1,51 @@
+#include "motion/hold.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows.
+void correct(const ModeSystem& system, const std::vector<double>& misses, Vector& x) {
+  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return;
+  const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();
+  std::vector<double> change(size, 0.0), work(size);
+  std::copy(misses.begin(), misses.end(), change.begin() + static_cast<std::ptrdiff_t>(n));
+  system.solve(change.data(), work.data());
+  for (std::size_t i = 0; i < n; ++i)
+    if (system.kinds()[i] == DofKind::massive) x[static_cast<Eigen::Index>(i)] += change[i];
+}
+
+}  // namespace
+
+void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t, Vector& u,
+          Vector& v) {
+  const Mode& mode = system.mode();
+  const auto is_held = [&](std::size_t c) {
+    return model.contacts[c].law == Law::rigid && mode[c].state != State::open;
+  };
+  const auto sticks = [&](std::size_t c) {
+    return mode[c].state == State::stick && model.contacts[c].sticks_rigidly();
+  };
+  std::vector<double> places(2 * mode.size(), 0.0), rates(2 * mode.size(), 0.0);
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (is_held(c)) {
+      places[2 * c] = -(contact.gap + contact.normal.dot(u));
+      rates[2 * c] = -contact.normal.dot(v);
+    }
+    if (sticks(c)) rates[2 * c + 1] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
+  }
+  correct(system, places, u);
+  correct(system, rates, v);
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (is_held(c)) {
+      set_exactly(contact.normal, -contact.gap, u);
+      set_exactly(contact.normal, 0.0, v);
+    }
+    if (sticks(c)) set_exactly(contact.tangent, forcing.surface(c, t, 1), v);
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,16 @@
+// hold.hpp: takes the drift out of what a mode holds still.
+//
+//   n . u + g0 = 0,  n . v = 0     at closed rigid contacts
+//   t . v = s'                     at contacts that stick without tangential stiffness
+#pragma once
+
+#include "motion/forcing.hpp"
+#include "motion/mode_system.hpp"
+
+namespace signorini {
+
+/// Changes u and v as little as possible, in the norm of M, so that they fulfil the mode's constraints at t.
+void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t, Vector& u,
+          Vector& v);
+
+}  // namespace signorini

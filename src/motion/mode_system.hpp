@@ -1,0 +1,64 @@
+// mode_system.hpp: the linear system of one mode, factorised: a value that does not change.
+//
+//   | M w_a + C w_v + K w_u    n   t |  x = b      w: 1 for what a degree of freedom is solved for
+//   | rows of the contacts         . |             (linear/dof_kinds.hpp), else 0
+//
+// What of it depends on the states alone is a FactorisedMode, which modes with other anchors share: anchors
+// are constants of rows. Friction that depends on the slip rate stands in the matrix: such a system holds
+// for the coefficients that it was made for, the kinetic ones at first.
+// Shapes: n degrees of freedom, then N and T of each contact (linear/unknowns.hpp).
+#pragma once
+
+#include <memory>
+
+#include "contact/mode.hpp"
+#include "linear/dof_kinds.hpp"
+#include "linear/pinned.hpp"
+#include "linear/triangular_factors.hpp"
+#include "linear/unknowns.hpp"
+
+namespace signorini {
+
+/// Up to so many unknowns a dense inverse is quicker than a sparse solve.
+inline constexpr std::size_t most_dense = 40;
+
+struct FactorisedMode {
+  Unknowns unknowns;
+  std::vector<DofKind> kinds;  ///< one a degree of freedom
+  std::vector<Pinned> pinned;
+  std::vector<std::size_t> by_rate;  ///< contacts that slip with friction that depends on the slip rate
+  bool massless = false;             ///< not all degrees of freedom are massive
+  bool regular = false;              ///< false: rows are linearly dependent; there is no inverse
+  TriangularFactors sparse;          ///< empty where `inverse` is not
+  /// Column by column: A^-1, and what a unit of u or v of each degree of freedom asks of the unknowns where
+  /// all have mass: x = A^-1 b + from_u u + from_v v.
+  std::vector<double> inverse, from_u, from_v;
+
+  [[nodiscard]] bool dense() const { return !inverse.empty(); }
+  /// x := A^-1 x; work: room for unknowns.size() numbers.
+  void solve(double* x, double* work) const;
+  /// Memory held.
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+class ModeSystem {
+ public:
+  ModeSystem(Mode mode, std::vector<Rows> rows, std::shared_ptr<const FactorisedMode> factorised)
+      : mode_(std::move(mode)), rows_(std::move(rows)), factorised_(std::move(factorised)) {}
+
+  [[nodiscard]] const Mode& mode() const { return mode_; }
+  [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
+  [[nodiscard]] const FactorisedMode& factorised() const { return *factorised_; }
+  [[nodiscard]] const std::vector<DofKind>& kinds() const { return factorised_->kinds; }
+  [[nodiscard]] const Unknowns& unknowns() const { return factorised_->unknowns; }
+  void solve(double* x, double* work) const { factorised_->solve(x, work); }
+
+ private:
+  Mode mode_;
+  std::vector<Rows> rows_;
+  std::shared_ptr<const FactorisedMode> factorised_;
+};
+
+using ModeSystemPtr = std::shared_ptr<const ModeSystem>;
+
+}  // namespace signorini

@@ -1,0 +1,100 @@
+#include "motion/mode_systems.hpp"
+
+namespace signorini {
+
+ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBounds bounds)
+    : model_(model),
+      structure_(structure),
+      own_kinds_(dof_kinds(model, structure)),
+      massless_(has_massless(model)),
+      matrix_(model, structure),
+      weights_(static_cast<std::size_t>(structure.size)),
+      cache_(bounds) {}
+
+FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& rows) const {
+  FactorisedMode result;
+  result.unknowns = {own_kinds_.size(), mode.size()};
+  result.massless = massless_;
+  result.kinds = massless_ ? in_mode(own_kinds_, model_, rows) : own_kinds_;
+  result.pinned = pinned_by(model_, rows);
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (model_.contacts[c].stribeck_velocity && slip_sign(mode[c].state) != 0) result.by_rate.push_back(c);
+  return result;
+}
+
+void ModeSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode) {
+  ++made_;
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    weights_[i] = mode.kinds[i] == DofKind::massive  ? Weights{1.0, 0.0, 0.0}
+                  : mode.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.0}
+                                                     : Weights{0.0, 0.0, 1.0};
+  mode.regular = matrix_.set(rows, weights_, true);
+  if (!mode.regular) return;
+  if (mode.unknowns.size() <= most_dense && mode.by_rate.empty())
+    invert(rows, mode);
+  else
+    mode.sparse = matrix_.klu().factors();
+}
+
+void ModeSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
+  const Unknowns& at = mode.unknowns;
+  const std::size_t size = at.size(), n = at.dofs;
+  std::vector<double> inverse(size * size, 0.0), work(size);
+  for (std::size_t j = 0; j < size; ++j) {
+    inverse[j * size + j] = 1.0;
+    matrix_.solve(inverse.data() + j * size);
+  }
+  mode.inverse = std::move(inverse);
+  if (massless_) return;  // massless parts know neither u nor v beforehand
+  mode.from_u.assign(size * n, 0.0);
+  mode.from_v.assign(size * n, 0.0);
+  for (std::size_t j = 0; j < n; ++j) {
+    double *u = mode.from_u.data() + j * size, *v = mode.from_v.data() + j * size;
+    for (auto p = static_cast<std::size_t>(structure_.column_start[j]);
+         p < static_cast<std::size_t>(structure_.column_start[j + 1]); ++p) {
+      u[structure_.row[p]] -= structure_.k[p];
+      v[structure_.row[p]] -= structure_.c[p];
+    }
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      const double normal = component(model_.contacts[c].normal, static_cast<int>(j));
+      const double tangent = component(model_.contacts[c].tangent, static_cast<int>(j));
+      u[at.normal(c)] -= rows[c].normal.gap * normal;
+      v[at.normal(c)] -= rows[c].normal.vn * normal;
+      u[at.tangent(c)] -= rows[c].tangent.ut * tangent;
+      v[at.tangent(c)] -= rows[c].tangent.vt * tangent;
+    }
+    mode.solve(u, work.data());
+    mode.solve(v, work.data());
+  }
+}
+
+ModeSystemPtr ModeSystems::of(const Mode& mode) {
+  std::vector<Rows> rows = rows_of(model_, mode);
+  const std::vector<State> states = states_of(mode);
+  std::shared_ptr<const FactorisedMode> factorised;
+  if (const auto* known = cache_.find(states)) {
+    factorised = *known;
+  } else {
+    FactorisedMode made = describe(mode, rows);
+    factorise(rows, made);
+    factorised = std::make_shared<const FactorisedMode>(std::move(made));
+    cache_.insert(states, factorised, factorised->bytes() + states.size() * sizeof(State));
+  }
+  if (!factorised->regular) return nullptr;
+  return std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
+}
+
+ModeSystemPtr ModeSystems::at_friction(const ModeSystem& system, std::span<const double> coefficients) {
+  std::vector<Rows> rows = system.rows();
+  FactorisedMode made = describe(system.mode(), rows);
+  for (std::size_t i = 0; i < made.by_rate.size(); ++i) {
+    const std::size_t c = made.by_rate[i];
+    rows[c].tangent.N = slip_sign(system.mode()[c].state) * coefficients[i];
+  }
+  factorise(rows, made);
+  if (!made.regular) return nullptr;
+  return std::make_shared<const ModeSystem>(system.mode(), std::move(rows),
+                                            std::make_shared<const FactorisedMode>(std::move(made)));
+}
+
+}  // namespace signorini

@@ -1,0 +1,57 @@
+// mode_systems.hpp: where mode systems come from: one cache of what is factorised, by the states.
+//
+//   const ModeSystemPtr system = systems.of(mode);        null: rows are linearly dependent
+//
+// Bounds: a cycle of a motion takes each contact through stick and slip both ways, some four modes a
+// contact, so 1024 modes are those of cycles of 256 contacts. A dense mode holds up to
+// (40^2 + 2 * 40 * 38) numbers, 37 kB, and a decision solves with it as often as it takes to make it again:
+// what is not held costs a decision twice its time at most. 16 MiB hold 400 such modes, or the factors of
+// a million entries, beyond which caches of processors end and a factorisation outweighs a look-up in any
+// case.
+#pragma once
+
+#include <span>
+
+#include "base/bounded_cache.hpp"
+#include "linear/system_matrix.hpp"
+#include "motion/mode_system.hpp"
+
+namespace signorini {
+
+inline constexpr CacheBounds mode_bounds{1024, std::size_t{16} << 20};
+
+class ModeSystems {
+ public:
+  /// Both must outlive it.
+  ModeSystems(const Model& model, const Structure& structure, CacheBounds bounds = mode_bounds);
+
+  /// The system of a mode. Null: its rows are linearly dependent, forces would not be unique.
+  [[nodiscard]] ModeSystemPtr of(const Mode& mode);
+  /// The same system with these coefficients of friction for the contacts `by_rate`. It is not kept: slip
+  /// rates do not return. Null: singular.
+  [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const double> coefficients);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const Structure& structure() const { return structure_; }
+  /// Of what is held now.
+  [[nodiscard]] std::size_t held() const { return cache_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
+  /// Factorisations so far.
+  [[nodiscard]] long made() const { return made_; }
+
+ private:
+  [[nodiscard]] FactorisedMode describe(const Mode& mode, const std::vector<Rows>& rows) const;
+  void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
+  void invert(const std::vector<Rows>& rows, FactorisedMode& mode);
+
+  const Model& model_;
+  const Structure& structure_;
+  const std::vector<DofKind> own_kinds_;  // by the structure alone
+  const bool massless_;
+  SystemMatrix matrix_;  // the workshop
+  std::vector<Weights> weights_;
+  BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
+  long made_ = 0;
+};
+
+}  // namespace signorini

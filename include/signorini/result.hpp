@@ -11,29 +11,11 @@
 #include <vector>
 
 #include "signorini/contact.hpp"
+#include "signorini/engine.hpp"
+#include "signorini/event.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
-
-enum class EventType { slip, stick, reversal, separation, contact, impact, time };
-[[nodiscard]] const char* to_string(EventType type);
-
-/// A row of events.csv. For `time` rows without a contact only t counts (contact == -1).
-struct Event {
-  double t = 0.0;
-  int contact = -1;  ///< index into Model::contacts
-  EventType type = EventType::time;
-  State from = State::open, to = State::open;
-  double gap = 0.0;
-  double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
-  double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
-  std::optional<double> impulse_n, impulse_t;  ///< at hits of rigid contacts only
-  /// dg/dt of the guard that fell, just before; empty where the load's jump changed the state.
-  std::optional<double> guard_rate;
-  /// How far t may be off, from one instant's error of the guard: delta / |g'|, or what higher derivatives
-  /// give where the guard grazes. Errors carried along from earlier events are not in it.
-  std::optional<double> t_uncertainty;
-};
 
 /// One contact at an output time.
 struct ContactSample {
@@ -121,22 +103,19 @@ struct Landing {
   double peak_force = 0.0;  ///< greatest -N
 };
 
-struct Settings {
-  std::string engine;         ///< that computes
-  std::string engine_reason;  ///< why: "as given" or "auto: ..."
-  double rtol = 0.0;
-  double atol_displacement = 0.0, atol_rotation = 0.0, atol_velocity = 0.0, atol_angular_velocity = 0.0,
-         atol_force = 0.0;
-  double capture_velocity = 0.0;  ///< of rigid contacts that have none of their own
+/// Which engine computes, and how.
+struct Method {
+  Engine engine = Engine::ida;  ///< never automatic
+  std::string reason;           ///< of the engine: "as given" or "auto: ..."
+  double accuracy = 0.0;        ///< value of its accuracy key (engine.hpp): rtol, dt, or 0
   int max_order = 5;
   std::string max_order_reason;
-  double dt = 0.0;  ///< newmark, friction-iteration; else 0
 };
 
 /// Everything about a run but its rows.
 struct Report {
   Outcome outcome;
-  Settings settings;
+  Method method;
   Counters counters;
   Audit audit;
   std::vector<Peak> peaks;                     ///< one a contact

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "signorini/engine.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -51,9 +52,6 @@ struct Direction {
   /// Nodes whose displacements, times their weights, are subtracted: what the node touches.
   std::vector<std::pair<std::string, double>> against = {};
 };
-
-/// automatic: exact or ida, whichever the scene is cheaper with (run/choose_engine.hpp).
-enum class Engine { automatic, ida, newmark, friction_iteration, exact };
 
 /// newmark: how the time of an event is found. root: the step redone until the guard at its end is zero;
 /// linear: redone once, to the interpolated time.

@@ -209,29 +209,31 @@ std::string reduction_lines(const Model& model) {
 
 std::string cost_lines(const Scene& scene, const Model& model, const CheckReport& report) {
   const Units& u = model.units;
-  const Settings& settings = report.settings;
+  const Method& method = report.method;
+  const bool steps = name_of(method.engine).accuracy == Accuracy::step;
   std::string text =
       fmt::format("run: to t = {} {}, {}\n", number(scene.run.t_end), u.time,
                   count(static_cast<long>(report.rows), "row of history.csv", "rows of history.csv"));
-  if (settings.dt > 0.0)
-    text += fmt::format("     engine {}, dt {:g} {}\n", settings.engine, settings.dt, u.time);
+  if (steps)
+    text += fmt::format("     engine {}, dt {:g} {}\n", to_string(method.engine), method.accuracy, u.time);
   else
-    text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", settings.engine, settings.rtol,
-                        settings.max_order, settings.max_order_reason);
-  if (settings.engine_reason.starts_with("auto")) text += "     engine " + settings.engine_reason + "\n";
+    text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", to_string(method.engine),
+                        scene.run.rtol, method.max_order, method.max_order_reason);
+  if (method.reason.starts_with("auto")) text += "     engine " + method.reason + "\n";
   const Cost& cost = report.cost;
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
-  if (!(cost.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
-  const std::string time = cost.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(cost.seconds) + " s";
-  if (settings.dt > 0.0)
-    return text + fmt::format("      {:.3g} steps in its period; {} steps, {}\n", cost.steps_per_period,
-                              rough(cost.steps), time);
+  const Effort& effort = cost.effort;
+  if (!(effort.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
+  const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
+  if (steps)
+    return text + fmt::format("      {:.3g} steps in its period; {} steps, {}\n", effort.steps_per_period,
+                              rough(effort.steps), time);
   return text + fmt::format(
                     "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
                     "order of\n"
                     "      magnitude, usually too high where the highest modes stay quiet\n",
-                    cost.steps_per_period, rough(cost.steps), time);
+                    effort.steps_per_period, rough(effort.steps), time);
 }
 
 }  // namespace

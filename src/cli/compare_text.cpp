@@ -18,12 +18,6 @@ std::string relative(const RunFigures& run, const char* name) {
   return found == run.audit.end() ? "" : fmt::format("{:.1e}", found->second);
 }
 
-long events_of(const RunFigures& run) {
-  long sum = 0;
-  for (const auto& [type, number] : run.events_by_type) sum += type == "time" ? 0 : number;
-  return sum;
-}
-
 std::string run_table(const ComparisonReport& report) {
   const RunFacts& facts = report.runs.front().figures.facts;
   const std::string energy = " [" + facts.units.force + " " + facts.units.length + "]";
@@ -32,7 +26,7 @@ std::string run_table(const ComparisonReport& report) {
               {false, false, true, true, true, true, true, true, true, true});
   for (const ComparedRun& compared : report.runs) {
     const RunFigures& run = compared.figures;
-    table.row({run.name, run.facts.outcome, std::to_string(events_of(run)),
+    table.row({run.name, run.facts.outcome, std::to_string(changes_in(run.events_by_type)),
                run.wall_time ? fmt::format("{:.3f}", *run.wall_time) : "", count(run.steps),
                count(run.factorisations), run.friction ? fmt::format("{:.9g}", *run.friction) : "",
                relative(run, "energy"), relative(run, "friction"), relative(run, "equilibrium")});

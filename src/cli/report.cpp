@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/table.hpp"
+#include "engine/tolerance.hpp"
 
 namespace signorini::cli {
 
@@ -39,11 +40,10 @@ void add_event(Table& table, const Model& model, const Event& e) {
 
 std::string events_by_type(const Report& report) {
   std::string text;
-  for (const EventType type : {EventType::slip, EventType::stick, EventType::reversal, EventType::separation,
-                               EventType::contact, EventType::impact, EventType::time}) {
-    const auto found = report.events_by_type.find(to_string(type));
+  for (const auto& [type, name, meaning] : all_event_types) {
+    const auto found = report.events_by_type.find(name);
     if (found == report.events_by_type.end() || found->second == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", found->second, to_string(type));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", found->second, name);
   }
   return text.empty() ? "none" : text;
 }
@@ -76,12 +76,19 @@ std::string audit_table(const Model& model, const Audit& a) {
   return table.str();
 }
 
-std::string effort_of(const Settings& settings) {
-  const bool chosen = settings.engine_reason.starts_with("auto");
-  if (settings.engine == "exact") return chosen ? "auto: exact (Taylor series)" : "exact (Taylor series)";
-  if (settings.dt > 0.0) return fmt::format("{}, dt {:g}", settings.engine, settings.dt);
-  return fmt::format("{}{}, rtol {:g}, order at most {}", chosen ? "auto: " : "", settings.engine,
-                     settings.rtol, settings.max_order);
+std::string method_of(const Method& method) {
+  const EngineName& engine = name_of(method.engine);
+  const std::string name =
+      fmt::format("{}{}", method.reason.starts_with("auto") ? "auto: " : "", engine.name);
+  switch (engine.accuracy) {
+    case Accuracy::rounding:
+      return fmt::format("{} ({})", name, engine.title);
+    case Accuracy::step:
+      return fmt::format("{}, dt {:g}", name, method.accuracy);
+    case Accuracy::tolerance:
+      return fmt::format("{}, rtol {:g}, order at most {}", name, method.accuracy, method.max_order);
+  }
+  return name;
 }
 
 }  // namespace
@@ -123,7 +130,7 @@ std::string contact_table(const Model& model, const Report& report) {
   return table.str();
 }
 
-std::string closing(const Model& model, const Report& report) {
+std::string closing(const RunSpec& run, const Model& model, const Report& report) {
   const Audit& a = report.audit;
   const Counters& c = report.counters;
   std::string text = audit_table(model, a);
@@ -138,8 +145,9 @@ std::string closing(const Model& model, const Report& report) {
         return contact.law == Law::rigid && !contact.capture_velocity;
       }))
     text += fmt::format("rebounds slower than {} {}/{} were taken as rest (capture_velocity)\n",
-                        number(report.settings.capture_velocity), model.units.length, model.units.time);
-  text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", effort_of(report.settings), times(c.steps, "step"),
+                        number(tolerance_of(model, run).capture_velocity()), model.units.length,
+                        model.units.time);
+  text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
   return text;
 }

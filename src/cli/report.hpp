@@ -15,6 +15,6 @@ namespace signorini::cli {
 [[nodiscard]] std::string contact_table(const Model& model, const Report& report);
 
 /// Outcome, events by type, audit, energy balance, effort.
-[[nodiscard]] std::string closing(const Model& model, const Report& report);
+[[nodiscard]] std::string closing(const RunSpec& run, const Model& model, const Report& report);
 
 }  // namespace signorini::cli

@@ -84,7 +84,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     print(events + "\n");
     const std::string contacts = contact_table(model, report);
     if (!contacts.empty()) print(contacts + "\n");
-    print(closing(model, report));
+    print(closing(scene.run, model, report));
     const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
     print("results: " + path.string() + "/ (events.csv, history.csv, contacts.csv, energy.csv, " + frames +
           "summary.json, run.toml)\n");

@@ -24,9 +24,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<std::string> names_of_engines() {
+  std::vector<std::string> names;
+  for (const EngineName& engine : all_engines) names.emplace_back(engine.name);
+  return names;
+}
+
+/// "newmark, friction-iteration": those whose error a key limits.
+std::string engines_with(Accuracy accuracy) {
+  std::string names;
+  for (const EngineName& engine : all_engines)
+    if (engine.accuracy == accuracy) names.append(names.empty() ? "" : ", ").append(engine.name);
+  return names;
+}
+
 struct StudyOptions {
   std::string scene;
-  std::vector<std::string> engines = {"exact", "ida", "newmark", "friction-iteration"};
+  std::vector<std::string> engines = names_of_engines();
   std::string rtol = "1e-4:1e-12";
   std::optional<std::string> dt, directory;
   std::vector<std::string> varied, settings;
@@ -45,7 +59,7 @@ void check(const StudyOptions& options) {
     if (std::count(options.engines.begin(), options.engines.end(), engine) > 1)
       throw UsageError("--engines: " + engine + " stands twice");
   for (const std::string& engine : options.engines)
-    if (engine.empty() || engine == "auto")
+    if (engine.empty() || engine == to_string(Engine::automatic))
       throw UsageError("--engines: found \"" + engine + "\", expected engines by name, such as exact,ida");
   if (options.repeats < 1)
     throw UsageError(fmt::format("--repeats {}: expected at least 1", options.repeats));
@@ -55,10 +69,13 @@ void check(const StudyOptions& options) {
     throw UsageError("-o: expected the name of a directory");
 }
 
+bool says_how_accurate(const std::string& path) {
+  return path == accuracy_key(Accuracy::tolerance) || path == accuracy_key(Accuracy::step);
+}
+
 /// Runs that differ in these have nothing to compare, or another option says it.
 void refuse_key(const std::string& option, const std::string& path) {
-  if (path == "run.rtol" || path == "run.dt")
-    throw UsageError(option + ": --rtol and --dt say how accurate runs are");
+  if (says_how_accurate(path)) throw UsageError(option + ": --rtol and --dt say how accurate runs are");
   for (const char* key : {"run.engine", "run.t_end", "run.output_dt", "run.output_times", "run.frames",
                           "title", "schema", "units"})
     if (path == key || path.starts_with(std::string(key) + "."))
@@ -69,7 +86,7 @@ void refuse_key(const std::string& option, const std::string& path) {
 /// The reference may have settings, too.
 std::vector<Override> settings_for(const StudyOptions& options, const std::string& engine) {
   std::vector<std::string> engines = options.engines;
-  for (const char* reference : {"exact", "ida"}) engines.emplace_back(reference);
+  for (const Engine reference : WorkStudy::references) engines.emplace_back(to_string(reference));
   return overrides_for(options.settings, engines, engine);
 }
 
@@ -79,7 +96,7 @@ void check_settings(const StudyOptions& options) {
     const std::string option = "--set " + change.path;
     if (colon != std::string::npos && colon < change.path.find('.'))
       refuse_key(option, change.path.substr(colon + 1));
-    else if (change.path == "run.dt" || change.path == "run.rtol")
+    else if (says_how_accurate(change.path))
       refuse_key(option, change.path);
   }
 }
@@ -89,7 +106,8 @@ void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);
     changes.insert(changes.begin(), {"run.engine", engine});
-    if (accuracy_key(engine) == "run.dt") changes.insert(changes.begin(), {"run.dt", "1e-3"});
+    if (const std::string key = accuracy_key(engine); key == accuracy_key(Accuracy::step))
+      changes.insert(changes.begin(), {key, "1e-3"});
     for (const Vary& vary : varied) changes.push_back({vary.path, vary.values.front()});
     try {
       (void)read_scene(options.scene, changes);
@@ -229,13 +247,13 @@ void add_study(Program& program) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--rtol", options->rtol,
-          "tolerances of ida: start:stop by decades, start:stop:factor, or a list (default: 1e-4:1e-12)")
+      ->add_option("--rtol", options->rtol,
+                   "tolerances of " + engines_with(Accuracy::tolerance) +
+                       ": start:stop by decades, start:stop:factor, or a list (default: 1e-4:1e-12)")
       ->option_text("RANGE");
   command
       ->add_option("--dt", options->dt,
-                   "steps of newmark and friction-iteration (default: five decades from t_end/50)")
+                   "steps of " + engines_with(Accuracy::step) + " (default: five decades from t_end/50)")
       ->option_text("RANGE");
   command
       ->add_option("--vary", options->varied,

@@ -5,13 +5,22 @@
 
 #include "contact/form.hpp"
 #include "signorini/model.hpp"
-#include "signorini/result.hpp"
 
 namespace signorini {
 
-[[nodiscard]] Settings settings_for(const Model& model, const RunSpec& run);
+/// All but rtol are absolute, in the units of the scene; angles in radians.
+struct Tolerance {
+  double rtol = 0.0;
+  double displacement = 0.0, rotation = 0.0, velocity = 0.0, angular_velocity = 0.0;
+  double force = 0.0;
+
+  /// Rebounds of rigid contacts that have no capture_velocity of their own are rest below this.
+  [[nodiscard]] double capture_velocity() const { return velocity; }
+};
+
+[[nodiscard]] Tolerance tolerance_of(const Model& model, const RunSpec& run);
 
 /// Tolerance of a form's value, from those of the motion's entries.
-[[nodiscard]] double tolerance(const Form& form, const ContactMotion& motion, const Settings& settings);
+[[nodiscard]] double tolerance(const Form& form, const ContactMotion& motion, const Tolerance& tolerance);
 
 }  // namespace signorini

@@ -40,8 +40,8 @@ std::string colour_functions() {
   for (const std::string& name : state_names())
     s += "s eq " + quoted(name) + " ? " + rgb(state_colour(name)) + " : ";
   s += "0x999999\nevent_colour(s) = ";
-  for (const char* name : {"separation", "contact", "impact", "slip", "reversal", "stick"})
-    s += std::string("s eq '") + name + "' ? " + rgb(event_colour(name)) + " : ";
+  for (const EventLook& look : event_looks)
+    s += std::string("s eq '") + to_string(look.type) + "' ? " + rgb(look.colour) + " : ";
   return s + "0x999999\n";
 }
 
@@ -99,11 +99,12 @@ std::string legend(const PlottedRun& run, double top) {
       elements.push_back("keyentry with points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) +
                          "' title " + quoted(state));
   }
-  for (const std::string& event : run.event_types) {
-    if (event == "time") continue;
-    elements.push_back("keyentry with points pointtype 6 pointsize 0.9 linecolor '" + event_colour(event) +
-                       "' title " + quoted("event: " + event));
-  }
+  for (const std::string& event : run.event_types)
+    for (const EventLook& look : event_looks)
+      if (event == to_string(look.type))
+        elements.push_back(
+            fmt::format("keyentry with points pointtype 6 pointsize 0.9 linecolor '{}' title {}", look.colour,
+                        quoted("event: " + event)));
   return s + plot_command(elements);
 }
 

@@ -5,6 +5,7 @@
 //   script = begin_script(run, "energy", panels) + panel(...) + "plot ..." + ... + end_script()
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -69,12 +70,21 @@ struct Picture {
 [[nodiscard]] std::string contact_script(const PlottedRun& run, std::size_t k);
 /// Where a contact is in the plane of -N and T, with its friction cone; empty without friction.
 [[nodiscard]] std::string cone_script(const PlottedRun& run);
+/// The events that pictures show, from the top of a lane to its bottom, with their colours "#rrggbb".
+struct EventLook {
+  EventType type;
+  const char* colour;
+};
+inline constexpr std::array event_looks = {
+    EventLook{EventType::separation, "#2166ac"}, EventLook{EventType::contact, "#17a2a2"},
+    EventLook{EventType::impact, "#c0182b"},     EventLook{EventType::slip, "#e08214"},
+    EventLook{EventType::reversal, "#7b3294"},   EventLook{EventType::stick, "#2e8b3d"},
+};
 /// The events of all contacts over time, a row a contact, a lane a type.
 [[nodiscard]] std::string raster_script(const PlottedRun& run);
 /// row,t,event,N,T for both: thinned to what a picture can resolve.
 [[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
 /// Colour of an event, "#rrggbb".
-[[nodiscard]] std::string event_colour(const std::string& event);
 [[nodiscard]] std::string states_script(const PlottedRun& run);
 /// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
 [[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);

@@ -14,31 +14,19 @@ namespace {
 
 constexpr double most_marks = 3000;  // of one contact and type, over the picture's width
 
-/// Lanes of a row, from above.
-const std::vector<std::string>& event_names() {
-  static const std::vector<std::string> names = {"separation", "contact",  "impact",
-                                                 "slip",       "reversal", "stick"};
-  return names;
+bool occurs(const PlottedRun& run, EventType type) {
+  return std::find(run.event_types.begin(), run.event_types.end(), to_string(type)) != run.event_types.end();
 }
 
-std::vector<std::string> lanes_of(const PlottedRun& run) {
-  std::vector<std::string> lanes;
-  for (const std::string& name : event_names()) {
-    if (std::find(run.event_types.begin(), run.event_types.end(), name) != run.event_types.end())
-      lanes.push_back(name);
-  }
+/// Lanes of a row, from above.
+std::vector<EventLook> lanes_of(const PlottedRun& run) {
+  std::vector<EventLook> lanes;
+  for (const EventLook& look : event_looks)
+    if (occurs(run, look.type)) lanes.push_back(look);
   return lanes;
 }
 
 }  // namespace
-
-std::string event_colour(const std::string& event) {
-  static const std::map<std::string, std::string> colours = {
-      {"separation", "#2166ac"}, {"contact", "#17a2a2"},  {"impact", "#c0182b"},
-      {"slip", "#e08214"},       {"reversal", "#7b3294"}, {"stick", "#2e8b3d"}};
-  const auto found = colours.find(event);
-  return found == colours.end() ? "#999999" : found->second;
-}
 
 std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run) {
   std::map<std::string, std::size_t> rows;
@@ -67,7 +55,7 @@ std::string marks_table(const std::filesystem::path& directory, const PlottedRun
 }
 
 std::string raster_script(const PlottedRun& run) {
-  const std::vector<std::string> lanes = lanes_of(run);
+  const std::vector<EventLook> lanes = lanes_of(run);
   if (lanes.empty()) return "";
   const std::size_t count = run.facts.contacts.size();
   const int row = count <= 2 ? 120 : count <= 6 ? 70 : count <= 40 ? 38 : 12;
@@ -90,19 +78,17 @@ std::string raster_script(const PlottedRun& run) {
       data + fmt::format("($1 < 0 ? $2 : NaN):(-0.5):(0):({}) with vectors nohead linecolor '#aaaaaa' "
                          "dashtype 3 title 'load changes'",
                          count));
-  if (std::find(run.event_types.begin(), run.event_types.end(), "time") == run.event_types.end())
-    elements.clear();
+  if (!occurs(run, EventType::time)) elements.clear();
   const double lane = 0.84 / static_cast<double>(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const std::string look = fmt::format("linewidth 1.6 linecolor '{}'", event_colour(lanes[i]));
-    elements.push_back(data + "(strcol(3) eq " + quoted(lanes[i]) +
+    const std::string look = fmt::format("linewidth 1.6 linecolor '{}'", lanes[i].colour);
+    elements.push_back(data + "(strcol(3) eq " + quoted(to_string(lanes[i].type)) +
                        fmt::format(" ? $2 : NaN):($1 + {:.4f}):(0):({:.4f}) with vectors nohead {} notitle",
                                    -0.42 + lane * static_cast<double>(i), 0.86 * lane, look));
   }
-  for (const std::string& name : lanes) {
-    elements.push_back(fmt::format("keyentry with lines linewidth 4 linecolor '{}' title {}",
-                                   event_colour(name), quoted(name)));
-  }
+  for (const EventLook& look : lanes)
+    elements.push_back(fmt::format("keyentry with lines linewidth 4 linecolor '{}' title {}", look.colour,
+                                   quoted(to_string(look.type))));
   s += plot_command(elements) + "unset arrow\n";
   return s + end_script();
 }

@@ -6,6 +6,8 @@
 
 #include "base/version.hpp"
 #include "contact/law.hpp"
+#include "engine/tolerance.hpp"
+#include "result/energy_columns.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
 #include "signorini/error.hpp"
@@ -71,7 +73,7 @@ Json model_json(const Model& model) {
   return json;
 }
 
-Json contact_json(const Model& model, std::size_t k, const Report* report) {
+Json contact_json(const Model& model, std::size_t k, double capture_velocity, const Report* report) {
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
                {"law", to_string(contact.law)},
@@ -86,7 +88,7 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
   }
   if (contact.stribeck_velocity) json["stribeck_velocity"] = *contact.stribeck_velocity;
   if (contact.law == Law::rigid && report != nullptr)
-    json["capture_velocity"] = contact.capture_velocity.value_or(report->settings.capture_velocity);
+    json["capture_velocity"] = contact.capture_velocity.value_or(capture_velocity);
   if (contact.shear) {
     json["tangential_stiffness"] = contact.shear->stiffness;
     json["tangential_damping"] = contact.shear->damping;
@@ -113,27 +115,28 @@ Json contact_json(const Model& model, std::size_t k, const Report* report) {
   return json;
 }
 
-Json settings_json(const Scene& scene, const Settings& settings) {
-  Json json = {{"t_end", scene.run.t_end},
-               {"rtol", settings.rtol},
+Json settings_json(const RunSpec& run, const Tolerance& tolerance, const Method& method) {
+  Json json = {{"t_end", run.t_end},
+               {"rtol", tolerance.rtol},
                {"atol",
-                {{"displacement", settings.atol_displacement},
-                 {"rotation", settings.atol_rotation},
-                 {"velocity", settings.atol_velocity},
-                 {"angular_velocity", settings.atol_angular_velocity},
-                 {"force", settings.atol_force}}},
-               {"engine_reason", settings.engine_reason},
-               {"max_order", settings.max_order},
-               {"max_order_reason", settings.max_order_reason},
-               {"max_events_at_once", scene.run.max_events_at_once}};
-  if (settings.dt > 0.0) json["dt"] = settings.dt;
-  if (scene.run.engine == Engine::newmark) {
-    json["refine"] = scene.run.refine == Refine::linear ? "linear" : "root";
-    json["step"] = scene.run.step == StepControl::doubling ? "doubling" : "fixed";
-  } else if (scene.run.engine == Engine::friction_iteration) {
-    json["relaxation"] = scene.run.relaxation;
-    json["max_iterations"] = scene.run.max_iterations;
-  }
+                {{"displacement", tolerance.displacement},
+                 {"rotation", tolerance.rotation},
+                 {"velocity", tolerance.velocity},
+                 {"angular_velocity", tolerance.angular_velocity},
+                 {"force", tolerance.force}}},
+               {"engine_reason", method.reason},
+               {"max_order", method.max_order},
+               {"max_order_reason", method.max_order_reason},
+               {"max_events_at_once", run.max_events_at_once}};
+  const EngineName& engine = name_of(method.engine);
+  if (engine.accuracy == Accuracy::step) json["dt"] = method.accuracy;
+  const std::pair<const char*, Json> own[] = {
+      {"refine", run.refine == Refine::linear ? "linear" : "root"},
+      {"step", run.step == StepControl::doubling ? "doubling" : "fixed"},
+      {"relaxation", run.relaxation},
+      {"max_iterations", run.max_iterations}};
+  for (const auto& [key, value] : own)
+    if (has_key(engine, key)) json[key] = value;
   return json;
 }
 
@@ -177,9 +180,10 @@ Json audit_json(const Model& model, const Audit& a) {
 }
 
 Json energy_json(const Energy& e) {
-  return {{"kinetic", e.kinetic}, {"elastic", e.elastic},   {"contact", e.contact},
-          {"damping", e.damping}, {"friction", e.friction}, {"impact", e.impact},
-          {"loads", e.loads},     {"surface", e.surface},   {"balance", e.balance()}};
+  Json json;
+  for (const EnergyColumn& column : energy_columns) json[column.name] = e.*column.value;
+  json[balance_column] = e.balance();
+  return json;
 }
 
 Json head_json(const Scene& scene, const Model& model, const std::vector<std::string>& command_line) {
@@ -198,6 +202,7 @@ std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error
 
 std::string summary_json(const Scene& scene, const Model& model, const Report& report,
                          const std::vector<std::string>& command_line) {
+  const Tolerance tolerance = tolerance_of(model, scene.run);
   Json json;
   json["outcome"] = {{"kind", to_string(report.outcome.kind)},
                      {"t", report.outcome.t},
@@ -205,9 +210,9 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
                      {"reason", report.outcome.reason},
                      {"exit_code", exit_code(report.outcome.kind)}};
   json.update(head_json(scene, model, command_line));
-  json["engine"] = report.settings.engine;
+  json["engine"] = to_string(report.method.engine);
   json["warnings"] = report.warnings;
-  json["settings"] = settings_json(scene, report.settings);
+  json["settings"] = settings_json(scene.run, tolerance, report.method);
   json["wall_time"] = report.wall_time;
   long total = 0;
   for (const auto& [type, count] : report.events_by_type) total += count;
@@ -220,7 +225,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
                     {"greatest_work_of_loads", report.audit.work_of_loads}};
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    json["contacts"].push_back(contact_json(model, k, &report));
+    json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &report));
   }
   return text(json);
 }
@@ -235,7 +240,7 @@ std::string brief_json(const Scene& scene, const Model& model, const std::vector
   json.update(head_json(scene, model, command_line));
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    json["contacts"].push_back(contact_json(model, k, nullptr));
+    json["contacts"].push_back(contact_json(model, k, 0.0, nullptr));
   }
   return text(json);
 }

@@ -1,52 +1,44 @@
 #include "result/writers.hpp"
 
-#include <initializer_list>
+#include <variant>
+
+#include "result/energy_columns.hpp"
 
 namespace signorini {
 
 namespace {
-
-void header(CsvBlock& block, std::initializer_list<const char*> names) {
-  for (const char* name : names) block.text(name);
-  block.end_row();
-}
 
 bool has_gap(const Contact& contact) { return contact.law != Law::slider; }
 
 }  // namespace
 
 EventWriter::EventWriter(const std::filesystem::path& path, const Model& model) : model_(model), file_(path) {
-  header(block_, {"t", "contact", "event", "from", "to", "gap", "N", "T", "N_after", "T_after", "vn",
-                  "vn_after", "vt", "vt_after", "impulse_n", "impulse_t", "guard_rate", "t_uncertainty"});
+  for (const EventColumn& column : event_columns) block_.text(column.name);
+  block_.end_row();
   file_.write(block_);
 }
 
 void EventWriter::write(const Event& event) {
-  block_.number(event.t);
-  if (event.contact < 0) {
-    block_.empty().text(to_string(event.type));
-    for (int cell = 0; cell < 15; ++cell) block_.empty();
-  } else {
-    const Contact& contact = model_.contacts[static_cast<std::size_t>(event.contact)];
-    block_.text(contact.name).text(to_string(event.type)).text(to_string(event.from));
-    block_.text(to_string(event.to));
-    if (has_gap(contact)) {
-      block_.number(event.gap);
-    } else {
+  for (const EventColumn& column : event_columns) {
+    if (event.contact < 0 && column.of_contact)
       block_.empty();
-    }
-    block_.number(event.N).number(event.T).number(event.N_after).number(event.T_after);
-    block_.number(event.vn).number(event.vn_after).number(event.vt).number(event.vt_after);
-    block_.number(event.impulse_n).number(event.impulse_t);
-    block_.number(event.guard_rate).number(event.t_uncertainty);
+    else
+      std::visit([&](const auto field) { cell(event.*field); }, column.field);
   }
   block_.end_row();
   file_.write(block_);
 }
 
+void EventWriter::cell(double value) { block_.number(value); }
+void EventWriter::cell(const std::optional<double>& value) { block_.number(value); }
+void EventWriter::cell(int contact) { block_.text(model_.contacts[static_cast<std::size_t>(contact)].name); }
+void EventWriter::cell(EventType type) { block_.text(to_string(type)); }
+void EventWriter::cell(State state) { block_.text(to_string(state)); }
+
 ContactWriter::ContactWriter(const std::filesystem::path& path, const Model& model)
     : model_(model), file_(path) {
-  header(block_, {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"});
+  for (const char* name : {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"}) block_.text(name);
+  block_.end_row();
   file_.write(block_);
 }
 
@@ -85,16 +77,16 @@ void HistoryWriter::write(const Sample& sample) {
 }
 
 EnergyWriter::EnergyWriter(const std::filesystem::path& path) : file_(path) {
-  header(block_, {"t", "kinetic", "elastic", "contact", "damping", "friction", "impact", "loads", "surface",
-                  "balance"});
+  block_.text("t");
+  for (const EnergyColumn& column : energy_columns) block_.text(column.name);
+  block_.text(balance_column).end_row();
   file_.write(block_);
 }
 
 void EnergyWriter::write(const Sample& sample) {
-  const Energy& e = sample.energy;
-  block_.number(sample.t).number(e.kinetic).number(e.elastic).number(e.contact).number(e.damping);
-  block_.number(e.friction).number(e.impact).number(e.loads).number(e.surface).number(e.balance());
-  block_.end_row();
+  block_.number(sample.t);
+  for (const EnergyColumn& column : energy_columns) block_.number(sample.energy.*column.value);
+  block_.number(sample.energy.balance()).end_row();
   file_.write(block_);
 }
 

@@ -1,10 +1,9 @@
 // writers.hpp: the tables of a run, row by row as they come (docs/output.md).
 //
-//   events.csv t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t,
-//                 guard_rate,t_uncertainty
+//   events.csv    the columns of signorini/event.hpp
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
 //   history.csv   t, then the model's columns
-//   energy.csv    t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance
+//   energy.csv    t, the columns of result/energy_columns.hpp, balance
 //
 // Each writer writes its header when it is made and keeps a reference to the model. Errors: FileError.
 #pragma once
@@ -22,6 +21,12 @@ class EventWriter {
   void write(const Event& event);
 
  private:
+  void cell(double value);
+  void cell(const std::optional<double>& value);
+  void cell(int contact);
+  void cell(EventType type);
+  void cell(State state);
+
   const Model& model_;
   CsvBlock block_;
   CsvFile file_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "run/refusals.hpp"
+#include "run/engines.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -38,10 +38,8 @@ double fastest_decay(const Model& model) {
 
 EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, "as given"};
-  RunSpec exact = run;
-  exact.engine = Engine::exact;
   try {
-    refuse_what_engine_cannot(model, exact);
+    engine_row(Engine::exact).refuse(model, run);
   } catch (const SceneError&) {
     return {Engine::ida, "auto: a law or a load of the scene has no closed flow"};
   }

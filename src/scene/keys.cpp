@@ -2,11 +2,16 @@
 
 #include <sstream>
 
+#include "signorini/engine.hpp"
+
 namespace signorini {
 
 namespace {
 
 using enum KeyType;
+
+/// Choices that stand in a table of their own (signorini/engine.hpp).
+constexpr std::string_view engines_and_auto = "engines";
 
 // clang-format off
 constexpr Key table_of_keys[] = {
@@ -35,7 +40,7 @@ constexpr Key table_of_keys[] = {
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
-    {"run", "engine", choice, "", "\"auto\"", "auto ida exact newmark friction-iteration", "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
+    {"run", "engine", choice, "", "\"auto\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
@@ -43,7 +48,7 @@ constexpr Key table_of_keys[] = {
     {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
     {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops."},
-    {"run", "dt", positive, "time", "", "", "Time step of the engines newmark and friction-iteration, which need it; with step = \"doubling\" the greatest one."},
+    {"run", "dt", positive, "time", "", "", "Time step of engines whose steps have a given length (newmark, friction-iteration), which need it; with step = \"doubling\" the greatest one."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},
     {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: the part of the change of a limiting force that an iteration takes, at most 1."},
@@ -157,7 +162,12 @@ constexpr Key table_of_keys[] = {
 // clang-format on
 
 std::vector<std::string> words_of(const Key& key, bool later) {
-  std::istringstream words{std::string(key.choices)};
+  std::string choices(key.choices);
+  if (key.choices == engines_and_auto) {
+    choices = to_string(Engine::automatic);
+    for (const EngineName& engine : all_engines) choices.append(" ").append(engine.name);
+  }
+  std::istringstream words{choices};
   std::vector<std::string> result;
   for (std::string word; words >> word;) {
     if ((word[0] == '~') == later) result.push_back(later ? word.substr(1) : word);

@@ -47,9 +47,10 @@ struct Key {
   KeyType type;
   std::string_view unit;      ///< in units of force, mass, length, time; "" without
   std::string_view fallback;  ///< TOML text of the default; "required"; "" for none
-  std::string_view choices;   ///< of a choice, separated by blanks; ~ before those that are for later
-  std::string_view meaning;   ///< one sentence
-  bool later = false;         ///< refused as not supported yet
+  std::string_view
+      choices;  ///< of a choice, separated by blanks; ~ before those that are for later; choices_of()
+  std::string_view meaning;  ///< one sentence
+  bool later = false;        ///< refused as not supported yet
 };
 
 [[nodiscard]] std::span<const Key> all_keys();

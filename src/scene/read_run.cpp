@@ -1,8 +1,6 @@
 // [run]: how long, how accurately, and when to write.
 #include <fmt/core.h>
 
-#include <map>
-
 #include "base/number.hpp"
 #include "scene/readers.hpp"
 
@@ -11,15 +9,6 @@ namespace signorini {
 namespace {
 
 constexpr double most_rows = 1e8;
-
-Engine engine_of(const std::string& name) {
-  static const std::map<std::string, Engine> engines = {{"auto", Engine::automatic},
-                                                        {"ida", Engine::ida},
-                                                        {"newmark", Engine::newmark},
-                                                        {"friction-iteration", Engine::friction_iteration},
-                                                        {"exact", Engine::exact}};
-  return engines.at(name);
-}
 
 void check_times(const Table& table, std::string_view key, const std::vector<double>& times, double t_end) {
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -85,14 +74,16 @@ void read_max_order(Table& table, RunSpec& run) {
 
 /// Keys of the engines with steps of given length.
 void read_steps(Table& table, RunSpec& run) {
-  if (run.engine == Engine::newmark || run.engine == Engine::friction_iteration)
-    table.require("dt", fmt::format(", which engine \"{}\" needs", table.choice("engine")));
+  const EngineName* engine = run.engine == Engine::automatic ? nullptr : &name_of(run.engine);
+  const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
+  if (steps) table.require("dt", fmt::format(", which engine \"{}\" needs", engine->name));
   run.dt = table.optional_number("dt");
   run.refine = table.choice("refine") == "linear" ? Refine::linear : Refine::root;
   run.step = table.choice("step") == "doubling" ? StepControl::doubling : StepControl::fixed;
-  if (run.step == StepControl::doubling && run.engine == Engine::friction_iteration)
+  if (run.step == StepControl::doubling && steps && !has_key(*engine, "step"))
     table.fail("step",
-               "found \"doubling\", which engine \"friction-iteration\" does not have; expected \"fixed\"");
+               fmt::format("found \"doubling\", which engine \"{}\" does not have; expected \"fixed\"",
+                           engine->name));
   run.relaxation = table.number("relaxation");
   if (run.relaxation > 1.0)
     table.fail("relaxation",
@@ -109,7 +100,7 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   run.place = table.place();
   run.t_end = table.number("t_end");
   read_initial(table, scene);
-  run.engine = engine_of(table.choice("engine"));
+  run.engine = engine_called(table.choice("engine")).value_or(Engine::automatic);
   read_tolerances(table, run);
   read_output(table, run);
   read_frames(table, run, scene.matrices.has_value());

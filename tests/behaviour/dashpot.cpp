@@ -78,7 +78,7 @@ TEST_CASE("a compression that varies: slip begins where f N(t) falls to the load
 }
 
 TEST_CASE("a slider is lifted while its compression is zero, and carries nothing over") {
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(
         matrix_scene(
             "t_end = 3.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[4.0]]",
@@ -135,7 +135,7 @@ TEST_CASE("spring and dashpot along a slider: sticks as a damped oscillator, sli
 }
 
 TEST_CASE("a landing with dashpots along and across conserves energy, and friction stays in its cone") {
-  for (const std::string& engine : all_engines)
+  for (const std::string& engine : locating_engines)
     for (double ct : {0.5, 5.0, 50.0}) {
       CAPTURE(ct);
       const Result result = run_text(
@@ -157,7 +157,7 @@ TEST_CASE("a landing with dashpots along and across conserves energy, and fricti
 TEST_CASE(
     "a contact that closes again while its dashpot still holds it pressed in keeps the energy balanced") {
   // A short pulse lifts the mass off its dashpot; it is pushed back before the gap has opened.
-  for (const std::string& engine : all_engines)
+  for (const std::string& engine : locating_engines)
     for (double cn : {10.0, 30.0, 63.0}) {
       CAPTURE(engine);
       CAPTURE(cn);
@@ -180,7 +180,7 @@ TEST_CASE(
 }
 
 TEST_CASE("dashpots across and along, two feet coupled by a frame: always a consistent state") {
-  for (const std::string& engine : all_engines)
+  for (const std::string& engine : locating_engines)
     for (double cn : {100.0, 400.0, 1000.0})
       for (double ct : {10.0, 100.0, 1000.0}) {
         CAPTURE(engine);
@@ -211,7 +211,7 @@ TEST_CASE("dashpots across and along, two feet coupled by a frame: always a cons
 
 TEST_CASE("a part without mass on a dashpot of its own contact creeps, and does not jump") {
   // u1 has neither mass nor damper; the contact's 20 u1' + 100 (u1 - 1) decides it. Value by RK4, step 1e-5.
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(
         matrix_scene("t_end = 0.5\noutput_dt = 0.1\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
                      "mass = [[1.0, 0.0], [0.0, 0.0]]\nstiffness = [[10.0, -10.0], [-10.0, 11.0]]",

@@ -10,6 +10,6 @@ namespace signorini::tests {
 inline const std::vector<std::string> engines{"ida", "exact"};
 /// All that localise events; newmark is of second order in its step (run_text: 1e-3), so for what its
 /// accuracy allows.
-inline const std::vector<std::string> all_engines{"ida", "exact", "newmark"};
+inline const std::vector<std::string> locating_engines{"ida", "exact", "newmark"};
 
 }  // namespace signorini::tests

@@ -44,7 +44,7 @@ TEST_CASE("a stuck slider without stiffness drifts by exactly zero under a varyi
       "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.9",
       "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 4.0\nhistory = { type = \"harmonic\", omega "
       "= 1.3 }\n");
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(text, engine, "1e-6");
     CHECK(result.events.empty());
     for (const Result::Row& row : result.rows) {
@@ -80,7 +80,7 @@ TEST_CASE("vertical lift-off is one separation, although the friction limit vani
       "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = -10.0\n"
       "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = 100.0\nhistory = { type = \"triangle\", end = 0.1 "
       "}\n");
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(text, engine);
     REQUIRE(result.events.size() >= 2);
     CHECK(result.events[0].from == State::stick);
@@ -119,7 +119,7 @@ TEST_CASE("two runs give the same events to the last bit") {
       "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.8",
       "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = \"harmonic\", omega "
       "= 0.5 }\n");
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result a = run_text(text, engine), b = run_text(text, engine);
     REQUIRE(a.events.size() == b.events.size());
     for (std::size_t i = 0; i < a.events.size(); ++i) {
@@ -143,7 +143,7 @@ TEST_CASE("horizontal pulse on the frictionless pipeline: final drift is impulse
 }
 
 TEST_CASE("an initial shear above the friction limit is cut, and the run says so") {
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const auto run = [&](const char* shear) {
       return run_text(matrix_scene("t_end = 0.1\ninitial = { u = [0.0], v = [0.0] }",
                                    "mass = [[1.0]]\nstiffness = [[0.0]]",
@@ -163,7 +163,7 @@ TEST_CASE("an initial shear above the friction limit is cut, and the run says so
 }
 
 TEST_CASE("a surface that shakes under a slow body: every reversal, though the body's own motion is smooth") {
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(
         matrix_scene("t_end = 6.0\ninitial = { u = [0.0], v = [0.5] }", "mass = [[1.0]]\nstiffness = [[0.0]]",
                      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 1e-6\n"
@@ -174,7 +174,7 @@ TEST_CASE("a surface that shakes under a slow body: every reversal, though the b
 }
 
 TEST_CASE("a smooth table of the surface's velocity shakes nothing loose at its points") {
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(
         matrix_scene(
             "t_end = 6.0\ninitial = { u = [0.0], v = [0.1] }", "mass = [[1.3]]\nstiffness = [[10.0]]",

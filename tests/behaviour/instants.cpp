@@ -32,7 +32,7 @@ bool balanced(const Result& result, double tolerance) {
 TEST_SUITE_BEGIN("behaviour/instants");
 
 TEST_CASE("a load that jumps on a massless slider acts like the limit of a ramp") {
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result jump = run_text(massless("0.3", "{ type = \"rectangle\", start = 0.5, end = 1.5 }"), engine);
     const Result ramp =
         run_text(massless("0.3",
@@ -51,7 +51,7 @@ TEST_CASE("a load that jumps on a massless slider acts like the limit of a ramp"
 }
 
 TEST_CASE("friction that drops on a massless slider takes the energy that is released") {
-  for (const std::string& engine : all_engines)
+  for (const std::string& engine : locating_engines)
     CHECK(balanced(
         run_text(massless("{ static = 0.4, kinetic = 0.3 }", "{ type = \"harmonic\", omega = 3.0 }"), engine),
         1e-6));
@@ -62,7 +62,7 @@ TEST_CASE("a compression that ends releases the element's energy as friction") {
       matrix_scene("t_end = 2.0\ninitial = { u = [0.5], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
                    "law = \"slider\"\ntangent = { d0 = 1.0 }\ntangential_stiffness = 10.0\nfriction = 0.3\n"
                    "normal_force = { type = \"rectangle\", start = 0.0, end = 1.0, amplitude = 1.0 }");
-  for (const std::string& engine : all_engines) CHECK(balanced(run_text(text, engine), 1e-6));
+  for (const std::string& engine : locating_engines) CHECK(balanced(run_text(text, engine), 1e-6));
 }
 
 TEST_CASE("an event exactly at t_end is logged") {
@@ -72,7 +72,7 @@ TEST_CASE("an event exactly at t_end is logged") {
                    "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.3",
                    "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 6.0\nhistory = { type = \"rectangle\", "
                    "start = 0.5, end = 1.0 }\n");
-  for (const std::string& engine : all_engines) {
+  for (const std::string& engine : locating_engines) {
     const Result result = run_text(text, engine);
     CHECK(result.events.back().type == EventType::stick);
     CHECK(result.events.back().t == doctest::Approx(1.5).epsilon(1e-12));

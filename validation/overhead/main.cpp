@@ -52,9 +52,8 @@ void compare(const char* name, const overhead::Slider& s, double rtol, int repea
                       report = simulate(model, scene.run, count);
                     }));
     theirs = std::min(theirs, seconds([&] {
-                        hand =
-                            overhead::run_by_hand(s, rtol, report.settings.atol_displacement,
-                                                  report.settings.atol_velocity, report.settings.atol_force);
+                        hand = overhead::run_by_hand(s, rtol, rtol * model.scales.displacement,
+                                                     rtol * model.scales.velocity, rtol * model.scales.force);
                       }));
   }
   fmt::print("{:<12} {:>8.0e}  {:>6} {:>6}  {:>7} {:>7}  {:>9.3f} {:>9.3f}  {:>6.2f}  {:.1e}\n", name, rtol,

@@ -4,18 +4,17 @@
 #include <cmath>
 
 #include "engine/ida/locate.hpp"
-#include "engine/tolerance.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
 
 IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems,
-                     const Settings& settings, double t_end)
+                     const Tolerance& tolerance, int max_order, double t_end)
     : model_(model),
       consistent_(systems),
-      settings_(settings),
+      tolerance_(tolerance),
       powers_(model, structure),
-      bdf_(model, structure, settings, counters),
+      bdf_(model, structure, tolerance, max_order, counters),
       history_(guards_per_contact * model.contacts.size() + powers_.count()),
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
@@ -42,7 +41,7 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
     size += std::abs(factor * u[dof]);
     absolute += std::abs(factor);
   }
-  const double tolerance = settings_.rtol * size + absolute * settings_.atol_displacement;
+  const double tolerance = tolerance_.rtol * size + absolute * tolerance_.displacement;
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
 }
@@ -57,7 +56,7 @@ void IdaEngine::start(const Segment& segment) {
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
     const ContactMotion& motion = decision.after[slot / guards_per_contact];
-    double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, settings_);
+    double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, tolerance_);
     // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
     levels.push_back(level);
@@ -167,7 +166,7 @@ void IdaEngine::integrate(double from, double to, Works& works) {
 
 /// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.
 double IdaEngine::guard_error(const Form& form, const ContactMotion& motion, std::size_t contact) const {
-  return tolerance(form, motion, settings_) + (flight_ ? 0.0 : watch_.leeway(contact, form));
+  return tolerance(form, motion, tolerance_) + (flight_ ? 0.0 : watch_.leeway(contact, form));
 }
 
 }  // namespace signorini

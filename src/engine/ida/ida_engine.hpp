@@ -8,7 +8,7 @@
 
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/watch.hpp"
-#include "engine/ida/ida_stepper.hpp"
+#include "engine/ida/bdf_integrator.hpp"
 #include "engine/ida/short_flight.hpp"
 #include "engine/stepper.hpp"
 #include "motion/consistent.hpp"
@@ -18,8 +18,8 @@ namespace signorini {
 class IdaEngine final : public Stepper {
  public:
   /// The first three must outlive it.
-  IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Settings& settings,
-            double t_end);
+  IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Tolerance& tolerance,
+            int max_order, double t_end);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -41,9 +41,9 @@ class IdaEngine final : public Stepper {
 
   const Model& model_;
   ConsistentMotion consistent_;
-  const Settings settings_;
+  const Tolerance tolerance_;
   Powers powers_;
-  IdaStepper bdf_;
+  BdfIntegrator bdf_;
   StepHistory history_;
   Watch watch_;
   ShortFlight flights_;

@@ -18,22 +18,22 @@ constexpr double rounding_floor = 20.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Settings& settings)
+IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance)
     : model_(model),
       layout_(model),
       linear_(model, structure, layout_),
-      settings_(settings),
+      tolerance_(tolerance),
       momentum_(model, structure),
       forces_(layout_.massive < layout_.dofs ? static_cast<std::size_t>(layout_.dofs) : 0) {
   const auto size = static_cast<std::size_t>(layout_.size());
-  atol_.assign(size, settings.atol_force);
+  atol_.assign(size, tolerance.force);
   std::vector<std::size_t> group(size, 2 * model.contacts.size());
   for (std::size_t i = 0; i < model.dofs.size(); ++i) {
     const bool rotation = model.dofs[i].rotation;
-    atol_[i] = rotation ? settings.atol_rotation : settings.atol_displacement;
+    atol_[i] = rotation ? tolerance.rotation : tolerance.displacement;
     if (layout_.velocity[i] >= 0)
       atol_[static_cast<std::size_t>(layout_.velocity[i])] =
-          rotation ? settings.atol_angular_velocity : settings.atol_velocity;
+          rotation ? tolerance.angular_velocity : tolerance.velocity;
   }
   for (std::size_t k = model.contacts.size(); k-- > 0;) {
     const auto f = static_cast<std::size_t>(layout_.force(k));
@@ -163,7 +163,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
 
 void IdaProblem::weights(const double* y, double* w) const {
   for (std::size_t i = 0; i < atol_.size(); ++i)
-    w[i] = factor_[i] / (settings_.rtol * std::abs(y[i]) + atol_[i]);
+    w[i] = factor_[i] / (tolerance_.rtol * std::abs(y[i]) + atol_[i]);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     // kn g and kt (ut - p) are differences of large numbers: no tolerance below their rounding can be met.
     const Contact& contact = model_.contacts[k];

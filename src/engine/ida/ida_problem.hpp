@@ -9,13 +9,14 @@
 #include "engine/falls/watch.hpp"
 #include "engine/ida/ida_linear_solver.hpp"
 #include "engine/stepper.hpp"
+#include "engine/tolerance.hpp"
 #include "linear/momentum.hpp"
 
 namespace signorini {
 
 class IdaProblem {
  public:
-  IdaProblem(const Model& model, const Structure& structure, const Settings& settings);
+  IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance);
 
   void start(const Segment& segment, const Watch& watch);
 
@@ -44,7 +45,7 @@ class IdaProblem {
   const Model& model_;
   Layout layout_;
   IdaLinearSolver linear_;
-  const Settings settings_;
+  const Tolerance tolerance_;
   Segment segment_;
   const Watch* watch_ = nullptr;
   // IDA's norm is a mean over all unknowns. Here N and T of each contact form a group, u and v of its

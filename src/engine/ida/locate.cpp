@@ -7,14 +7,14 @@
 
 namespace signorini {
 
-double locate(IdaStepper& stepper, ConsistentMotion& consistent, const Segment& segment, const Model& model,
+double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment, const Model& model,
               std::size_t slot, double begin, double end, double time, double resolution) {
   const std::size_t contact = slot / guards_per_contact;
   const Form& guard = segment.decision->guards[slot].form;
   const Forcing& forcing = *segment.forcing;
   Point point;
   const std::function<double(double)> value = [&](double t) {
-    stepper.evaluate(t, point);
+    bdf.evaluate(t, point);
     consistent.make(segment.decision->system, forcing, t, point);
     return guard.value(motion_of(model.contacts[contact], contact, forcing, t, point));
   };

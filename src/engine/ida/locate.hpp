@@ -7,14 +7,14 @@
 // refined with forces recomputed from the interpolated u and v.
 #pragma once
 
-#include "engine/ida/ida_stepper.hpp"
+#include "engine/ida/bdf_integrator.hpp"
 #include "motion/consistent.hpp"
 
 namespace signorini {
 
 /// Refines `time`, a root of guard `slot` found on [begin, end] of the last step; returns it unchanged
 /// where the recomputed guard has no fall there. Brackets by doubling, then Brent's method (GSL).
-[[nodiscard]] double locate(IdaStepper& stepper, ConsistentMotion& consistent, const Segment& segment,
+[[nodiscard]] double locate(BdfIntegrator& bdf, ConsistentMotion& consistent, const Segment& segment,
                             const Model& model, std::size_t slot, double begin, double end, double time,
                             double resolution);
 

@@ -34,27 +34,20 @@ double least_damping_ratio(const Model& model) {
   return 0.5 * (alpha / omega_max + beta * omega_max);
 }
 
-void choose_order(const Model& model, const RunSpec& run, Settings& settings) {
-  if (run.max_order) {
-    settings.max_order = *run.max_order;
-    settings.max_order_reason = "as given";
-    return;
-  }
-  if (run.rtol <= loose) {
-    settings.max_order = 5;
-    settings.max_order_reason = "auto: the tolerance resolves the modes; orders 3 and 4 are passed quickly";
-    return;
-  }
+Order choose_order(const Model& model, const RunSpec& run) {
+  if (run.max_order) return {*run.max_order, "as given"};
+  if (run.rtol <= loose)
+    return {5, "auto: the tolerance resolves the modes; orders 3 and 4 are passed quickly"};
   const double ratio = least_damping_ratio(model);
-  settings.max_order = 2;
+  int greatest = 2;
   for (const Stability& s : stability) {
     if (ratio < std::cos(s.angle * std::numbers::pi / 180.0)) continue;
-    settings.max_order = s.order;
+    greatest = s.order;
     break;
   }
-  settings.max_order_reason = fmt::format(
-      "auto: above rtol {} the greatest order that is stable for every mode; least damping ratio {:.2g}",
-      loose, ratio);
+  return {greatest, fmt::format("auto: above rtol {} the greatest order that is stable for every mode; least "
+                                "damping ratio {:.2g}",
+                                loose, ratio)};
 }
 
 }  // namespace signorini

@@ -9,13 +9,17 @@
 // Differential Equations II, V.2.
 #pragma once
 
+#include <string>
+
 #include "signorini/model.hpp"
-#include "signorini/result.hpp"
 
 namespace signorini {
 
-/// Fills settings.max_order and settings.max_order_reason.
-void choose_order(const Model& model, const RunSpec& run, Settings& settings);
+struct Order {
+  int greatest = 5;
+  std::string reason;
+};
+[[nodiscard]] Order choose_order(const Model& model, const RunSpec& run);
 
 /// Least damping ratio of all modes; 0 where it is not known.
 [[nodiscard]] double least_damping_ratio(const Model& model);

@@ -26,10 +26,10 @@ constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 }  // namespace
 
 NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems,
-                             const RunSpec& run, const Settings& settings)
+                             const RunSpec& run, const Tolerance& tolerance)
     : model_(model),
       consistent_(systems),
-      settings_(settings),
+      tolerance_(tolerance),
       dt_(run.dt.value()),
       linear_(run.refine == Refine::linear),
       doubling_(run.step == StepControl::doubling),
@@ -260,10 +260,10 @@ double NewmarkEngine::doubled(double remaining) {
     double change = 0.0;
     for (Eigen::Index i = 0; i < fine_.u.size(); ++i) {
       const Dof& dof = model_.dofs[static_cast<std::size_t>(i)];
-      const double u = settings_.rtol * std::abs(fine_.u[i]) +
-                       (dof.rotation ? settings_.atol_rotation : settings_.atol_displacement);
-      const double v = settings_.rtol * std::abs(fine_.v[i]) +
-                       (dof.rotation ? settings_.atol_angular_velocity : settings_.atol_velocity);
+      const double u = tolerance_.rtol * std::abs(fine_.u[i]) +
+                       (dof.rotation ? tolerance_.rotation : tolerance_.displacement);
+      const double v = tolerance_.rtol * std::abs(fine_.v[i]) +
+                       (dof.rotation ? tolerance_.angular_velocity : tolerance_.velocity);
       change = std::max(change, std::abs(fine_.u[i] - coarse_.u[i]) / u);
       if (!dof.massless) change = std::max(change, std::abs(fine_.v[i] - coarse_.v[i]) / v);
     }

@@ -16,6 +16,7 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
+#include "engine/tolerance.hpp"
 #include "motion/consistent.hpp"
 
 namespace signorini {
@@ -24,7 +25,7 @@ class NewmarkEngine final : public Stepper {
  public:
   /// The first three must outlive it. run.dt must be given.
   NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run,
-                const Settings& settings);
+                const Tolerance& tolerance);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -70,7 +71,7 @@ class NewmarkEngine final : public Stepper {
 
   const Model& model_;
   ConsistentMotion consistent_;
-  const Settings settings_;
+  const Tolerance tolerance_;
   const double dt_;
   const bool linear_, doubling_;
   NewmarkStep step_;

@@ -57,7 +57,7 @@ CheckReport check(const Scene& scene, const Model& model) {
   const Model& structure = whole ? *whole : model;
   checks::Start start = checks::start(scene, model);
   report.contacts = std::move(start.contacts);
-  report.settings = std::move(start.settings);
+  report.method = std::move(start.method);
   report.warnings = std::move(start.warnings);
   if (const auto found = checks::ambiguous_contacts(model))
     report.warnings.push_back(found->reason + "; the run will stop when that happens");
@@ -77,7 +77,7 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.stuck = frequencies(with_dashpots(structure), hold_contacts(structure.contacts, all));
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
-  report.cost = checks::cost_of(model, report.settings, scene.run.t_end);
+  report.cost = checks::cost_of(model, scene.run, report.method);
   return report;
 }
 

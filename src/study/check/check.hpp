@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/modes/frequencies.hpp"
+#include "run/effort.hpp"
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
@@ -37,12 +38,11 @@ struct Discontinuity {
   std::string what;   ///< "load 1", "normal_force of contact 'pad'"
 };
 
-/// Of the time loop with IDA at order 5, by order of magnitude. Zero steps: nobody knows beforehand.
+/// Of the time loop, by order of magnitude.
 struct Cost {
   long unknowns = 0;
-  double omega_max = 0.0;         ///< of the structure with its contacts stuck, and of harmonic loads
-  double steps_per_period = 0.0;  ///< of omega_max
-  double steps = 0.0, seconds = 0.0;
+  double omega_max = 0.0;  ///< of the structure with its contacts stuck, and of harmonic loads
+  Effort effort;
 };
 
 /// Of the structure as the scene has it, also where the run is to use a reduced model of it; frequencies,
@@ -57,7 +57,7 @@ struct CheckReport {
   Frequencies open, closed, stuck;        ///< all contacts alike
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< ascending
-  Settings settings;
+  Method method;
   Cost cost;
   std::size_t rows = 0;  ///< of history.csv
 };

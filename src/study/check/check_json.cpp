@@ -63,17 +63,17 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
     json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
   json["run"] = {{"t_end", scene.run.t_end},
-                 {"rtol", report.settings.rtol},
-                 {"engine", report.settings.engine},
-                 {"engine_reason", report.settings.engine_reason},
-                 {"max_order", report.settings.max_order},
-                 {"max_order_reason", report.settings.max_order_reason},
+                 {"rtol", scene.run.rtol},
+                 {"engine", to_string(report.method.engine)},
+                 {"engine_reason", report.method.reason},
+                 {"max_order", report.method.max_order},
+                 {"max_order_reason", report.method.max_order_reason},
                  {"rows", report.rows},
                  {"unknowns", report.cost.unknowns},
                  {"omega_max", report.cost.omega_max}};
-  if (report.cost.steps > 0.0) {
-    json["run"]["steps_about"] = report.cost.steps;
-    json["run"]["seconds_about"] = report.cost.seconds;
+  if (report.cost.effort.steps > 0.0) {
+    json["run"]["steps_about"] = report.cost.effort.steps;
+    json["run"]["seconds_about"] = report.cost.effort.seconds;
   }
   Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);

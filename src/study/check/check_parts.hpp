@@ -8,7 +8,7 @@ namespace signorini::checks {
 /// The first state decision and the first step, by simulate() itself.
 struct Start {
   std::vector<ContactSample> contacts;
-  Settings settings;
+  Method method;
   std::vector<std::string> warnings;  ///< of the run itself
 };
 /// Errors: SceneError with the reason why the run cannot start.
@@ -31,6 +31,6 @@ struct Ambiguity {
                                                     const std::vector<ContactSample>& contacts);
 [[nodiscard]] std::vector<StiffnessRatio> stiffness_ratios(const Model& model);
 [[nodiscard]] std::vector<Discontinuity> discontinuities(const Model& model, double t_end);
-[[nodiscard]] Cost cost_of(const Model& model, const Settings& settings, double t_end);
+[[nodiscard]] Cost cost_of(const Model& model, const RunSpec& run, const Method& method);
 
 }  // namespace signorini::checks

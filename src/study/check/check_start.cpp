@@ -89,7 +89,7 @@ Start start(const Scene& scene, const Model& model) {
     }
     throw SceneError({scene.file, 0, 0}, "", reason);
   }
-  return {std::move(recorder.contacts), std::move(report.settings), std::move(report.warnings)};
+  return {std::move(recorder.contacts), std::move(report.method), std::move(report.warnings)};
 }
 
 }  // namespace signorini::checks

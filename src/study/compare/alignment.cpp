@@ -19,7 +19,7 @@ class Walk {
   Walk(const std::vector<LoggedEvent>& events, double t_end, double instant)
       : events_(events), t_end_(t_end), instant_(instant) {
     for (std::size_t i = 0; i < events.size(); ++i) {
-      if (events[i].type == "time" || events[i].contact.empty() || events[i].t > t_end + instant) continue;
+      if (!events[i].is_change() || events[i].contact.empty() || events[i].t > t_end + instant) continue;
       order_.push_back(i);
       of_contact_[events[i].contact].push_back(i);
     }

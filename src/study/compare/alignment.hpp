@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "signorini/event.hpp"
+
 namespace signorini {
 
 /// A row of events.csv, as far as lists are compared.
@@ -20,6 +22,8 @@ struct LoggedEvent {
   std::string contact, type, from, to;
   double uncertainty = 0.0;  ///< t_uncertainty; 0 where the run gave none
 
+  /// Of a state; else a load jumped.
+  [[nodiscard]] bool is_change() const { return type != to_string(EventType::time); }
   /// "first slip, stick -> slip+"
   [[nodiscard]] std::string name() const;
 };

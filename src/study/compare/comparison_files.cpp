@@ -24,13 +24,6 @@ Json optional_json(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
 }
 
-long total(const RunFigures& run) {
-  long sum = 0;
-  for (const auto& [type, count] : run.events_by_type)
-    if (type != "time") sum += count;  // as in the table
-  return sum;
-}
-
 std::string runs_csv(const ComparisonReport& report) {
   CsvBlock block;
   for (const char* name : {"run", "engine", "directory", "outcome", "t", "reason", "events", "wall_time",
@@ -42,7 +35,7 @@ std::string runs_csv(const ComparisonReport& report) {
   for (const ComparedRun& compared : report.runs) {
     const RunFigures& run = compared.figures;
     block.text(run.name).text(run.engine).text(run.directory.string()).text(run.facts.outcome);
-    block.number(run.t).text(run.reason).number(static_cast<double>(total(run)));
+    block.number(run.t).text(run.reason).number(static_cast<double>(changes_in(run.events_by_type)));
     block.number(run.wall_time).number(as_double(run.steps)).number(as_double(run.factorisations));
     block.number(as_double(run.solves)).number(as_double(run.restarts));
     block.number(run.friction).number(run.damping);
@@ -131,7 +124,7 @@ Json run_json(const RunFigures& run) {
           {"outcome", run.facts.outcome},
           {"t", run.t},
           {"reason", run.reason},
-          {"events", {{"total", total(run)}, {"by_type", run.events_by_type}}},
+          {"events", {{"total", changes_in(run.events_by_type)}, {"by_type", run.events_by_type}}},
           {"wall_time", optional_json(run.wall_time)},
           {"steps", optional_json(run.steps)},
           {"factorisations", optional_json(run.factorisations)},

@@ -81,14 +81,15 @@ RunFigures read_run_figures(const std::filesystem::path& directory) {
 std::vector<LoggedEvent> read_events(const std::filesystem::path& directory) {
   std::vector<LoggedEvent> events;
   CsvReader reader(directory / "events.csv");
-  const std::size_t contact = reader.column("contact"), type = reader.column("event");
-  const std::size_t from = reader.column("from"), to = reader.column("to");
-  const auto& header = reader.header();
-  const auto uncertainty =
-      static_cast<std::size_t>(std::find(header.begin(), header.end(), "t_uncertainty") - header.begin());
+  const auto at = [&](auto field) { return reader.column(event_column(field)); };
+  const std::size_t t = at(&Event::t), contact = at(&Event::contact), type = at(&Event::type);
+  const std::size_t from = at(&Event::from), to = at(&Event::to);
+  const auto& header = reader.header();  // the tables of other programs may know no uncertainty
+  const auto uncertainty = static_cast<std::size_t>(
+      std::find(header.begin(), header.end(), event_column(&Event::t_uncertainty)) - header.begin());
   while (reader.next()) {
     LoggedEvent event;
-    event.t = reader.number(0);
+    event.t = reader.number(t);
     event.contact = reader.cell(contact);
     event.type = reader.cell(type);
     event.from = reader.cell(from);

@@ -23,8 +23,8 @@ std::string joined(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string accuracy_key(const std::string& engine) {
-  if (engine == "exact") return "";
-  return engine == "newmark" || engine == "friction-iteration" ? "run.dt" : "run.rtol";
+  const std::optional<Engine> known = engine_called(engine);
+  return known ? std::string(accuracy_key(name_of(*known).accuracy)) : "";
 }
 
 std::string WorkPoint::setting() const {
@@ -57,7 +57,7 @@ std::vector<WorkPoint> work_points(const WorkRanges& ranges) {
     const std::string key = accuracy_key(engine);
     for (const auto& varied : ranges.varied) {
       if (key.empty()) points.push_back({engine, std::nullopt, varied});
-      for (const double value : key == "run.dt" ? ranges.dt : ranges.rtol)
+      for (const double value : key == accuracy_key(Accuracy::step) ? ranges.dt : ranges.rtol)
         if (!key.empty()) points.push_back({engine, value, varied});
     }
   }

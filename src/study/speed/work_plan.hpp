@@ -1,8 +1,7 @@
 // work_plan.hpp: the runs of a study: every engine at every setting of its accuracy.
 //
-//   ida                          run.rtol
-//   newmark, friction-iteration  run.dt
-//   exact                        none: it is exact to rounding
+//   run.rtol or run.dt, whichever limits the error of the engine (signorini/engine.hpp); none where only
+//   rounding does
 #pragma once
 
 #include <optional>
@@ -13,7 +12,7 @@
 
 namespace signorini {
 
-/// The key that says how accurate an engine is: "run.rtol", "run.dt", or "".
+/// The key that says how accurate an engine of that name is: "run.rtol", "run.dt", or "".
 [[nodiscard]] std::string accuracy_key(const std::string& engine);
 
 /// One engine with one setting.

@@ -9,6 +9,7 @@
 
 #include "base/file_name.hpp"
 #include "base/number.hpp"
+#include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
 #include "study/speed/decades.hpp"
 #include "study/speed/fingerprint.hpp"
@@ -35,7 +36,7 @@ std::string folder_name(std::size_t number, const std::string& name) {
 
 std::vector<Override> capture_velocities(const Scene& scene, const Model& model) {
   std::vector<Override> list;
-  const double velocity = scene.run.atol.velocity.value_or(scene.run.rtol * model.scales.velocity);
+  const double velocity = tolerance_of(model, scene.run).capture_velocity();
   for (const Contact& contact : model.contacts)
     if (contact.law == Law::rigid && !contact.capture_velocity)
       list.push_back({"contacts." + contact.name + ".capture_velocity", shortest(velocity)});
@@ -80,6 +81,11 @@ double quiet_before(double t, const std::vector<LoggedEvent>& a, const std::vect
     after = before;
   }
   return 0.0;
+}
+
+long changes_until(const std::vector<LoggedEvent>& events, double t) {
+  return std::count_if(events.begin(), events.end(),
+                       [&](const LoggedEvent& event) { return event.is_change() && event.t <= t; });
 }
 
 /// The reader names what it was told as --set; in a row the setting speaks for itself.
@@ -189,11 +195,11 @@ void WorkStudy::doubt_reference(const WorkPoint& point) {
 bool WorkStudy::choose_reference() {
   std::string why_not;
   WorkPoint exact;
-  exact.engine = "exact";
+  exact.engine = to_string(references[0]);
   if (try_reference(exact, why_not)) return true;
-  report_.notes.push_back("exact is not the reference: " + why_not);
+  report_.notes.push_back(exact.engine + " is not the reference: " + why_not);
   WorkPoint tight;
-  tight.engine = "ida";
+  tight.engine = to_string(references[1]);
   const auto& rtol = request_.ranges.rtol;
   const double least = rtol.empty() ? tightest_rtol : *std::min_element(rtol.begin(), rtol.end());
   // A tolerance below the rounding of the scene's own forces cannot be met; the next decades can.
@@ -219,10 +225,8 @@ void WorkStudy::take_ranges() {
   // Roundoff of the time itself.
   double& floor = report_.range["event_time"].floor;
   floor = std::max(floor, std::numeric_limits<double>::epsilon() * report_.compared_until);
-  double events = 1.0;
-  for (const LoggedEvent& event : reference_.events)
-    events += event.type != "time" && event.t <= report_.compared_until ? 1.0 : 0.0;
-  report_.range["event_time"].most = report_.compared_until / events;
+  const auto events = static_cast<double>(changes_until(reference_.events, report_.compared_until));
+  report_.range["event_time"].most = report_.compared_until / (1.0 + events);
   report_.range["displacement"].most = greatest_motion(reference_.figures.directory);
 }
 
@@ -239,23 +243,16 @@ void WorkStudy::find_reference() {
         "the reference, {}, {} at t = {:.9g}: {}; all runs are compared up to there", report_.reference,
         reference_.figures.facts.outcome, reference_.figures.t, reference_.figures.reason));
   }
-  if (report_.reference == "exact" && !report_.interrupted) {
-    WorkPoint exact;
-    exact.engine = "exact";
-    doubt_reference(exact);
-  }
+  WorkPoint exact;
+  exact.engine = to_string(references[0]);
+  if (report_.reference == exact.name() && !report_.interrupted) doubt_reference(exact);
   take_ranges();
 }
 
 void WorkStudy::compare(WorkRow& row, const ComparedRun& run) const {
-  const auto changes = [&](const ComparedRun& r) {
-    return std::count_if(r.events.begin(), r.events.end(), [&](const LoggedEvent& event) {
-      return event.type != "time" && event.t <= report_.compared_until;
-    });
-  };
-  row.events = changes(run);
+  row.events = changes_until(run.events, report_.compared_until);
   if (report_.reference.empty()) return;
-  row.events_of_reference = changes(reference_);
+  row.events_of_reference = changes_until(reference_.events, report_.compared_until);
   row.reference = row.point.name() == report_.reference;
   row.whole = run.figures.t >= std::min(report_.compared_until, reference_.figures.t);
   if (row.reference && !doubted_) return;  // against itself it has no error

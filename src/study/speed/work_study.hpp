@@ -11,6 +11,7 @@
 // problem of its own.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -51,6 +52,9 @@ struct WorkReport {
 
 class WorkStudy {
  public:
+  /// The engine that is the reference; and the one that is where the first cannot be.
+  static constexpr std::array references = {Engine::exact, Engine::ida};
+
   /// Reads the scene and builds its model. Errors: SceneError, UsageError, FileError.
   explicit WorkStudy(WorkRequest request);
 

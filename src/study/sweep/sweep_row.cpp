@@ -61,11 +61,7 @@ double number(const Json& json, const char* key) {  // what is no number was wri
 
 }  // namespace
 
-long SweepRow::changes() const {
-  long sum = 0;
-  for (const auto& [type, count] : events) sum += type == "time" ? 0 : count;
-  return sum;
-}
+long SweepRow::changes() const { return changes_in(events); }
 
 SweepRow compute_row(const RowTask& task) {
   SweepRow row;

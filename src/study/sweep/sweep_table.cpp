@@ -5,12 +5,12 @@
 
 #include "result/csv.hpp"
 #include "result/units_json.hpp"
+#include "signorini/event.hpp"
 
 namespace signorini {
 
 namespace {
 
-constexpr const char* types[] = {"slip", "stick", "reversal", "separation", "contact", "impact", "time"};
 constexpr const char* figures[] = {"peak_t", "peak_n", "peak_N", "peak_T", "friction_work"};
 
 void row_csv(CsvBlock& block, const SweepRow& row, const std::vector<std::string>& contacts) {
@@ -19,8 +19,8 @@ void row_csv(CsvBlock& block, const SweepRow& row, const std::vector<std::string
   for (const std::string& value : row.values) block.text(value);
   block.text(row.outcome).number(if_ran(row.t)).text(row.reason);
   block.number(if_ran(static_cast<double>(row.changes())));
-  for (const char* type : types) {
-    const auto found = row.events.find(type);
+  for (const EventTypeName& type : all_event_types) {
+    const auto found = row.events.find(type.name);
     block.number(if_ran(found == row.events.end() ? 0.0 : static_cast<double>(found->second)));
   }
   for (const std::string& name : contacts) {
@@ -59,7 +59,7 @@ std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
   block.text("row");
   for (const Vary& vary : spec.vary) block.text(vary.path);
   for (const char* name : {"outcome", "t", "reason", "events"}) block.text(name);
-  for (const char* type : types) block.text(type);
+  for (const EventTypeName& type : all_event_types) block.text(type.name);
   for (const std::string& contact : contacts)
     for (const char* figure : figures) block.text(contact + "." + figure);
   for (const char* name : {"wall_time", "steps", "energy_balance", "warnings"}) block.text(name);

@@ -105,7 +105,7 @@ TEST_SUITE("unit/model/claims") {
     CHECK(pull <= 1e-9);
     CHECK(run.model.statics.reactions[0] == doctest::Approx(12.75).epsilon(1e-3));
     CHECK(run.result.rows.back().contacts[0].N == doctest::Approx(-12.75).epsilon(0.03));
-    const double pressed_in = run.events("left")[1].gap;
+    const double pressed_in = run.events("left")[1].gap.value();
     CHECK(pressed_in < 0.0);
   }
 

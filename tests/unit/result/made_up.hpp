@@ -77,8 +77,8 @@ inline Report report(Outcome::Kind kind = Outcome::Kind::done) {
   Report r;
   r.outcome.kind = kind;
   r.outcome.t = 1.0;
-  r.settings.engine = "ida";
-  r.settings.rtol = 1e-8;
+  r.method.engine = Engine::ida;
+  r.method.accuracy = 1e-8;
   r.events_by_type = {{"slip", 2}, {"time", 1}};
   r.peaks.resize(2);
   r.audit.friction_work = {0.5, 0.25};
@@ -110,6 +110,7 @@ inline Event slip(double t) {
   e.type = EventType::slip;
   e.from = State::stick;
   e.to = State::slip_minus;
+  e.gap = 0.0;
   e.N = e.N_after = -58.86;
   e.T = e.T_after = -17.658;
   return e;

@@ -110,7 +110,7 @@ TEST_CASE("events.csv: header, gaps of sliders, impulses, load jumps") {
     writer.write(slip(0.125));
     Event pad = slip(0.25);
     pad.contact = 1;
-    pad.gap = 7.0;
+    pad.gap.reset();
     pad.impulse_n = 2.5;
     pad.guard_rate = -4.0;
     pad.t_uncertainty = 1e-9;

@@ -37,7 +37,8 @@ friction = {}
 std::string computed_by(const Scene& scene) {
   const Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
-  return result.report.settings.engine + " " + result.report.settings.engine_reason.substr(0, 8);
+  const Method& method = result.report.method;
+  return std::string(to_string(method.engine)) + " " + method.reason.substr(0, 8);
 }
 
 }  // namespace
@@ -59,13 +60,11 @@ TEST_CASE("max_order auto: below rtol 1e-4 always 5; above, what is stable for t
   model.omega1 = 10.0;
   model.omega_max = 1000.0;
   RunSpec run;
-  Settings settings;
   const auto order = [&](double rtol, double alpha, double beta) {
     run.rtol = rtol;
     model.alpha = alpha;
     model.beta = beta;
-    choose_order(model, run, settings);
-    return settings.max_order;
+    return choose_order(model, run).greatest;
   };
   CHECK(order(1e-4, 0.0, 0.0) == 5);
   CHECK(order(1e-3, 0.0, 0.0) == 2);

@@ -45,9 +45,9 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(r.discontinuities[1].jump);
     CHECK(r.discontinuities[1].what == "load 1");
     CHECK(r.cost.unknowns == 106);
-    CHECK(r.settings.engine == "exact");  // chosen by engine = "auto"
-    CHECK(r.cost.steps > 1e4);            // 14 400 measured
-    CHECK(r.cost.steps < 2e4);
+    CHECK(r.method.engine == Engine::exact);  // chosen by engine = "auto"
+    CHECK(r.cost.effort.steps > 1e4);         // 14 400 measured
+    CHECK(r.cost.effort.steps < 2e4);
     CHECK(r.massless == 0);
     CHECK(r.stiffness.size() == 4);
   }

@@ -1,4 +1,4 @@
-#include "engine/ida/ida_stepper.hpp"
+#include "engine/ida/bdf_integrator.hpp"
 
 #include <fmt/core.h>
 #include <ida/ida.h>
@@ -31,9 +31,9 @@ void check(int flag, const char* what) {
 
 }  // namespace
 
-struct IdaStepper::Memory {
-  Memory(const Model& model, const Structure& structure, const Settings& settings)
-      : problem(model, structure, settings) {
+struct BdfIntegrator::Memory {
+  Memory(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order)
+      : problem(model, structure, tolerance) {
     SUNContext_Create(nullptr, &context);
     const auto size = static_cast<sunindextype>(problem.layout().size());
     for (N_Vector* v : {&y, &yp, &work}) *v = make_vector(size, context);
@@ -49,7 +49,7 @@ struct IdaStepper::Memory {
     check(IDASetLinearSolver(ida, solver, matrix), "IDASetLinearSolver");
     IDASetJacFn(ida, &Memory::jacobian);
     IDASetMaxNumSteps(ida, -1);
-    IDASetMaxOrd(ida, settings.max_order);
+    IDASetMaxOrd(ida, max_order);
     // Refactor at every change of cj: Newton is then exact for these linear systems, and the rows of the
     // contacts hold to roundoff (default: 3 to 4 times the error in energy and more steps, measured).
     IDASetDeltaCjLSetup(ida, 0.0);
@@ -204,15 +204,15 @@ struct IdaStepper::Memory {
   Counters counted;                                   // what IDA has counted since its last restart
 };
 
-IdaStepper::IdaStepper(const Model& model, const Structure& structure, const Settings& settings,
-                       Counters& counters)
-    : counters_(counters), m_(std::make_unique<Memory>(model, structure, settings)) {}
+BdfIntegrator::BdfIntegrator(const Model& model, const Structure& structure, const Tolerance& tolerance,
+                             int max_order, Counters& counters)
+    : counters_(counters), m_(std::make_unique<Memory>(model, structure, tolerance, max_order)) {}
 
-IdaStepper::~IdaStepper() = default;
+BdfIntegrator::~BdfIntegrator() = default;
 
-void IdaStepper::count() { m_->add_counters(counters_); }
+void BdfIntegrator::count() { m_->add_counters(counters_); }
 
-void IdaStepper::start(const Segment& segment, const Watch& watch) {
+void BdfIntegrator::start(const Segment& segment, const Watch& watch) {
   count();  // IDA forgets at a restart
   m_->segment = segment;
   m_->problem.start(segment, watch);
@@ -221,7 +221,7 @@ void IdaStepper::start(const Segment& segment, const Watch& watch) {
   ++counters_.restarts;
 }
 
-BdfStep IdaStepper::advance() {
+BdfStep BdfIntegrator::advance() {
   BdfStep step;
   double t = 0.0;
   // A far tout: in one-step mode it only bounds IDA's own choice of a first step.
@@ -268,7 +268,7 @@ BdfStep IdaStepper::advance() {
   return step;
 }
 
-void IdaStepper::evaluate(double t, Point& point) {
+void BdfIntegrator::evaluate(double t, Point& point) {
   if (t != m_->held_time) {
     check(IDAGetDky(m_->ida, t, 0, m_->y), "IDAGetDky");
     if (m_->massless()) {
@@ -280,7 +280,7 @@ void IdaStepper::evaluate(double t, Point& point) {
   m_->problem.read(NV_DATA_S(m_->y), NV_DATA_S(m_->yp), point);
 }
 
-double IdaStepper::residual() {
+double BdfIntegrator::residual() {
   // The formula's own derivative, y' = y'_predicted + cj (y - y_predicted): IDA returns that of the
   // interpolating polynomial instead, which does not satisfy the equations.
   double end = 0.0, cj = 0.0;

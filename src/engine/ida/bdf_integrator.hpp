@@ -1,4 +1,4 @@
-// ida_stepper.hpp: SUNDIALS IDA on the first-order form.
+// bdf_integrator.hpp: SUNDIALS IDA on the first-order form.
 //
 //   0 = u' - v
 //   0 = M v' + C v + K u - P(t) + sum_k ( n_k N_k + t_k T_k )
@@ -13,6 +13,7 @@
 
 #include "engine/falls/watch.hpp"
 #include "engine/stepper.hpp"
+#include "engine/tolerance.hpp"
 
 namespace signorini {
 
@@ -27,13 +28,14 @@ struct BdfStep {
   std::string reason;             ///< Kind::failed
 };
 
-class IdaStepper {
+class BdfIntegrator {
  public:
   /// counters: where to count; complete after count().
-  IdaStepper(const Model& model, const Structure& structure, const Settings& settings, Counters& counters);
-  ~IdaStepper();
-  IdaStepper(const IdaStepper&) = delete;
-  IdaStepper& operator=(const IdaStepper&) = delete;
+  BdfIntegrator(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order,
+                Counters& counters);
+  ~BdfIntegrator();
+  BdfIntegrator(const BdfIntegrator&) = delete;
+  BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
   /// watch: which guards are armed; it must outlive the segment.
   void start(const Segment& segment, const Watch& watch);

@@ -1,0 +1,31 @@
+// effort.hpp: what a time loop will cost, by order of magnitude, known before it runs.
+//
+//   series        t_end * max(omega_max, fastest decay) / 5.3 steps
+//   BDF, order 5  max(12, 3.1 rtol^(-1/6)) steps in the shortest period
+//   fixed steps   t_end / dt
+#pragma once
+
+#include "signorini/model.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// Zero steps: nobody knows beforehand.
+struct Effort {
+  double steps_per_period = 0.0;  ///< of omega_max
+  double steps = 0.0, seconds = 0.0;
+};
+
+struct EffortParts {
+  const Model& model;
+  const RunSpec& run;
+  const Method& method;
+  double omega_max;  ///< > 0; of the structure with its contacts stuck, and of harmonic loads
+  long unknowns;
+};
+
+[[nodiscard]] Effort effort_of_series(const EffortParts& parts);
+[[nodiscard]] Effort effort_of_bdf(const EffortParts& parts);
+[[nodiscard]] Effort effort_of_fixed_steps(const EffortParts& parts);
+
+}  // namespace signorini

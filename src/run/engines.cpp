@@ -1,0 +1,110 @@
+#include "run/engines.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/exact/exact_engine.hpp"
+#include "engine/ida/ida_engine.hpp"
+#include "engine/ida/order.hpp"
+#include "engine/newmark/friction_iteration.hpp"
+#include "engine/newmark/newmark_engine.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+[[noreturn]] void refuse(const RunSpec& run, const std::string& what) {
+  throw SceneError(run.place, "run.engine", fmt::format("engine \"{}\" {}", to_string(run.engine), what));
+}
+
+void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
+
+void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
+  for (const Contact& contact : model.contacts)
+    if (contact.stribeck_velocity)
+      refuse(run,
+             fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
+                         "rate (stribeck_velocity); use \"ida\"",
+                         contact.name));
+}
+
+/// What iterates on friction takes no impulses.
+void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
+  refuse_laws_that_are_not_linear(model, run);
+  for (const Contact& contact : model.contacts) {
+    if (contact.law == Law::rigid)
+      refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid; use \"newmark\" or law = "
+                              "\"compliant\"",
+                              contact.name));
+  }
+}
+
+/// A series has to reach the end of every polynomial in the forcing.
+void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
+  refuse_laws_that_are_not_linear(model, run);
+  const auto check = [&](const History& history, const std::string& what) {
+    for (const Piece& p : history.pieces())
+      for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)
+        if (p.coefficients[j] != 0.0)
+          refuse(run, fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
+                                  most_levels - 2, what, j));
+  };
+  for (const Load& load : model.loads) check(load.history, load.name);
+  for (const Contact& contact : model.contacts) {
+    check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
+    check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
+  }
+}
+
+Method series(const Model& /*model*/, const RunSpec& run) {
+  return {run.engine, "", 0.0, most_levels,
+          "Taylor series as long as rounding needs; rtol has no part in it"};
+}
+
+Method bdf(const Model& model, const RunSpec& run) {
+  const Order order = choose_order(model, run);
+  return {run.engine, "", run.rtol, order.greatest, order.reason};
+}
+
+Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
+  if (!run.dt)
+    throw SceneError(run.place, "run.dt",
+                     fmt::format("engine \"{}\" needs it: its step", to_string(run.engine)));
+  return {run.engine, "", *run.dt, 2, "average acceleration"};
+}
+
+std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
+  return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end);
+}
+
+std::unique_ptr<Stepper> make_ida(const EngineParts& p) {
+  return std::make_unique<IdaEngine>(p.model, p.structure, p.systems, p.tolerance, p.max_order, p.run.t_end);
+}
+
+std::unique_ptr<Stepper> make_newmark(const EngineParts& p) {
+  return std::make_unique<NewmarkEngine>(p.model, p.structure, p.systems, p.run, p.tolerance);
+}
+
+std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
+  return std::make_unique<FrictionIteration>(p.model, p.structure, p.run);
+}
+
+constexpr std::array rows_of_engines = {
+    EngineRow{Engine::exact, refuse_long_polynomials_too, series, make_exact, effort_of_series},
+    EngineRow{Engine::ida, refuse_nothing, bdf, make_ida, effort_of_bdf},
+    EngineRow{Engine::newmark, refuse_laws_that_are_not_linear, fixed_steps, make_newmark,
+              effort_of_fixed_steps},
+    EngineRow{Engine::friction_iteration, refuse_rigid_contacts_too, fixed_steps, make_friction_iteration,
+              effort_of_fixed_steps},
+};
+static_assert(rows_of_engines.size() == all_engines.size());
+
+}  // namespace
+
+const EngineRow& engine_row(Engine engine) {
+  return *std::find_if(rows_of_engines.begin(), rows_of_engines.end(),
+                       [&](const EngineRow& row) { return row.engine == engine; });
+}
+
+}  // namespace signorini

@@ -1,0 +1,138 @@
+#include "run/event_log.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+constexpr int most_warnings = 5;  // of pairs of events without an order
+
+bool is_hit(const Decision& decision, std::size_t k) {
+  return !decision.impulses.empty() && decision.impulses[k].hit;
+}
+
+/// What the decision knows of a contact; the guard is left out.
+Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool has_gap) {
+  const Decision& decision = *now.decision;
+  const ContactMotion &before = decision.before[k], &after = decision.after[k];
+  Event event;
+  event.t = now.t;
+  event.contact = static_cast<int>(k);
+  event.type = type;
+  event.from = (*now.before)[k].state;
+  event.to = decision.mode[k].state;
+  if (is_hit(decision, k)) {
+    event.impulse_n = decision.impulses[k].normal;
+    event.impulse_t = decision.impulses[k].tangent;
+  }
+  if (has_gap) event.gap = after.gap;
+  event.N = before.N;
+  event.T = before.T;
+  event.N_after = after.N;
+  event.T_after = after.T;
+  event.vn = before.vn;
+  event.vn_after = after.vn;
+  event.vt = decision.slides_before[k].vt;
+  event.vt_after = decision.slides_after[k].vt;
+  return event;
+}
+
+}  // namespace
+
+std::optional<EventType> classify(State from, State to, bool let_go) {
+  if (from == to) return let_go ? std::optional(EventType::slip) : std::nullopt;
+  if (to == State::open) return EventType::separation;
+  if (from == State::open) return EventType::contact;
+  if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;
+  return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
+}
+
+std::optional<double> time_uncertainty(const Crossing& crossing, double error) {
+  double off = std::numeric_limits<double>::infinity(), factorial = 1.0;
+  for (std::size_t m = 0; m < crossing.derivatives.size(); ++m) {
+    const auto order = static_cast<double>(m + 1);
+    factorial *= order;
+    if (const double d = std::abs(crossing.derivatives[m]); d > 0.0)
+      off = std::min(off, std::pow(factorial * error / d, 1.0 / order));
+  }
+  return std::isfinite(off) ? std::optional(off) : std::nullopt;
+}
+
+void EventLog::start(const Instant& now, const Stepper& stepper) {
+  for (std::size_t k = 0; k < now.before->size(); ++k)
+    if (is_hit(*now.decision, k)) contact(now, k, EventType::impact, stepper);
+}
+
+void EventLog::instant(const Instant& now, const Stepper& stepper) {
+  if (now.load_jumps) load_jump(now);
+  const Decision& decision = *now.decision;
+  for (std::size_t k = 0; k < now.before->size(); ++k) {
+    const State from = (*now.before)[k].state, to = decision.mode[k].state;
+    const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
+                        model_.contacts[k].law != Law::rigid;
+    auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);
+    if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
+    if (type) contact(now, k, *type, stepper);
+  }
+}
+
+void EventLog::finish() {
+  report_.counters.time_events = load_jumps_;
+  if (unordered_ > most_warnings)
+    report_.warnings.push_back(
+        fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_warnings));
+}
+
+/// A row of its own, without a contact.
+void EventLog::load_jump(const Instant& now) {
+  ++load_jumps_;
+  ++report_.events_by_type[to_string(EventType::time)];
+  Event event;
+  event.t = now.t;
+  recorder_.event(event);
+  if (last_.contact >= 0 && now.t - last_.t < *last_.t_uncertainty)
+    warn_of_order(fmt::format("the event of '{}' at {:.12g} and the jump of a load at {:.12g}",
+                              name_of_last(), last_.t, now.t));
+}
+
+void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
+  if (type != EventType::time) ++report_.events_by_type[to_string(type)];
+  Event event = event_of(now, k, type, model_.contacts[k].law != Law::slider);
+  add_conditioning(now, stepper, k, event);
+  recorder_.event(event);
+}
+
+/// How sharp the time of an event is, and whether its order among the others is.
+void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event) {
+  const Crossing& crossing = now.decision->crossings[k];
+  if (!crossing.failed) return;
+  event.guard_rate = crossing.derivatives[0];
+  const double error =
+      std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
+  const std::optional<double> off = time_uncertainty(crossing, error);
+  if (!off) return;
+  event.t_uncertainty = std::max(*off, now.resolution);
+  if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > now.resolution &&
+      event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
+    warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}", name_of_last(), last_.t,
+                              model_.contacts[k].name, event.t));
+  last_ = event;
+}
+
+void EventLog::warn_of_order(const std::string& which) {
+  if (++unordered_ <= most_warnings)
+    report_.warnings.push_back(
+        fmt::format("the order of {} is not determined at this precision ({} in "
+                    "events.csv)",
+                    which, event_column(&Event::t_uncertainty)));
+}
+
+const std::string& EventLog::name_of_last() const {
+  return model_.contacts[static_cast<std::size_t>(last_.contact)].name;
+}
+
+}  // namespace signorini

@@ -1,0 +1,61 @@
+// event_log.hpp: from decisions to rows of events.csv.
+//
+//   from -> to               event            a contact
+//   any -> open              separation       has at most one row an instant, with what was just before and
+//   open -> any              contact          what is just after everything that happens at it
+//   slip s -> slip -s        reversal
+//   stick -> slip            slip             also stick -> stick where friction let go and took hold again
+//   slip -> stick            stick
+//   a hit, whatever follows  impact
+//   forces jump with a load  time
+//
+// How sharp a time is: the guard moves by |g'| dt, so an error delta of the guard shifts the event by the
+// least of (m! delta / |g^(m)|)^(1/m); events closer than their uncertainties have no known order, and a
+// warning.
+#pragma once
+
+#include <optional>
+
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+/// let_go: friction let the contact go within the instant, although it sticks before and after.
+[[nodiscard]] std::optional<EventType> classify(State from, State to, bool let_go);
+
+/// Of the instant at which a guard fell whose value is off by `error`; nothing where no derivative is known.
+[[nodiscard]] std::optional<double> time_uncertainty(const Crossing& crossing, double error);
+
+class EventLog {
+ public:
+  /// Counts by type and warnings go to the report.
+  EventLog(const Model& model, Recorder& recorder, Report& report)
+      : model_(model), recorder_(recorder), report_(report) {}
+
+  struct Instant {
+    double t = 0.0, resolution = 0.0;
+    const Decision* decision = nullptr;
+    const Mode* before = nullptr;  ///< the states just before
+    bool load_jumps = false;
+  };
+  /// Hits of rigid contacts; nothing else is an event at the start.
+  void start(const Instant& now, const Stepper& stepper);
+  void instant(const Instant& now, const Stepper& stepper);
+  void finish();
+
+ private:
+  void load_jump(const Instant& now);
+  void contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper);
+  void add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event);
+  void warn_of_order(const std::string& which);
+  [[nodiscard]] const std::string& name_of_last() const;
+
+  const Model& model_;
+  Recorder& recorder_;
+  Report& report_;
+  Event last_;  // with a contact whose guard fell
+  long load_jumps_ = 0;
+  int unordered_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,43 @@
+#include "run/samples.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace signorini {
+
+double Samples::next() const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  return std::min(next_row_ < grid_.size() ? grid_[next_row_] : never,
+                  next_frame_ < frames_.size() ? frames_[next_frame_] : never);
+}
+
+void Samples::emit(double t, const Forcing& forcing, const Mode& mode, const Point& point) {
+  const Sample now = sample(t, forcing, mode, point);
+  if (next_row_ < grid_.size() && grid_[next_row_] == t) {
+    recorder_.sample(now);
+    ++next_row_;
+  }
+  if (next_frame_ < frames_.size() && frames_[next_frame_] == t) {
+    recorder_.frame(now);
+    ++next_frame_;
+  }
+}
+
+Sample Samples::sample(double t, const Forcing& forcing, const Mode& mode, const Point& point) {
+  Sample result;
+  result.t = t;
+  result.u = &point.u;
+  result.v = &point.v;
+  if (model_.reduction) {
+    physical_u_ = model_.reduction->physical(point.u);
+    physical_v_ = model_.reduction->physical(point.v);
+    result.u = &physical_u_;
+    result.v = &physical_v_;
+  }
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    result.contacts.push_back(auditor_.sample(k, forcing, t, mode[k], point));
+  result.energy = auditor_.energy(t, mode, point);
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,35 @@
+// samples.hpp: rows at the times that were asked for: those of history.csv and those of frames.
+//
+//   for (double t = samples.next(); t < step.end; t = samples.next()) samples.emit(t, state at t)
+#pragma once
+
+#include <vector>
+
+#include "run/audit.hpp"
+
+namespace signorini {
+
+class Samples {
+ public:
+  /// All of them must outlive the samples.
+  Samples(const Model& model, const RunSpec& run, Auditor& auditor, Recorder& recorder)
+      : model_(model), frames_(run.frames), auditor_(auditor), recorder_(recorder), grid_(run.grid()) {}
+
+  /// The next time of the grid or of a frame; infinity after the last.
+  [[nodiscard]] double next() const;
+  /// Records the time t = next().
+  void emit(double t, const Forcing& forcing, const Mode& mode, const Point& point);
+
+ private:
+  [[nodiscard]] Sample sample(double t, const Forcing& forcing, const Mode& mode, const Point& point);
+
+  const Model& model_;
+  const std::vector<double>& frames_;
+  Auditor& auditor_;
+  Recorder& recorder_;
+  std::vector<double> grid_;
+  std::size_t next_row_ = 0, next_frame_ = 0;
+  Vector physical_u_, physical_v_;  // of a reduced model
+};
+
+}  // namespace signorini

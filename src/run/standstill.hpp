@@ -1,0 +1,30 @@
+// standstill.hpp: many events are no fault, many events in no time are.
+//
+//   at one instant   at most max_events_at_once, an instant being ten resolutions of the clock
+//   altogether       10 000 events take at least 1e-5 of the run
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace signorini {
+
+class Standstill {
+ public:
+  Standstill(double t_end, int most_at_once) : t_end_(t_end), most_at_once_(most_at_once) {}
+
+  /// Counts an instant; times do not decrease. Why the run must not go on, or nothing.
+  [[nodiscard]] std::optional<std::string> count(double t, double resolution);
+
+ private:
+  [[nodiscard]] std::optional<std::string> crawl(double t);
+
+  double t_end_;
+  int most_at_once_;
+  double cluster_ = 0.0;  // time of the first event of those at one instant
+  int at_once_ = 0;
+  double mark_ = 0.0;  // time of the last look at progress
+  int since_mark_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,47 @@
+#include "run/warnings.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
+constexpr double least_energy = 1e-9;  // of the scene's scales: at rest nothing is exchanged but rounding
+
+}  // namespace
+
+std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
+  std::vector<std::string> sentences;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const double asked = model.contacts[k].initial_shear, found = start.after[k].T;
+    if (!start.visited[k] || !start.jumped[k] || std::abs(found) >= std::abs(asked)) continue;
+    sentences.push_back(fmt::format(
+        "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
+        model.contacts[k].name, asked, found));
+  }
+  return sentences;
+}
+
+std::string impact_gain(double t, double gain) {
+  return fmt::format(
+      "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
+      "does that at times",
+      t, gain);
+}
+
+std::optional<std::string> energy_lost(const Audit& audit, const Method& method) {
+  const double off = audit.energy.value;
+  if (!(off > much_energy * audit.energy_scale &&
+        off > least_energy * audit.force_scale * audit.length_scale))
+    return std::nullopt;
+  const bool steps = name_of(method.engine).accuracy == Accuracy::step;
+  return fmt::format(
+      "the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use {}, or "
+      "engine \"{}\"",
+      off / audit.energy_scale, audit.energy.t,
+      steps ? "a smaller run.dt" : "a tighter rtol, an atol that fits the motion", to_string(Engine::exact));
+}
+
+}  // namespace signorini

@@ -1,0 +1,20 @@
+// warnings.hpp: what a run could not settle or had to change, one sentence each.
+#pragma once
+
+#include <optional>
+
+#include "decide/decide.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// An initial_shear beyond the friction limit cannot stand; what is left of it. `start`: the first decision.
+[[nodiscard]] std::vector<std::string> cut_shears(const Model& model, const Decision& start);
+
+/// An impact that gains energy.
+[[nodiscard]] std::string impact_gain(double t, double gain);
+
+/// The balance of a finished audit is off by more than 1e-3 of what was exchanged.
+[[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method);
+
+}  // namespace signorini

@@ -1,0 +1,26 @@
+// What docs/output.md says of events.csv is what the tables of signorini/event.hpp say.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include "signorini/event.hpp"
+#include "unit/result/made_up.hpp"
+
+using namespace signorini;
+
+TEST_SUITE_BEGIN("unit/result/documentation");
+
+TEST_CASE("docs/output.md: the columns of events.csv, and the types of events") {
+  std::string columns = "| column | unit | meaning |\n|---|---|---|\n";
+  for (const EventColumn& c : event_columns)
+    columns += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
+  std::string types = "| event | what happens |\n|---|---|\n";
+  for (const EventTypeName& type : all_event_types)
+    types += fmt::format("| `{}` | {} |\n", type.name, type.meaning);
+  const std::string text = made_up::slurp(SIGNORINI_MODELS "/../docs/output.md");
+  for (const std::string& table : {columns, types}) {
+    INFO("docs/output.md should hold:\n", table);
+    CHECK(text.find("\n\n" + table + "\n") != std::string::npos);
+  }
+}
+
+TEST_SUITE_END();

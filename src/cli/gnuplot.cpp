@@ -1,11 +1,18 @@
 #include "cli/gnuplot.hpp"
 
 #include <fcntl.h>
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <thread>
 
 #include "cli/terminal.hpp"
 
@@ -13,7 +20,11 @@ namespace signorini::cli {
 
 namespace {
 
-constexpr int no_program = 127;
+using Clock = std::chrono::steady_clock;
+
+constexpr int no_program = 127, no_reason = 126;  // as a shell has them
+constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
+constexpr std::size_t most_said = 1 << 16;
 
 struct Ended {
   int code = 0;
@@ -22,39 +33,71 @@ struct Ended {
 
 // Between fork and exec only async-signal-safe calls.
 [[noreturn]] void become_gnuplot(const char* folder, const char* script, int said) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would wait for the picture
   const int nothing = open("/dev/null", O_RDWR);
   dup2(nothing, STDIN_FILENO);
   dup2(nothing, STDOUT_FILENO);
   dup2(said, STDERR_FILENO);
   if (chdir(folder) == 0) execlp("gnuplot", "gnuplot", "-d", script, static_cast<char*>(nullptr));
-  _exit(errno == ENOENT ? no_program : 126);
+  _exit(errno == ENOENT ? no_program : no_reason);
+}
+
+/// What gnuplot says, up to `most_said` bytes, until it closes its end; false where it goes on for too long
+/// or says too much.
+bool listen(int end, Clock::time_point last, std::string& said) {
+  std::array<char, 4096> buffer{};
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(last - Clock::now());
+    pollfd ready{end, POLLIN, 0};
+    const int found = left.count() > 0 ? poll(&ready, 1, static_cast<int>(left.count())) : 0;
+    if (found < 0 && errno == EINTR) continue;
+    if (found <= 0) return false;
+    const ssize_t n = read(end, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return true;
+    said.append(buffer.data(), static_cast<std::size_t>(n));
+    if (said.size() > most_said) return false;
+  }
+}
+
+/// Its exit code, or nothing where it has not ended by then.
+std::optional<int> wait_for(pid_t child, Clock::time_point last) {
+  for (;;) {
+    int status = 0;
+    if (waitpid(child, &status, WNOHANG) == child) return WIFEXITED(status) ? WEXITSTATUS(status) : no_reason;
+    if (Clock::now() > last) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 Ended run_gnuplot(const std::filesystem::path& script) {
   const std::string folder = script.parent_path().string(), name = script.filename().string();
   std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return {126, "no pipe"};
+  if (pipe(ends.data()) != 0) return {no_reason, "no pipe"};
   const pid_t child = fork();
   if (child == 0) {
+    setpgid(0, 0);  // with all that it starts, so that all of it can be ended
     close(ends[0]);
     become_gnuplot(folder.c_str(), name.c_str(), ends[1]);
   }
   close(ends[1]);
-  Ended ended;
-  std::array<char, 4096> buffer{};
-  for (;;) {
-    const ssize_t n = read(ends[0], buffer.data(), buffer.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    ended.said.append(buffer.data(), static_cast<std::size_t>(n));
+  if (child < 0) {
+    close(ends[0]);
+    return {no_reason, "no process"};
   }
+  const auto last = Clock::now() + patience;
+  std::string said;
+  const bool silent = listen(ends[0], last, said);
   close(ends[0]);
-  if (child < 0) return {126, "no process"};
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  if (silent)
+    if (const auto code = wait_for(child, last)) return {*code, said};
+  setpgid(child, child);  // if it has not come to that itself
+  kill(-child, SIGKILL);
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 126;
-  return ended;
+  return {no_reason, said.size() > most_said
+                         ? "it said more than 64 kB and was ended"
+                         : fmt::format("not done after {} s, and ended", patience.count())};
 }
 
 }  // namespace

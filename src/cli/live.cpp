@@ -19,6 +19,7 @@ Live::~Live() {
 
 void Live::event(const Event& event) {
   next_.event(event);
+  reached_ = event.t;
   ++count_;
   if (first_.size() < most_shown) first_.push_back(event);
   last_.push_back(event);

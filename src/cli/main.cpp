@@ -66,6 +66,7 @@ int main_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace signorini;
+  cli::open_closed_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no more is a failed write, and said so
   try {
     return cli::main_program(argc, argv);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/fingerprint.hpp"
 #include "base/machine.hpp"
 #include "base/number.hpp"
 #include "cli/command.hpp"
@@ -17,7 +18,6 @@
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
-#include "study/speed/fingerprint.hpp"
 #include "study/sweep/sweep_plots.hpp"
 
 namespace signorini::cli {
@@ -132,7 +132,7 @@ bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std:
     const auto& point = directory.points()[index];
     task.changes.insert(task.changes.end(), point.begin(), point.end());
     if (options.keep) task.keep = directory.run_directory(index);
-    write_file(directory.row_file(index), row_json(compute_row(task)));
+    write_file(directory.row_file(index), row_text(compute_row(task)));
   };
   int file_error = 0;
   const auto ended = [&](const WorkerEnd& end) {

@@ -1,5 +1,6 @@
 #include "cli/terminal.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,6 +40,11 @@ void print_warning(const std::string& text) { message("\x1b[1;33m", "warning", t
 void print_note(const std::string& text) { message("\x1b[1m", "note", text); }
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void open_closed_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) != stream) std::abort();
+}
 
 void progress_line(const std::string& text) {
   std::fprintf(stderr, "\r\x1b[K%s", text.c_str());

@@ -17,6 +17,9 @@ void print_note(const std::string& message);
 
 /// The progress line may be shown.
 [[nodiscard]] bool stderr_is_terminal();
+/// Puts /dev/null where standard input, output or error are closed: else the next file to be opened would be
+/// one of them, and receive what is printed.
+void open_closed_streams();
 
 /// Replaces the progress line; an empty text removes it.
 void progress_line(const std::string& text);

@@ -1,5 +1,8 @@
 #include "result/csv.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <system_error>
 
@@ -78,8 +81,11 @@ void CsvFile::fail() {
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::path draft = path;
   draft += ".part";
+  // What stands there is a draft that a kill has left, or somebody else's link, which must not be followed.
+  unlink(draft.c_str());
   errno = 0;
-  std::FILE* file = std::fopen(draft.c_str(), "wb");
+  const int descriptor = open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
   if (file == nullptr) throw FileError(path.string(), "cannot be created: " + reason(errno));
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = std::fclose(file) == 0;

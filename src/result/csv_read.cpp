@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include "base/input_file.hpp"
 #include "base/number.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
 
-CsvReader::CsvReader(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
+CsvReader::CsvReader(const std::filesystem::path& path) : path_(path) {
+  if (const std::string why = why_no_input_file(path); !why.empty())
+    throw FileError(path.string(), why + ", expected a file");
+  file_.open(path, std::ios::binary);
   if (!file_) throw FileError(path.string(), "cannot be read");
   if (!read_row(header_)) throw FileError(path.string(), "is empty; expected a header row");
 }

@@ -26,70 +26,93 @@ std::vector<std::string> limit_elements(const std::string& data, double friction
           data + " using 1:(-" + limit + ") with lines " + look + " notitle"};
 }
 
+/// One contact's picture, panel by panel.
+class ContactScript {
+ public:
+  ContactScript(const PlottedRun& run, std::size_t k)
+      : run_(run), k_(k), contact_(run.facts.contacts[k]), units_(run.facts.units), data_(rows(run, k)) {}
+
+  [[nodiscard]] std::string text() const {
+    // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.
+    const bool slider = contact_.slider;
+    const std::vector<double> edges = slider ? std::vector<double>{0.885, 0.635, 0.345, 0.0, 0.075}
+                                             : std::vector<double>{0.905, 0.715, 0.49, 0.285, 0.065};
+    const std::vector<double> tops = slider ? std::vector<double>{0.915, 0.86, 0.61, 0.0, 0.32}
+                                            : std::vector<double>{0.93, 0.885, 0.695, 0.47, 0.265};
+    std::string s = begin_script(
+        run_, {"contact-" + run_.slugs[k_] + run_.suffix,
+               "Contact '" + contact_.name + "', " + friction_text(contact_), slider ? 860 : 1040});
+    s += states(edges[0], tops[0]) + normal_force(edges[1], tops[1]) + friction_force(edges[2], tops[2]);
+    if (!slider) s += gap(edges[3], tops[3]);
+    return s + sliding(edges[4], tops[4]) + end_script();
+  }
+
+ private:
+  [[nodiscard]] std::string states(double bottom, double top) const {
+    return panel(run_, bottom, top, "", false) + "unset ytics\nset grid noxtics noytics\nset yrange [0:1]\n" +
+           plot_command(band_elements(run_, k_, 1.0)) + "set grid xtics ytics\n";
+  }
+
+  [[nodiscard]] std::string normal_force(double bottom, double top) const {
+    auto elements = bands();
+    elements.push_back(curve(8, "#1a1a1a", "N"));
+    const auto legend = band_legend(run_, k_);
+    elements.insert(elements.end(), legend.begin(), legend.end());
+    // N <= 0; a constant one stands below zero
+    return panel(run_, bottom, top, "N [" + units_.force + "]", false) + "set yrange [*:0] noextend\n" +
+           plot_command(elements);
+  }
+
+  [[nodiscard]] std::string friction_force(double bottom, double top) const {
+    auto elements = bands();
+    if (contact_.static_friction > 0.0) {
+      const bool one = contact_.static_friction == contact_.kinetic_friction;
+      const std::string red = "linecolor '#c0182b' linewidth 1.0";
+      const auto outer =
+          limit_elements(data_, contact_.static_friction, one ? "limits ±f|N|" : "static ±f|N|", red);
+      elements.insert(elements.end(), outer.begin(), outer.end());
+      if (!one) {
+        const auto inner =
+            limit_elements(data_, contact_.kinetic_friction, "kinetic ±f|N|", red + " dashtype 2");
+        elements.insert(elements.end(), inner.begin(), inner.end());
+      }
+    }
+    elements.push_back(curve(9, "#1a1a1a", "T"));
+    return panel(run_, bottom, top, "T [" + units_.force + "]", false) + plot_command(elements);
+  }
+
+  /// On its own scale: a lift-off is small beside the sliding.
+  [[nodiscard]] std::string gap(double bottom, double top) const {
+    auto elements = bands();
+    elements.push_back(curve(4, "#2166ac", "gap g"));
+    return panel(run_, bottom, top, "g [" + units_.length + "]", false) + plot_command(elements);
+  }
+
+  [[nodiscard]] std::string sliding(double bottom, double top) const {
+    auto elements = bands();
+    elements.push_back(curve(5, "#1a1a1a", "motion ut"));
+    elements.push_back(curve(7, "#b35806", "slip p", " dashtype 2"));
+    return panel(run_, bottom, top, "[" + units_.length + "]", true) + plot_command(elements);
+  }
+
+  [[nodiscard]] std::vector<std::string> bands() const { return band_elements(run_, k_, 0.28); }
+  /// Of a column of contacts.csv, counted from 1.
+  [[nodiscard]] std::string curve(int column, const char* colour, const char* title,
+                                  const char* look = "") const {
+    return fmt::format("{} using 1:{} with lines linewidth 1.4 linecolor '{}'{} title {}", data_, column,
+                       colour, look, quoted(title));
+  }
+
+  const PlottedRun& run_;
+  std::size_t k_;
+  const RunFacts::Contact& contact_;
+  const Units& units_;
+  std::string data_;
+};
+
 }  // namespace
 
-std::string contact_script(const PlottedRun& run, std::size_t k) {
-  const RunFacts::Contact& contact = run.facts.contacts[k];
-  const Units& units = run.facts.units;
-  const std::string data = rows(run, k);
-  const std::string curve = " with lines linewidth 1.4 linecolor '#1a1a1a' title ";
-
-  // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.
-  const bool slider = contact.slider;
-  const std::vector<double> edges = slider ? std::vector<double>{0.885, 0.635, 0.345, 0.0, 0.075}
-                                           : std::vector<double>{0.905, 0.715, 0.49, 0.285, 0.065};
-  const std::vector<double> tops = slider ? std::vector<double>{0.915, 0.86, 0.61, 0.0, 0.32}
-                                          : std::vector<double>{0.93, 0.885, 0.695, 0.47, 0.265};
-
-  std::string s =
-      begin_script(run, {"contact-" + run.slugs[k] + run.suffix,
-                         "Contact '" + contact.name + "', " + friction_text(contact), slider ? 860 : 1040});
-
-  s += panel(run, edges[0], tops[0], "", false);
-  s += "unset ytics\nset grid noxtics noytics\n";
-  s += "set yrange [0:1]\n" + plot_command(band_elements(run, k, 1.0));
-  s += "set grid xtics ytics\n";
-
-  s += panel(run, edges[1], tops[1], "N [" + units.force + "]", false);
-  s += "set yrange [*:0] noextend\n";  // N <= 0; a constant one stands below zero
-  auto elements = band_elements(run, k, 0.28);
-  elements.push_back(data + " using 1:8" + curve + quoted("N"));
-  const auto legend = band_legend(run, k);
-  elements.insert(elements.end(), legend.begin(), legend.end());
-  s += plot_command(elements);
-
-  s += panel(run, edges[2], tops[2], "T [" + units.force + "]", false);
-  elements = band_elements(run, k, 0.28);
-  if (contact.static_friction > 0.0) {
-    const bool one = contact.static_friction == contact.kinetic_friction;
-    const std::string red = "linecolor '#c0182b' linewidth 1.0";
-    const auto outer =
-        limit_elements(data, contact.static_friction, one ? "limits ±f|N|" : "static ±f|N|", red);
-    elements.insert(elements.end(), outer.begin(), outer.end());
-    if (!one) {
-      const auto inner = limit_elements(data, contact.kinetic_friction, "kinetic ±f|N|", red + " dashtype 2");
-      elements.insert(elements.end(), inner.begin(), inner.end());
-    }
-  }
-  elements.push_back(data + " using 1:9" + curve + quoted("T"));
-  s += plot_command(elements);
-
-  if (!slider) {  // its own scale: a lift-off is small beside the sliding
-    s += panel(run, edges[3], tops[3], "g [" + units.length + "]", false);
-    elements = band_elements(run, k, 0.28);
-    elements.push_back(data + " using 1:4 with lines linewidth 1.4 linecolor '#2166ac' title " +
-                       quoted("gap g"));
-    s += plot_command(elements);
-  }
-  s += panel(run, edges[4], tops[4], "[" + units.length + "]", true);
-  elements = band_elements(run, k, 0.28);
-  elements.push_back(data + " using 1:5 with lines linewidth 1.4 linecolor '#1a1a1a' title " +
-                     quoted("motion ut"));
-  elements.push_back(data + " using 1:7 with lines linewidth 1.4 linecolor '#b35806' dashtype 2 title " +
-                     quoted("slip p"));
-  s += plot_command(elements);
-  return s + end_script();
-}
+std::string contact_script(const PlottedRun& run, std::size_t k) { return ContactScript(run, k).text(); }
 
 std::string states_script(const PlottedRun& run) {
   const std::size_t count = run.facts.contacts.size();
@@ -101,7 +124,7 @@ std::string states_script(const PlottedRun& run) {
                    count - 1);
   s += "set ytics (";
   for (std::size_t k = 0; k < count; ++k) {
-    s += (k > 0 ? ", " : "") + quoted(run.facts.contacts[k].name) + fmt::format(" {}", k);
+    s += (k > 0 ? ", " : "") + quoted_tick(run.facts.contacts[k].name) + fmt::format(" {}", k);
   }
   s += ") scale 0\n";
   std::vector<std::string> elements;

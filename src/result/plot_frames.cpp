@@ -114,10 +114,8 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
   return s;
 }
 
-std::string script_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
-                      const std::string& name) {
-  const Layout l = layout_of(scales);
-  const Units& units = run.facts.units;
+/// "Shape at t = ...": what the picture shows, and how much magnified.
+std::string subtitle(const Frame& frame, const FrameScales& scales, const Units& units) {
   const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
   std::string about = fmt::format(
       "Shape at t = {:.9g} {}, {} {}", frame.t, units.time,
@@ -127,15 +125,12 @@ std::string script_of(const Frame& frame, const FrameScales& scales, const Plott
                                   : fmt::format("magnified {:g} times", scales.magnification));
   if (scales.greatest_force > 0.0)
     about += fmt::format("; longest arrow of the run: {:.4g} {}", scales.greatest_force, units.force);
-  std::string s = begin_script(run, {name, about, l.height, false});
-  s += panel(run, l.bottom, l.top, "y [" + units.length + "]", true);
-  s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
-  s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
-                   shortest(l.y1));
-  s += labels(frame, scales, l, run);
+  return about;
+}
 
+/// Elements, nodes and supports, undeformed and deformed.
+std::vector<std::string> shape_elements(const Frame& frame, const std::string& name) {
   const std::string shape = quoted(name + "-shape.csv") + " skip 1 using ";
-  const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
   const auto has = [&](const std::string& kind) {
     return std::any_of(frame.elements.begin(), frame.elements.end(),
                        [&](const auto& e) { return e.kind == kind; });
@@ -164,19 +159,41 @@ std::string script_of(const Frame& frame, const FrameScales& scales, const Plott
   if (held)
     elements.push_back(shape + only("support", "$4", "5") +
                        " with points pointtype 5 pointsize 1 linecolor '#555555' title 'supports'");
-  if (!frame.forces.empty()) {
-    elements.push_back(forces +
-                       "($3-$5):($4-$6):5:6 with vectors head filled size screen 0.009,18 linewidth 1.8 "
-                       "linecolor '#c0182b' title 'contact force'");
-    for (const std::string& state : state_names()) {
-      const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
-                                      [&](const auto& f) { return f.state == state; });
-      if (!occurs) continue;
-      elements.push_back(forces + "(strcol(2) eq " + quoted(state) +
-                         " ? $3 : NaN):4 with points pointtype 7 pointsize 1.1 linecolor '" +
-                         state_colour(state) + "' title " + quoted(state));
-    }
+  return elements;
+}
+
+/// Arrows, and points in the colours of the states.
+std::vector<std::string> force_elements(const Frame& frame, const std::string& name) {
+  std::vector<std::string> elements;
+  if (frame.forces.empty()) return elements;
+  const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
+  elements.push_back(forces +
+                     "($3-$5):($4-$6):5:6 with vectors head filled size screen 0.009,18 linewidth 1.8 "
+                     "linecolor '#c0182b' title 'contact force'");
+  for (const std::string& state : state_names()) {
+    const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
+                                    [&](const auto& f) { return f.state == state; });
+    if (!occurs) continue;
+    elements.push_back(forces + "(strcol(2) eq " + quoted(state) +
+                       " ? $3 : NaN):4 with points pointtype 7 pointsize 1.1 linecolor '" +
+                       state_colour(state) + "' title " + quoted(state));
   }
+  return elements;
+}
+
+std::string script_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
+                      const std::string& name) {
+  const Layout l = layout_of(scales);
+  const Units& units = run.facts.units;
+  std::string s = begin_script(run, {name, subtitle(frame, scales, units), l.height, false});
+  s += panel(run, l.bottom, l.top, "y [" + units.length + "]", true);
+  s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
+  s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
+                   shortest(l.y1));
+  s += labels(frame, scales, l, run);
+
+  std::vector<std::string> elements = shape_elements(frame, name);
+  for (std::string& element : force_elements(frame, name)) elements.push_back(std::move(element));
   return s + plot_command(elements) + "unset label\n" + end_script();
 }
 

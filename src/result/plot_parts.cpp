@@ -17,10 +17,20 @@ constexpr std::size_t most_points = 20000;  // a curve; beyond that an SVG is sl
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
+    if (c == '\'' && result.size() == 1) {
+      result += "\u2019";  // within a block, gnuplot takes three quotes at the start for an empty string
+      continue;
+    }
     if (c == '\'') result += '\'';
     result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return result + "'";
+}
+
+std::string quoted_tick(const std::string& text) {
+  std::string formatted;
+  for (const char c : text) formatted += c == '%' ? "%%" : std::string(1, c);
+  return signorini::quoted(formatted);
 }
 
 std::string every(const PlottedRun& run, std::size_t group, std::size_t index) {

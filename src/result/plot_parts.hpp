@@ -37,8 +37,10 @@ struct PlottedRun {
 inline constexpr double panel_left = 0.1, panel_right = 0.835;
 inline constexpr int picture_width = 1120;
 
-/// 'text' for gnuplot: nothing in it is expanded.
+/// 'text' for gnuplot: nothing in it is expanded. An apostrophe at its beginning becomes a typographic one.
 [[nodiscard]] std::string quoted(const std::string& text);
+/// The same as the label of a tick, where gnuplot reads % as the beginning of a format.
+[[nodiscard]] std::string quoted_tick(const std::string& text);
 /// " every ..." for rows of a table with `group` rows a time: thins out what no picture could show.
 [[nodiscard]] std::string every(const PlottedRun& run, std::size_t group, std::size_t index);
 

@@ -65,7 +65,7 @@ std::string raster_script(const PlottedRun& run) {
   s += panel(run, 62.0 * line, 1.0 - 62.0 * line, "", true);
   s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\nset ytics (", count - 1);
   for (std::size_t k = 0; k < count; ++k) {
-    s += (k > 0 ? ", " : "") + quoted(run.facts.contacts[k].name) + fmt::format(" {}", k);
+    s += (k > 0 ? ", " : "") + quoted_tick(run.facts.contacts[k].name) + fmt::format(" {}", k);
   }
   s += ") scale 0\n";
   for (std::size_t k = 1; k < count; ++k) {

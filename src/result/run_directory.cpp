@@ -114,6 +114,7 @@ RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
   check_run_directory(path_, options_.force);  // again: it may have appeared since
   const fs::path created = create_path(path_);
+  if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   if (options_.force) remove_run(path_);
   try {
     write_file(path_ / "run.toml", scene_.resolved);

@@ -5,7 +5,8 @@
 //
 // The constructor only looks; the directory is created by the first row, sign of progress or finish(), so a
 // run that never starts leaves nothing behind. What is there is never overwritten without `force`. With
-// `force` it must be a run; only files that Signorini writes are removed, and never the scene itself.
+// `force` it must be a run; only files that Signorini writes are removed, and never the scene itself. Nobody
+// else can write into it before the object is gone.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "result/directory_lock.hpp"
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
@@ -52,6 +54,7 @@ class RunDirectory : public Recorder {
   const Scene& scene_;
   const Model& model_;
   RunDirectoryOptions options_;
+  DirectoryLock lock_;  // from the first row on
   std::unique_ptr<Writers> writers_;
 };
 

@@ -3,7 +3,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "base/input_file.hpp"
 #include "base/version.hpp"
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
@@ -265,6 +267,8 @@ std::string abandoned_json(const Scene& scene, const Model& model,
 
 RunFacts read_run_facts(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
+  if (const std::string why = why_no_input_file(path); !why.empty())
+    throw FileError(path.string(), why + ", expected the summary of a run");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path.string(), "cannot be read; expected the directory of a run");
   try {
@@ -275,9 +279,12 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
     facts.t_end = json.at("outcome").at("t_end");
     const Json& units = json.at("units");
     facts.units = {units.at("force"), units.at("mass"), units.at("length"), units.at("time")};
+    std::set<std::string> names;
     for (const Json& contact : json.at("contacts")) {
       facts.contacts.push_back({contact.at("name"), contact.at("law") == "slider",
                                 contact.at("static_friction"), contact.at("kinetic_friction")});
+      if (const std::string& name = facts.contacts.back().name; !names.insert(name).second)
+        throw FileError(path.string(), "names the contact '" + name + "' twice");
     }
     return facts;
   } catch (const Json::exception& error) {

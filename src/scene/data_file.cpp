@@ -7,6 +7,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "base/excerpt.hpp"
 #include "base/input_file.hpp"
 #include "base/number.hpp"
 
@@ -16,18 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_rows = 1'000'000, longest_line = 200;
-
-/// The next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
-bool read_line(std::istream& in, std::string& line) {
-  line.clear();
-  char c = 0;
-  while (in.get(c) && c != '\n') {
-    line += c;
-    if (line.size() > longest_line) return true;
-  }
-  return in || !line.empty();
-}
+constexpr std::size_t most_rows = 1'000'000;
 
 std::vector<std::string> words_of(std::string line) {
   for (char& c : line) {
@@ -47,6 +37,16 @@ bool is_binary(const std::string& line) {
 }
 
 }  // namespace
+
+bool read_line(std::istream& in, std::string& line) {
+  line.clear();
+  char c = 0;
+  while (in.get(c) && c != '\n') {
+    line += c;
+    if (line.size() > longest_line) return true;
+  }
+  return in || !line.empty();
+}
 
 std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {
   const auto refuse_file = [&](const std::string& why) {
@@ -71,7 +71,8 @@ TimeTable read_time_table(std::istream& in, const std::string& file, const std::
     ++number;
     if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // written by spreadsheets
     if (is_binary(line)) fail("found binary data, expected lines of time and value");
-    if (line.size() > longest_line) fail("found a line of more than 200 characters");
+    if (line.size() > longest_line)
+      fail(fmt::format("found a line of more than {} characters", longest_line));
     const std::vector<std::string> words = words_of(line);
     if (words.empty() || words[0][0] == '#') continue;
     last = number;
@@ -82,7 +83,7 @@ TimeTable read_time_table(std::istream& in, const std::string& file, const std::
     if (heading) continue;
     if (!t || !value || !std::isfinite(*t) || !std::isfinite(*value)) {
       while (!line.empty() && line.back() == '\r') line.pop_back();
-      fail(fmt::format("found \"{}\", expected two numbers, time and value", line));
+      fail(fmt::format("found \"{}\", expected two numbers, time and value", excerpt(line)));
     }
     const std::size_t n = table.times.size();
     if (n > 0 && *t < table.times[n - 1]) {

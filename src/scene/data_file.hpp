@@ -17,6 +17,11 @@
 
 namespace signorini {
 
+/// Of a line of numbers; longer ones are no such line.
+inline constexpr std::size_t longest_line = 200;
+/// The next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
+bool read_line(std::istream& in, std::string& line);
+
 /// Opens the file that `key` names. Errors: FileError with the place of the key.
 [[nodiscard]] std::ifstream open_data_file(const Table& table, std::string_view key,
                                            const std::filesystem::path& path);

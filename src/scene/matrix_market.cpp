@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <tuple>
 #include <vector>
 
+#include "base/excerpt.hpp"
 #include "base/number.hpp"
+#include "scene/data_file.hpp"
 
 namespace signorini {
 
@@ -27,7 +30,8 @@ class Reader {
     read_size();
     coordinate_ ? read_coordinates() : read_array();
     if (next())
-      fail(fmt::format("found \"{}\" after the last of {} entries, expected the end", line_, count_));
+      fail(
+          fmt::format("found \"{}\" after the last of {} entries, expected the end", excerpt(line_), count_));
     tidy(matrix_);
     return std::move(matrix_);
   }
@@ -39,12 +43,9 @@ class Reader {
 
   bool next_line() {
     ++number_;
-    if (!std::getline(in_, line_)) return false;
-    constexpr std::size_t longest = 200;
-    if (line_.size() > longest) {
-      line_.resize(longest);
-      if (line_[0] != '%') fail("found a line of more than 200 characters");
-    }
+    if (!read_line(in_, line_)) return false;
+    const bool cut = line_.size() > longest_line;
+    if (cut && line_[0] != '%') fail(fmt::format("found a line of more than {} characters", longest_line));
     for (char& c : line_) {
       const auto code = static_cast<unsigned char>(c);
       if (code == '\t' || code == '\r') c = ' ';
@@ -53,6 +54,7 @@ class Reader {
         c = '?';
       }
     }
+    if (cut) in_.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     std::istringstream words(line_);
     words_.clear();
     for (std::string word; words >> word;) words_.push_back(word);
@@ -81,7 +83,7 @@ class Reader {
     };
     if (words_.size() != 5 || words_[0] != "%%matrixmarket" || words_[1] != "matrix" ||
         !is(2, "coordinate", "array") || !is(3, "real", "integer") || !is(4, "general", "symmetric")) {
-      fail(fmt::format("found \"{}\", {}", line_, expected));
+      fail(fmt::format("found \"{}\", {}", excerpt(line_), expected));
     }
     coordinate_ = words_[2] == "coordinate";
     symmetric_ = words_[4] == "symmetric";
@@ -90,14 +92,15 @@ class Reader {
   long long index(std::size_t word, long long least, long long most, const char* what) const {
     const auto value = parse_integer(words_[word]);
     if (!value || *value < least || *value > most) {
-      fail(fmt::format("found \"{}\", expected {} from {} to {}", words_[word], what, least, most));
+      fail(fmt::format("found \"{}\", expected {} from {} to {}", excerpt(words_[word]), what, least, most));
     }
     return *value;
   }
 
   double entry(std::size_t word) const {
     const auto value = parse_number(words_[word]);
-    if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected a number", words_[word]));
+    if (!value || !std::isfinite(*value))
+      fail(fmt::format("found \"{}\", expected a number", excerpt(words_[word])));
     return *value;
   }
 
@@ -105,7 +108,7 @@ class Reader {
     const std::size_t expected = coordinate_ ? 3 : 2;
     if (!next()) fail("the file ends, expected the size of the matrix");
     if (words_.size() != expected) {
-      fail(fmt::format("found \"{}\", expected {}", line_,
+      fail(fmt::format("found \"{}\", expected {}", excerpt(line_),
                        coordinate_ ? "rows, columns and number of entries" : "rows and columns"));
     }
     const long long rows = index(0, 1, most_dofs, "a number of rows");
@@ -129,7 +132,7 @@ class Reader {
 
   void expect(long long i, std::size_t words, const char* what) {
     if (!next()) fail(fmt::format("the file ends after {} of {} entries", i, count_));
-    if (words_.size() != words) fail(fmt::format("found \"{}\", expected {}", line_, what));
+    if (words_.size() != words) fail(fmt::format("found \"{}\", expected {}", excerpt(line_), what));
   }
 
   void read_coordinates() {
@@ -138,8 +141,9 @@ class Reader {
       const auto row = static_cast<int>(index(0, 1, matrix_.size, "a row"));
       const auto column = static_cast<int>(index(1, 1, matrix_.size, "a column"));
       if (symmetric_ && column > row) {
-        fail(fmt::format(
-            "found \"{}\" above the diagonal, expected only the lower half of a symmetric matrix", line_));
+        fail(
+            fmt::format("found \"{}\" above the diagonal, expected only the lower half of a symmetric matrix",
+                        excerpt(line_)));
       }
       add(row - 1, column - 1, entry(2));
     }

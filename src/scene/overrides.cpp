@@ -6,6 +6,7 @@
 #include <cctype>
 #include <span>
 
+#include "base/excerpt.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "scene/keys.hpp"
@@ -20,6 +21,8 @@ constexpr std::size_t deepest = 16;  // no key of a scene lies nearly as deep
 class Change {
  public:
   explicit Change(const Override& change) : change_(change) {
+    if (const std::string text = text_of(change_); !is_plain_text(text))
+      throw UsageError(excerpt(text) + ": found bytes that are no plain UTF-8 text");
     std::string segment;
     for (const char c : change.path + ".") {
       if (c != '.') {

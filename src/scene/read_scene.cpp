@@ -16,17 +16,53 @@ namespace {
 
 constexpr std::size_t longest_file = 64u << 20;
 
-/// The parser builds and destroys a.a.a.a... by recursion: refuse what would overflow the stack.
+/// The end of the string that begins at i, or of the text.
+std::size_t end_of_string(const std::string& text, std::size_t i) {
+  const std::string quote(1, text[i]), three(3, text[i]);
+  const std::string& mark = text.compare(i, 3, three) == 0 ? three : quote;
+  for (i += mark.size(); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == "\"") {
+      ++i;
+    } else if (text.compare(i, mark.size(), mark) == 0) {
+      return i + mark.size() - 1;
+    } else if (text[i] == '\n' && mark.size() == 1) {
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// The parser builds and destroys a.a.a = { a.a.a = ... } by recursion: refuse what would overflow the stack.
 void check_depth(const std::string& text, const std::string& file) {
-  constexpr int most_dots = 1000;
-  int dots = 0, line = 1;
-  bool comment = false;
-  for (const char c : text) {
-    if (c == '\n') ++line;
-    if (c == '#' || c == '\n') comment = c == '#';
-    if (comment || std::string_view("\n,=[]{}").find(c) != std::string_view::npos) dots = 0;
-    if (c == '.' && ++dots > most_dots)
-      throw SceneError({file, line, 0}, "", "found a key of more than 1000 parts");
+  constexpr int deepest = 1000;
+  std::vector<int> outer;  // parts of the keys around this one, each with its bracket
+  int parts = 0, depth = 0, line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_string(text, i);
+      line += static_cast<int>(
+          std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                     text.begin() + static_cast<std::ptrdiff_t>(std::min(end + 1, text.size())), '\n'));
+      i = end;
+    } else if (c == '[' || c == '{') {
+      outer.push_back(parts + 1);
+      depth += outer.back();
+      parts = 0;
+    } else if ((c == ']' || c == '}') && !outer.empty()) {
+      depth -= outer.back();
+      outer.pop_back();
+      parts = 0;
+    } else if (c == ',' || c == '\n') {
+      parts = 0;
+      line += c == '\n' ? 1 : 0;
+    } else if (c == '.' && ++parts > deepest) {
+      throw SceneError({file, line, 0}, "", fmt::format("found a key of more than {} parts", deepest));
+    }
+    if (depth + parts > deepest)
+      throw SceneError({file, line, 0}, "", fmt::format("found tables nested deeper than {}", deepest));
   }
 }
 

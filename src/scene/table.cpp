@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/excerpt.hpp"
 #include "base/suggest.hpp"
 
 namespace signorini {
@@ -57,7 +58,11 @@ std::vector<double> number_array(const toml::node& node, const std::string& path
 }
 
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path) {
+  constexpr std::size_t longest = 255;
   if (name.empty()) refuse(place, path, "found an empty name");
+  if (name.size() > longest)
+    refuse(place, excerpt(path),
+           fmt::format("found a name of {} bytes, expected at most {}", name.size(), longest));
   if (std::any_of(name.begin(), name.end(), is_control)) {
     refuse(place, path, "found a name with a line break or another control character, expected a plain name");
   }

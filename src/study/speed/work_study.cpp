@@ -8,11 +8,11 @@
 #include <numeric>
 
 #include "base/file_name.hpp"
+#include "base/fingerprint.hpp"
 #include "base/number.hpp"
 #include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
 #include "study/speed/decades.hpp"
-#include "study/speed/fingerprint.hpp"
 
 namespace signorini {
 

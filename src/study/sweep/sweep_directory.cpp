@@ -1,11 +1,7 @@
 #include "study/sweep/sweep_directory.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -71,20 +67,58 @@ void create(const fs::path& path) {
   if (error) throw FileError(path.string(), "cannot be created: " + error.message());
 }
 
-bool is_number(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+/// As row_file() and run_directory() number them: six digits, more only where they are needed.
+bool is_row_number(const std::string& text) {
+  return text.size() >= 6 && text.find_first_not_of("0123456789") == std::string::npos &&
+         (text.size() == 6 || text[0] != '0');
 }
 
-/// Only what a sweep writes; a folder that holds other files stays with them.
+bool is_row_file(const fs::directory_entry& entry) {
+  const fs::path name = entry.path().filename();
+  const bool draft = name.extension() == ".part";  // of a sweep that was killed
+  const fs::path row = draft ? name.stem() : name;
+  return entry.symlink_status().type() == fs::file_type::regular && row.extension() == ".json" &&
+         is_row_number(row.stem().string());
+}
+
+/// A folder of the sweep's own; what a link leads to is somebody else's.
+bool is_own_folder(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return false;
+  if (fs::is_directory(status)) return true;
+  throw FileError(path.string(), "is no folder of a sweep; --force removes nothing there");
+}
+
+std::vector<fs::path> old_rows(const fs::path& rows) {
+  std::vector<fs::path> files;
+  if (!is_own_folder(rows)) return files;
+  for (const auto& entry : fs::directory_iterator(rows)) {
+    if (!is_row_file(entry))
+      throw FileError(entry.path().string(), "is no row of a sweep; --force removes nothing beside it");
+    files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// Folders with other files than those of a run stay with them.
+std::vector<fs::path> old_runs(const fs::path& runs) {
+  std::vector<fs::path> folders;
+  if (!is_own_folder(runs)) return folders;
+  for (const auto& entry : fs::directory_iterator(runs))
+    if (entry.symlink_status().type() == fs::file_type::directory &&
+        is_row_number(entry.path().filename().string()))
+      folders.push_back(entry.path());
+  return folders;
+}
+
+/// Only what a sweep writes. Looks at everything before it removes anything.
 void remove_old(const fs::path& path) {
   std::error_code error;
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(path / "rows", error))
-    if (is_number(entry.path().stem().string())) ours.push_back(entry.path());
-  for (const auto& entry : fs::directory_iterator(path / "runs", error)) {
-    if (!is_number(entry.path().filename().string())) continue;
-    remove_run(entry.path());
-    if (fs::is_empty(entry.path(), error)) ours.push_back(entry.path());
+  std::vector<fs::path> ours = old_rows(path / "rows");
+  for (const fs::path& run : old_runs(path / "runs")) {
+    remove_run(run);
+    if (fs::is_empty(run, error)) ours.push_back(run);
   }
   for (const char* name : {"sweep.csv", "results.json"}) ours.push_back(path / name);
   for (const fs::path& file : ours) {
@@ -100,7 +134,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::points(spec_.vary)) {
   check_directory(path_);
   create(path_);
-  lock();
+  if (!lock_.take(path_)) throw FileError(path_.string(), "another sweep is running in it");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
     std::string differs = difference(was, spec_);
@@ -116,22 +150,6 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
   write_file(path_ / "sweep.json",
              spec_json(spec_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   read_rows();
-}
-
-SweepDirectory::~SweepDirectory() {
-  if (lock_ >= 0) close(lock_);
-}
-
-void SweepDirectory::lock() {
-  lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0)
-    throw FileError(path_.string(), "cannot be opened: " + std::generic_category().message(errno));
-  // Some network file systems know no locks; there the rows, written whole, are protection enough.
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(lock_);
-    lock_ = -1;
-    throw FileError(path_.string(), "another sweep is running in it");
-  }
 }
 
 fs::path SweepDirectory::row_file(std::size_t index) const {
@@ -151,17 +169,19 @@ void SweepDirectory::read_rows() {
   }
 }
 
-void SweepDirectory::take(std::size_t index) {
-  SweepRow row = read_row(row_file(index));
+void SweepDirectory::take(std::size_t index) { rows_[index] = row_of_sweep(row_file(index), index); }
+
+SweepRow SweepDirectory::row_of_sweep(const fs::path& file, std::size_t index) const {
+  SweepRow row = read_row(file);
   const auto& point = points_.at(index);
   bool ours = row.index == index && row.values.size() == point.size();
   for (std::size_t i = 0; ours && i < point.size(); ++i) ours = row.values[i] == point[i].value;
-  if (!ours) throw FileError(row_file(index).string(), "is not the row of this sweep with that number");
-  rows_[index] = std::move(row);
+  if (!ours) throw FileError(file.string(), "is not the row of this sweep with that number");
+  return row;
 }
 
 void SweepDirectory::add(const SweepRow& row) {
-  write_file(row_file(row.index), row_json(row));
+  write_file(row_file(row.index), row_text(row));
   rows_[row.index] = row;
 }
 
@@ -221,10 +241,14 @@ std::vector<std::size_t> merge_sweeps(const std::vector<fs::path>& from, SweepDi
     std::error_code error;
     for (std::size_t index = 0; index < count; ++index) {
       const fs::path file = directory / "rows" / to.row_file(index).filename();
-      if (to.rows().contains(index) || !fs::exists(file, error)) continue;
-      const SweepRow row = read_row(file);
+      if (!fs::exists(fs::symlink_status(file, error))) continue;
+      const SweepRow row = to.row_of_sweep(file, index);
       if (row.outcome == "crashed") continue;
-      to.add(row);
+      const auto known = to.rows().find(index);
+      if (known == to.rows().end())
+        to.add(row);
+      else if (!same_result(known->second, row))
+        throw FileError(file.string(), "contradicts another share's row of that number");
     }
   }
   std::vector<std::size_t> missing;

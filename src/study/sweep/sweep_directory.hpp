@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "result/directory_lock.hpp"
 #include "study/sweep/share.hpp"
 #include "study/sweep/sweep_row.hpp"
 #include "study/sweep/vary.hpp"
@@ -35,7 +36,7 @@ class SweepDirectory {
   /// Opens a new directory, or an earlier sweep of the same specification; with `force` an earlier sweep is
   /// removed first. Nobody else can open it before the object, and processes it was handed to, are gone.
   SweepDirectory(std::filesystem::path path, SweepSpec spec, bool force);
-  ~SweepDirectory();
+  ~SweepDirectory() = default;
   SweepDirectory(const SweepDirectory&) = delete;
   SweepDirectory& operator=(const SweepDirectory&) = delete;
 
@@ -48,6 +49,9 @@ class SweepDirectory {
   [[nodiscard]] std::filesystem::path row_file(std::size_t index) const;
   [[nodiscard]] std::filesystem::path run_directory(std::size_t index) const;
 
+  /// A row from a file, of this sweep or of a share of it. Errors: also where it has been altered or is the
+  /// row of another number.
+  [[nodiscard]] SweepRow row_of_sweep(const std::filesystem::path& file, std::size_t index) const;
   /// Takes the row that has been written to row_file(index).
   void take(std::size_t index);
   /// Writes a row and takes it.
@@ -57,14 +61,13 @@ class SweepDirectory {
   void write_results() const;
 
  private:
-  void lock();
   void read_rows();
 
   std::filesystem::path path_;
   SweepSpec spec_;
   std::vector<std::vector<Override>> points_;
   std::map<std::size_t, SweepRow> rows_;
-  int lock_ = -1;
+  DirectoryLock lock_;
 };
 
 /// DIR/sweep.json. Errors: FileError where there is no sweep.
@@ -73,7 +76,7 @@ class SweepDirectory {
 [[nodiscard]] std::string difference(const SweepSpec& was, const SweepSpec& is);
 
 /// Copies the rows of several shares into one directory; returns rows that none of them has (index from 0).
-/// Errors: FileError; also where the sweeps are not the same.
+/// Errors: FileError; also where the sweeps are not the same, or two shares contradict each other.
 std::vector<std::size_t> merge_sweeps(const std::vector<std::filesystem::path>& from, SweepDirectory& to);
 
 }  // namespace signorini

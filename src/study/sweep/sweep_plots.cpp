@@ -159,7 +159,7 @@ class Script {
   [[nodiscard]] std::string ticks(bool named) const {
     std::string s = "set xtics (";
     for (std::size_t i = 0; i < axis_.vary->values.size(); ++i)
-      s += (i > 0 ? ", " : "") + quoted(named ? axis_.vary->values[i] : "") + fmt::format(" {}", i);
+      s += (i > 0 ? ", " : "") + quoted_tick(named ? axis_.vary->values[i] : "") + fmt::format(" {}", i);
     return s + ")\n";
   }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/fingerprint.hpp"
+#include "base/input_file.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
 
@@ -96,11 +98,29 @@ std::string row_json(const SweepRow& row) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string row_text(const SweepRow& row) {
+  Json json = Json::parse(row_json(row));
+  json["checksum"] = fingerprint_of(json.dump());
+  return json.dump(2) + "\n";
+}
+
+bool same_result(const SweepRow& a, const SweepRow& b) {
+  SweepRow other = b;
+  other.wall_time = a.wall_time;
+  return row_json(a) == row_json(other);
+}
+
 SweepRow read_row(const std::filesystem::path& file) {
+  if (const std::string why = why_no_input_file(file); !why.empty())
+    throw FileError(file.string(), why + ", expected a row of a sweep");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string(), "cannot be read");
   try {
-    const Json json = Json::parse(stream);
+    Json json = Json::parse(stream);
+    const std::string checksum = json.at("checksum");
+    json.erase("checksum");
+    if (checksum != fingerprint_of(json.dump()))
+      throw FileError(file.string(), "has been altered since it was written");
     SweepRow row;
     row.index = json.at("row").get<std::size_t>() - 1;
     row.values = json.at("values").get<std::vector<std::string>>();

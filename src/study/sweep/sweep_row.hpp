@@ -51,7 +51,11 @@ struct RowTask {
 [[nodiscard]] SweepRow compute_row(const RowTask& task);
 
 [[nodiscard]] std::string row_json(const SweepRow& row);
-/// Errors: FileError.
+/// The same as a file: with a checksum, so that what somebody has altered is not taken for a result.
+[[nodiscard]] std::string row_text(const SweepRow& row);
+/// Alike but for the time that they took.
+[[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);
+/// Errors: FileError, also where the checksum does not fit.
 [[nodiscard]] SweepRow read_row(const std::filesystem::path& file);
 
 }  // namespace signorini

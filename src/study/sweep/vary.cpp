@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/excerpt.hpp"
 #include "base/number.hpp"
 
 namespace signorini {
@@ -88,6 +89,7 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
 Vary parse_vary(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string option = "--vary " + text;
+  if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
     throw UsageError(option + ": expected path=start:stop:step or path=value,value,...");
   Vary vary{text.substr(0, equals), text.substr(equals + 1), {}};

@@ -1,5 +1,6 @@
 // Deformed shapes on disk and as pictures.
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include "result/frame_data.hpp"
 #include "result/plots.hpp"
@@ -125,6 +126,37 @@ TEST_CASE("frames: one picture a frame, and --force clears them away") {
   tip.feed(again, 0.0, false);
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "frames.csv"));
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "plots"));
+}
+
+TEST_CASE("frames: a label stands at the tail of its arrow, and its text ends inside the panel") {
+  const Folder folder;
+  const Tip tip;
+  RunDirectory directory(folder / "run", tip.scene, tip.model);
+  tip.feed(directory, 0.0, true);
+  tip.feed(directory, 1.0, false);
+  Report one = report();
+  one.peaks.resize(1);
+  one.audit.friction_work = {0.5};
+  one.audit.friction.contact = 0;
+  (void)directory.finish(one);
+  const auto side = [&](double x, double nx, double ny) {
+    spill(folder / "run" / "frame_contacts.csv",
+          fmt::format(
+              "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n0,foot,stick,R,{},0,0,0,{},{},{},{},-30,0\n",
+              x, nx, ny, ny, -nx));
+    (void)write_plots(folder / "run");
+    const std::string script = slurp(folder / "run" / "plots" / "frame-1.gp");
+    const std::size_t begin = script.find("set label 'foot: N = -30");
+    REQUIRE(begin != std::string::npos);
+    const std::string line = script.substr(begin, script.find(" offset ", begin) - begin);
+    return line.substr(line.rfind(' ') + 1);
+  };
+  CHECK(side(4.0, 0.0, 1.0) == "right");  // from below, at the right end of the panel
+  CHECK(side(2.0, 0.0, 1.0) == "center");
+  CHECK(side(0.0, 0.0, 1.0) == "left");
+  CHECK(side(2.0, 1.0, 0.0) == "right");  // pushed to the right: the tail lies to the left
+  CHECK(side(2.0, -1.0, 0.0) == "left");
+  CHECK(side(2.0, 0.6, 0.8) == "center");  // aslant is not sideways
 }
 
 TEST_SUITE_END();

@@ -14,6 +14,9 @@ TEST_SUITE_BEGIN("unit/result/plots");
 TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
   CHECK(quoted("it's `rm`") == "'it''s `rm`'");
   CHECK(quoted("two\nlines") == "'two lines'");
+  CHECK(quoted("'tis a title") == "'\u2019tis a title'");
+  CHECK(quoted("end'") == "'end'''");
+  CHECK(quoted_tick("%s of 100 %") == "'%%s of 100 %%'");
 }
 
 TEST_CASE("plots: scripts, and bands that are exact to the event") {

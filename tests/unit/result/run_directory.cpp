@@ -135,4 +135,37 @@ TEST_CASE("summary: an odd byte in a name does not cost the summary") {
   CHECK(json::parse(summary_json(s, model(), report(), {})).contains("title"));
 }
 
+TEST_CASE("run directory: two runs at once do not share it") {
+  const Folder folder;
+  const Scene s = scene();
+  const Model m = model();
+  {
+    RunDirectory first(folder / "run", s, m);
+    RunDirectory second(folder / "run", s, m);
+    feed(first, 0.0);
+    (void)first.finish(report());
+    RunDirectory third(folder / "run", s, m, {.force = true, .command_line = {}});
+    CHECK_THROWS_WITH_AS(feed(third, 0.0), doctest::Contains("another run is being written to it"),
+                         FileError);
+    CHECK_THROWS_AS(feed(second, 0.0), FileError);
+    CHECK(json::parse(slurp(folder / "run" / "summary.json"))["outcome"]["kind"] == "done");
+  }
+  RunDirectory later(folder / "run", s, m, {.force = true, .command_line = {}});
+  feed(later, 0.0);
+  CHECK(json::parse(slurp(folder / "run" / "summary.json"))["outcome"]["kind"] == "running");
+}
+
+TEST_CASE("run directory: a summary that names a contact twice is none") {
+  const Folder folder;
+  const Scene s = scene();
+  Model m = model();
+  m.contacts[1].name = m.contacts[0].name;
+  RunDirectory directory(folder / "run", s, m);
+  feed(directory, 0.0);
+  feed(directory, 1.0);
+  (void)directory.finish(report());
+  CHECK_THROWS_WITH_AS((void)write_plots(folder / "run"), doctest::Contains("names the contact 'foot' twice"),
+                       FileError);
+}
+
 TEST_SUITE_END();

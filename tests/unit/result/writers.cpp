@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <limits>
@@ -154,6 +155,23 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
   CHECK(slurp(folder / "energy.csv") ==
         "t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance\n"
         "0.001,0.5,0,0,0,0,0,0,0,0.5\n");
+}
+
+TEST_CASE("files: a link that stands where the draft goes is not followed") {
+  const Folder folder;
+  spill(folder / "precious", "mine");
+  std::filesystem::create_symlink(folder / "precious", folder / "a.json.part");
+  write_file(folder / "a.json", "ours");
+  CHECK(slurp(folder / "precious") == "mine");
+  CHECK(slurp(folder / "a.json") == "ours");
+}
+
+TEST_CASE("csv: what is no file is not waited for") {
+  const Folder folder;
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH_AS(CsvReader(folder / "pipe"), doctest::Contains("is a pipe, expected a file"),
+                       FileError);
+  CHECK_THROWS_WITH_AS(CsvReader(folder / ""), doctest::Contains("is a directory"), FileError);
 }
 
 TEST_SUITE_END();

@@ -175,4 +175,38 @@ TEST_CASE("a missing matrix file is a file error that names its key") {
                        FileError);
 }
 
+TEST_CASE("tables nested beyond any use are refused before they can overflow the stack") {
+  std::string key = "a";
+  for (int i = 0; i < 900; ++i) key += ".a";
+  std::string nested = "x = ";
+  for (int i = 0; i < 150; ++i) nested += "{ " + key + " = ";
+  nested += "1" + std::string(150, '}') + "\n";
+  CHECK_THROWS_WITH_AS((void)scene_of(block + nested), doctest::Contains("nested deeper than 1000"),
+                       SceneError);
+  // Dots and brackets in strings and comments are no keys.
+  const std::string dots(2000, '.'), brackets(2000, '[');
+  for (const std::string quote : {"\"", "'", "\"\"\"", "'''"})
+    CHECK(scene_of("schema = 1\ntitle = " + quote + dots + brackets + quote + " # " + brackets + "\n" +
+                   block.substr(block.find('\n') + 1))
+              .title == dots + brackets);
+}
+
+TEST_CASE("a name of a megabyte is refused, and not printed") {
+  const std::string name(1 << 20, 'n');
+  try {
+    (void)scene_of(block + "[[contacts]]\nname = \"" + name + "\"\n");
+    FAIL("no error");
+  } catch (const SceneError& error) {
+    CHECK(std::string(error.what()).find("found a name of 1048576 bytes, expected at most 255") !=
+          std::string::npos);
+    CHECK(std::string(error.what()).size() < 500);
+  }
+  try {
+    (void)scene_of(block + "[sections]\n" + name + " = { EA = 1.0, EI = 1.0, mass_per_length = 1.0 }\n");
+    FAIL("no error");
+  } catch (const SceneError& error) {
+    CHECK(std::string(error.what()).size() < 500);
+  }
+}
+
 TEST_SUITE_END();

@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "signorini/error.hpp"
+#include "study/compare/comparison_files.hpp"
 #include "study/compare/limits.hpp"
 
 using namespace signorini;
@@ -148,6 +150,24 @@ TEST_CASE("comparison: what is no number is greater than any limit") {
   CHECK(std::isnan(greatest.value));
   CHECK(greatest.where == "b");
   CHECK_FALSE(greatest.value <= 1e300);
+}
+
+TEST_CASE("compare: the JSON names the event of either run where the sequences part") {
+  const Folder folder;
+  Folder::Tables other = reference;
+  other.events = "1.5,c,slip,stick,slip+,1e-9\n2.25,c,stick,slip+,stick,\n";
+  Folder::Tables third = reference;
+  third.events = "1.5,c,slip,stick,slip+,1e-9\n2.75,c,reversal,slip+,slip-,\n";
+  ComparisonReport report;
+  report.runs = {folder.run("a", reference), folder.run("b", other), folder.run("c", third)};
+  report.comparisons = {compare_runs(report.runs[0], report.runs[1]),
+                        compare_runs(report.runs[0], report.runs[2])};
+  const auto json = nlohmann::json::parse(comparison_json(report));
+  const auto& parted = json["comparisons"][1]["first_difference"];
+  CHECK(parted["t"] == 2.75);
+  CHECK(parted["reference"]["t"] == 3.5);
+  CHECK(parted["run"]["t"] == 2.75);
+  CHECK(parted["run"]["event"] == "reversal");
 }
 
 TEST_SUITE_END();

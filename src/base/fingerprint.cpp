@@ -1,4 +1,4 @@
-#include "study/speed/fingerprint.hpp"
+#include "base/fingerprint.hpp"
 
 #include <fmt/core.h>
 

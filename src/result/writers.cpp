@@ -11,8 +11,6 @@ void header(CsvBlock& block, std::initializer_list<const char*> names) {
   block.end_row();
 }
 
-bool has_gap(const Contact& contact) { return contact.law != Law::slider; }
-
 }  // namespace
 
 EventWriter::EventWriter(const std::filesystem::path& path, const Model& model) : model_(model), file_(path) {
@@ -30,7 +28,7 @@ void EventWriter::write(const Event& event) {
     const Contact& contact = model_.contacts[static_cast<std::size_t>(event.contact)];
     block_.text(contact.name).text(to_string(event.type)).text(to_string(event.from));
     block_.text(to_string(event.to));
-    if (has_gap(contact)) {
+    if (contact.has_gap()) {
       block_.number(event.gap);
     } else {
       block_.empty();
@@ -55,7 +53,7 @@ void ContactWriter::write(const Sample& sample) {
     const Contact& contact = model_.contacts[k];
     const ContactSample& row = sample.contacts[k];
     block_.number(sample.t).text(contact.name).text(to_string(row.state));
-    if (has_gap(contact)) {
+    if (contact.has_gap()) {
       block_.number(row.gap);
     } else {
       block_.empty();

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "contact/friction.hpp"
 #include "engine/exact/exact_engine.hpp"
 
 namespace signorini {
@@ -48,13 +49,13 @@ const char* to_string(Engine engine) {
 void refuse_what_engine_cannot(const Model& model, const RunSpec& run) {
   if (run.engine == Engine::ida) return;
   for (const Contact& contact : model.contacts) {
-    if (contact.stribeck_velocity)
+    if (friction_varies(contact))
       refuse(run,
              fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
                          "rate (stribeck_velocity); use \"ida\"",
                          contact.name));
     // What iterates on friction takes no impulses.
-    if (run.engine == Engine::friction_iteration && contact.law == Law::rigid)
+    if (run.engine == Engine::friction_iteration && contact.takes_impulses())
       refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid; use \"newmark\" or law = "
                               "\"compliant\"",
                               contact.name));

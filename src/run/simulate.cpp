@@ -232,9 +232,9 @@ class Run {
                                   t_));
     }
     for (std::size_t k = 0; k < old_mode.size(); ++k) {
-      const State from = old_mode[k].state, to = decision_.mode[k].state;
+      const State from = state_of_rows(old_mode[k].state), to = state_of_rows(decision_.mode[k].state);
       const bool dropped = from == State::stick && decision_.visited[k] && decision_.jumped[k] &&
-                           model_.contacts[k].law != Law::rigid;
+                           !model_.contacts[k].takes_impulses();
       auto type = hit(k) ? std::optional(EventType::impact) : classify(from, to, dropped);
       if (!type && jump && decision_.jumped[k]) type = EventType::time;
       if (type) log_contact(k, *type, from);
@@ -254,7 +254,7 @@ class Run {
     event.contact = static_cast<int>(k);
     event.type = type;
     event.from = from;
-    event.to = decision_.mode[k].state;
+    event.to = state_of_rows(decision_.mode[k].state);
     if (hit(k)) {
       event.impulse_n = decision_.impulses[k].normal;
       event.impulse_t = decision_.impulses[k].tangent;

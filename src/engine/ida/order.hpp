@@ -17,7 +17,4 @@ namespace signorini {
 /// Fills settings.max_order and settings.max_order_reason.
 void choose_order(const Model& model, const RunSpec& run, Settings& settings);
 
-/// Least damping ratio of all modes; 0 where it is not known.
-[[nodiscard]] double least_damping_ratio(const Model& model);
-
 }  // namespace signorini

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/choose_engine.hpp"
+#include "model/decay.hpp"
 #include "study/check/check_parts.hpp"
 
 namespace signorini::checks {

@@ -37,7 +37,7 @@ std::vector<Override> capture_velocities(const Scene& scene, const Model& model)
   std::vector<Override> list;
   const double velocity = scene.run.atol.velocity.value_or(scene.run.rtol * model.scales.velocity);
   for (const Contact& contact : model.contacts)
-    if (contact.law == Law::rigid && !contact.capture_velocity)
+    if (contact.takes_impulses() && !contact.capture_velocity)
       list.push_back({"contacts." + contact.name + ".capture_velocity", shortest(velocity)});
   return list;
 }

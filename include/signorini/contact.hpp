@@ -21,6 +21,7 @@
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,13 @@ struct Combination {
   [[nodiscard]] double dot(const V& u) const {
     double sum = 0.0;
     for (const auto& [index, factor] : terms) sum += factor * u[index];
+    return sum;
+  }
+  /// Sum of the magnitudes of its terms: what the rounding of dot() is relative to.
+  template <class V>
+  [[nodiscard]] double magnitude(const V& u) const {
+    double sum = 0.0;
+    for (const auto& [index, factor] : terms) sum += std::abs(factor * u[index]);
     return sum;
   }
   template <class V>

@@ -30,8 +30,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
       if (contact.tangential_stiffness) {
         s.anchor = slip_of(contact, m.ut, contact.initial_shear);
       } else if (contact.has_friction() && !contact.shear) {
-        double size = std::abs(forcing.surface(c, t, 1));
-        for (const auto& [dof, factor] : contact.tangent.terms) size += std::abs(factor * v[dof]);
+        const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
         if (std::abs(m.vt) >
             8.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, t))
           s.state = slip_along(m.vt);

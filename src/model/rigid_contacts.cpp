@@ -37,8 +37,7 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
 
 void close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  double terms = std::abs(contact.gap);
-  for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * model.u0[dof]);
+  const double terms = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   if (carries || std::abs(gap) <= roundings * epsilon * terms) {

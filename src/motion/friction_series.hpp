@@ -22,7 +22,7 @@ class FrictionSeries {
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
-  [[nodiscard]] double slip_rate(Eigen::Index k, const Series& series) const;
+  [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
 
   const Contact* contact_;
   std::size_t index_;

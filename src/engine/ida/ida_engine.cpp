@@ -37,11 +37,8 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
 /// Below the mean of tolerance and size half of a height's digits are gone: lower flights are left to the
 /// series (04a at rtol 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
 double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
-  double size = std::abs(contact.gap), absolute = 0.0;  // a gap is a sum: its terms' tolerances add up
-  for (const auto& [dof, factor] : contact.normal.terms) {
-    size += std::abs(factor * u[dof]);
-    absolute += std::abs(factor);
-  }
+  double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
+  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
   const double tolerance = settings_.rtol * size + absolute * settings_.atol_displacement;
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);

@@ -142,10 +142,9 @@ void IdaProblem::weights(const double* y, double* w) const {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     // kn g and kt (ut - p) are differences of large numbers: no tolerance below their rounding can be met.
     const Contact& contact = model_.contacts[k];
-    double gap = std::abs(contact.gap);
-    double ut = std::abs(segment_.forcing->surface(k, segment_.decision->jet.t, 0));
-    for (const auto& [dof, factor] : contact.normal.terms) gap += std::abs(factor * y[dof]);
-    for (const auto& [dof, factor] : contact.tangent.terms) ut += std::abs(factor * y[dof]);
+    const double gap = std::abs(contact.gap) + contact.normal.magnitude(y);
+    const double surface = segment_.forcing->surface(k, segment_.decision->jet.t, 0);
+    const double ut = std::abs(surface) + contact.tangent.magnitude(y);
     const auto limit = [&](int force, double magnitude) {
       const auto i = static_cast<std::size_t>(force);
       const double rounding = rounding_floor * magnitude;

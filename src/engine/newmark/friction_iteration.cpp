@@ -139,8 +139,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
         change = contact.kinetic_friction * std::abs(by);
         worst = k;
       }
-      double terms = std::abs(contact.gap);
-      for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * end_.u[dof]);
+      const double terms = std::abs(contact.gap) + contact.normal.magnitude(end_.u);
       noise = std::max(noise, rounding * epsilon * contact.normal_stiffness * terms);
       // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
       // once.

@@ -5,6 +5,7 @@
 //
 //   state    normal row              tangent row                  guards (positive while valid)
 //   open     N = 0                   T = 0                        g
+//   inside   N = 0                   T = 0                        g + (cn/kn) g', -g
 //   closed   N = kn g                T = 0                        -N
 //   stick    N = kn g                T = kt (ut - p)              -N, fs |N| - T, fs |N| + T
 //   slip s   N = kn g                T = -s fk N                  -N, s p'
@@ -20,6 +21,7 @@
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,6 +40,13 @@ struct Combination {
   [[nodiscard]] double dot(const V& u) const {
     double sum = 0.0;
     for (const auto& [index, factor] : terms) sum += factor * u[index];
+    return sum;
+  }
+  /// Sum of the magnitudes of its terms: what the rounding of dot() is relative to.
+  template <class V>
+  [[nodiscard]] double magnitude(const V& u) const {
+    double sum = 0.0;
+    for (const auto& [index, factor] : terms) sum += std::abs(factor * u[index]);
     return sum;
   }
   template <class V>
@@ -73,19 +82,31 @@ struct Contact {
   History surface_motion;                   ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
-  /// Along which the touching body moves; `tangent` unless there is a shear element.
-  [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
+  [[nodiscard]] bool has_gap() const { return signorini::has_gap(law); }
+  [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }
+  [[nodiscard]] bool takes_impulses() const { return signorini::takes_impulses(law); }
+  [[nodiscard]] bool is_pressed() const { return signorini::is_pressed(law); }
   [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
   /// Without a spring along the tangent: T may jump, and stick is a row on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
-    return has_friction() && law != Law::compliant && !tangential_stiffness && !shear;
+    return has_friction() && !has_spring() && !tangential_stiffness && !shear;
   }
+  /// g at displacements u.
+  template <class U>
+  [[nodiscard]] double gap_at(const U& u) const {
+    return gap + normal.dot(u);
+  }
+  /// Along which the touching body moves; `tangent` unless there is a shear element.
+  [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-enum class State : unsigned char { open, closed, stick, slip_plus, slip_minus };
+/// inside: open with g < 0, where a dashpot has let go before the gap opened.
+enum class State : unsigned char { open, inside, closed, stick, slip_plus, slip_minus };
 
-/// "open", "closed", "stick", "slip+", "slip-".
+/// "open" (inside too), "closed", "stick", "slip+", "slip-".
 [[nodiscard]] const char* to_string(State state);
+/// Without a force.
+[[nodiscard]] constexpr bool is_open(State state) { return state == State::open || state == State::inside; }
 /// +1, -1 while slipping, else 0.
 [[nodiscard]] int slip_sign(State state);
 
@@ -93,8 +114,8 @@ enum class State : unsigned char { open, closed, stick, slip_plus, slip_minus };
 struct ContactState {
   State state = State::open;
   double anchor = 0.0;  ///< p; meaningful in stick with tangential stiffness
-  bool inside = false;  ///< open with g < 0: a dashpot let go before the gap opened
 
+  [[nodiscard]] bool is_open() const { return signorini::is_open(state); }
   friend bool operator==(const ContactState&, const ContactState&) = default;
 };
 

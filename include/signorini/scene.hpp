@@ -160,6 +160,16 @@ struct Support {
 
 enum class Law { compliant, rigid, slider };
 
+// What a law is made of: the rest of the program asks for these, not which law it is.
+/// It opens and closes: g >= 0, N <= 0, g N = 0.
+[[nodiscard]] constexpr bool has_gap(Law law) { return law != Law::slider; }
+/// N = kn g + cn g' while closed: forces and velocities are continuous.
+[[nodiscard]] constexpr bool has_spring(Law law) { return law == Law::compliant; }
+/// A constraint, g = 0 while closed: velocities jump where it closes with g' < 0.
+[[nodiscard]] constexpr bool takes_impulses(Law law) { return law == Law::rigid; }
+/// N is given: the normal force of the scene.
+[[nodiscard]] constexpr bool is_pressed(Law law) { return law == Law::slider; }
+
 struct FrictionSpec {
   double static_ = 0.0;
   double kinetic = 0.0;

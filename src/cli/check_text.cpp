@@ -71,7 +71,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
   for (std::size_t k = 0; k < report.contacts.size() && k < most_rows; ++k) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
-    const bool slider = c.law == Law::slider;
+    const bool slider = c.is_pressed();
     table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force),

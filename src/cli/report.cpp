@@ -66,7 +66,7 @@ std::string audit_table(const Model& model, const Audit& a) {
   add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
   add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const Contact& c) { return c.law == Law::rigid; }))
+                  [](const Contact& c) { return c.takes_impulses(); }))
     add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
   add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
   add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
@@ -142,7 +142,7 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
   if (a.impulses_on_closed > 0)
     text += fmt::format("impacts passed on to closed contacts: {}\n", a.impulses_on_closed);
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
-        return contact.law == Law::rigid && !contact.capture_velocity;
+        return contact.takes_impulses() && !contact.capture_velocity;
       }))
     text += fmt::format("rebounds slower than {} {}/{} were taken as rest (capture_velocity)\n",
                         number(tolerance_of(model, run).capture_velocity()), model.units.length,

@@ -1,12 +1,13 @@
 #include "contact/law.hpp"
 
-#include <cmath>
+#include "contact/friction.hpp"
 
 namespace signorini {
 
 const char* to_string(State state) {
   switch (state) {
     case State::open:
+    case State::inside:
       return "open";
     case State::closed:
       return "closed";
@@ -54,23 +55,12 @@ const char* to_string(Law law) {
 
 int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
 
-double sliding_friction(const Contact& contact, double along) {
-  if (!contact.stribeck_velocity) return contact.kinetic_friction;
-  return contact.kinetic_friction +
-         (contact.static_friction - contact.kinetic_friction) * std::exp(-along / *contact.stribeck_velocity);
-}
-
-double sliding_friction_slope(const Contact& contact, double along) {
-  if (!contact.stribeck_velocity) return 0.0;
-  return (contact.kinetic_friction - sliding_friction(contact, along)) / *contact.stribeck_velocity;
-}
-
 Form slip_rate(const Contact& contact, int s) {
   Form form;
   form.vt = 1.0;
   if (!contact.tangential_stiffness) return form;
   const double ratio = s * contact.kinetic_friction / *contact.tangential_stiffness;
-  if (contact.law == Law::compliant) {
+  if (contact.has_spring()) {
     form.vn = ratio * contact.normal_stiffness;
     form.an = ratio * contact.normal_damping;
   } else {
@@ -83,18 +73,19 @@ Rows rows(const Contact& contact, const ContactState& state) {
   Rows result;
   result.normal.N = 1.0;
   result.tangent.T = 1.0;
-  if (contact.law == Law::slider) {
+  if (contact.is_pressed()) {
     result.normal.pressing = 1.0;
-  } else if (state.state != State::open && contact.law == Law::rigid) {
+  } else if (!state.is_open() && contact.takes_impulses()) {
     result.normal.N = 0.0;
     result.normal.an = 1.0;
-  } else if (state.state != State::open) {
+  } else if (!state.is_open()) {
     result.normal.gap = -contact.normal_stiffness;
     result.normal.vn = -contact.normal_damping;
   }
 
   switch (state.state) {
     case State::open:
+    case State::inside:
     case State::closed:
       break;
     case State::stick:
@@ -108,7 +99,7 @@ Rows rows(const Contact& contact, const ContactState& state) {
       break;
     case State::slip_plus:
     case State::slip_minus:
-      result.tangent.N = slip_sign(state.state) * contact.kinetic_friction;
+      result.tangent = sliding_row(slip_sign(state.state), contact.kinetic_friction);
       break;
   }
   return result;
@@ -116,13 +107,13 @@ Rows rows(const Contact& contact, const ContactState& state) {
 
 std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
   std::array<GuardForm, guards_per_contact> result;
-  const bool slider = contact.law == Law::slider;
-  if (state.state == State::open) {
+  const bool slider = contact.is_pressed();
+  if (state.is_open()) {
     if (!slider) {
       result[0].kind = Guard::closing;
       result[0].form.gap = 1.0;
     }
-    if (state.inside) {
+    if (state.state == State::inside) {
       result[0].form.vn = contact.normal_damping / contact.normal_stiffness;
       result[1].kind = Guard::clearing;
       result[1].form.gap = -1.0;

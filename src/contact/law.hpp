@@ -26,6 +26,7 @@
 #include <array>
 
 #include "contact/form.hpp"
+#include "contact/slots.hpp"
 
 namespace signorini {
 
@@ -34,8 +35,6 @@ enum class Guard : unsigned char { none, closing, clearing, separation, slip_plu
 [[nodiscard]] const char* to_string(Guard guard);
 /// "compliant", "slider": as in a scene file.
 [[nodiscard]] const char* to_string(Law law);
-
-inline constexpr int guards_per_contact = 3;
 
 struct GuardForm {
   Guard kind = Guard::none;
@@ -50,10 +49,6 @@ struct Rows {
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
 [[nodiscard]] std::array<GuardForm, guards_per_contact> guards(const Contact& contact,
                                                                const ContactState& state);
-/// Coefficient of friction at a slip rate along the slip, s p': f = fk + (fs - fk) exp(-s p' / v_s), fk
-/// without Stribeck's law; smooth past zero. And its derivative by the rate.
-[[nodiscard]] double sliding_friction(const Contact& contact, double along);
-[[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 /// p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
 

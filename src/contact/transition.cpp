@@ -2,16 +2,15 @@
 
 #include <cmath>
 
+#include "contact/motion.hpp"
+
 namespace signorini {
 namespace {
 
-State slip(double direction) { return direction >= 0.0 ? State::slip_plus : State::slip_minus; }
-
 /// Closing: the contact enters the friction cone at its apex, so only the directions compare.
 ContactState close(const Contact& contact, const MotionJet& jet) {
-  ContactState next{State::closed, jet.motion[0].ut};
+  ContactState next{state_at_rest(contact), jet.motion[0].ut};
   if (!contact.has_friction()) return next;
-  next.state = State::stick;
   // N jumps and T does not, or the shear element has not yet come to rest: the caller's guards decide.
   if (contact.normal_damping > 0.0 || contact.shear) return next;
   for (std::size_t m = 1; m < jet.motion.size(); ++m) {
@@ -20,7 +19,8 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
     if (!normal_moves && !tangent_moves) continue;
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
-    if (pull > contact.static_friction * contact.normal_stiffness * std::abs(d.gap)) next.state = slip(d.ut);
+    if (pull > contact.static_friction * contact.normal_stiffness * std::abs(d.gap))
+      next.state = slip_along(d.ut);
     break;
   }
   return next;
@@ -28,13 +28,21 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
 
 }  // namespace
 
+State slip_along(double direction) { return direction >= 0.0 ? State::slip_plus : State::slip_minus; }
+
+State state_at_rest(const Contact& contact) { return contact.has_friction() ? State::stick : State::closed; }
+
+State let_go(const Contact& contact, double gap) {
+  return contact.normal_damping > 0.0 && gap < 0.0 ? State::inside : State::open;
+}
+
 ContactState next_state(const Contact& contact, const ContactState& now, Guard failed, const MotionJet& jet) {
   const ContactMotion& m = jet.motion[0];
   switch (failed) {
     case Guard::none:
       return now;
     case Guard::separation:
-      return {State::open, 0.0, contact.normal_damping > 0.0 && m.gap < 0.0};
+      return {let_go(contact, m.gap), 0.0};
     case Guard::clearing:
       return {State::open, 0.0};
     case Guard::closing:
@@ -43,10 +51,10 @@ ContactState next_state(const Contact& contact, const ContactState& now, Guard f
     case Guard::slip_minus: {
       const double s = failed == Guard::slip_plus ? 1.0 : -1.0;
       const double T = -s * contact.kinetic_friction * m.N;
-      return {slip(s), contact.tangential_stiffness ? m.ut - T / *contact.tangential_stiffness : m.ut};
+      return {slip_along(s), slip_of(contact, m.ut, T)};
     }
     case Guard::sliding:
-      return {State::stick, contact.tangential_stiffness ? m.ut - m.T / *contact.tangential_stiffness : m.ut};
+      return {State::stick, slip_of(contact, m)};
   }
   return now;
 }

@@ -27,6 +27,12 @@ struct MotionJet {
   std::array<ContactMotion, orders> motion, noise;
 };
 
+/// The state that slips in a direction, and that of a contact which bears a load and does not slip.
+[[nodiscard]] State slip_along(double direction);
+[[nodiscard]] State state_at_rest(const Contact& contact);
+/// What a contact that carries nothing is: a dashpot may let go before the gap has opened.
+[[nodiscard]] State let_go(const Contact& contact, double gap);
+
 /// The next state of one contact; `failed` is a guard of `now`, `jet` holds in state `now`.
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 #include "motion/hold.hpp"
 
@@ -44,12 +44,12 @@ bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& insta
   return std::abs(form.value(jet.motion[0])) <= zero;
 }
 
-using Memory = std::tuple<State, double, bool>;
+using Memory = std::pair<State, double>;
 
 /// States and memories, for recognising a cycle.
 std::vector<Memory> states(const Mode& mode) {
   std::vector<Memory> result;
-  for (const ContactState& c : mode) result.emplace_back(c.state, c.anchor, c.inside);
+  for (const ContactState& c : mode) result.emplace_back(c.state, c.anchor);
   return result;
 }
 
@@ -172,7 +172,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
       if (!decision.visited[f.contact]) decision.crossings[f.contact] = crossing(f.form, jets[f.contact]);
       decision.visited[f.contact] = true;
       const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
-      if (contact.law == Law::rigid || (joint.sliders && contact.sticks_rigidly())) {
+      if (contact.takes_impulses() || (joint.sliders && contact.sticks_rigidly())) {
         jointly = true;
         // It was left at its static limit, and that falls.
         if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;

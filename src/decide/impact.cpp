@@ -16,7 +16,7 @@ constexpr double inside_cone = 1.0 - 1e-6;
 /// All that could sticks rigidly let go: only then does the system's matrix say what an impulse does.
 Mode released(const Model& model, Mode mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
-    if (const Contact& contact = model.contacts[c]; contact.law == Law::rigid || contact.sticks_rigidly())
+    if (const Contact& contact = model.contacts[c]; contact.takes_impulses() || contact.sticks_rigidly())
       mode[c] = {State::open, 0.0};
   return mode;
 }
@@ -29,7 +29,7 @@ Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus&
   Eigen::VectorXd gap(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
-    gap[i] = contact.gap + contact.normal.dot(u);
+    gap[i] = contact.gap_at(u);
   }
   const Eigen::MatrixXd W = d.W(normals, normals);
   const Eigen::MatrixXd effect = d.effect(Eigen::all, normals);
@@ -120,7 +120,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const double n = solution->force[2 * i], k = solution->force[2 * i + 1];
     Impulse& impulse = impact.impulses[c];
-    impulse.hit = n > 0.0 && mode[c].state == State::open;
+    impulse.hit = n > 0.0 && mode[c].is_open();
     impulse.normal = n;
     impulse.tangent = k;
     const double normal = 0.5 * n * (before[2 * i] + after[2 * i]);

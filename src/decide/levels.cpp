@@ -15,7 +15,6 @@ using Kind = JointItem::Kind;
 constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
 constexpr double noise_of_solution = 2.0;  // over that which its right side passes on
 
-State slip(int sign) { return sign > 0 ? State::slip_plus : State::slip_minus; }
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
 /// What noise in b makes of forces and responses, with the solution's own contacts in force.
@@ -79,7 +78,7 @@ JointItem JointDecision::item_of(const Entry& entry, const Forcing& forcing, dou
   item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.static_friction;
   if (entry.standing == Standing::limit) {
     item.kind = Kind::limit;
-  } else if (contact.law == Law::slider) {
+  } else if (contact.is_pressed()) {
     item.kind = Kind::pressed;
     item.pressing = forcing.pressing(c, t, 0);
   } else if (!contact.has_friction()) {
@@ -105,7 +104,7 @@ std::string JointDecision::refusal(const JointProblem& problem, const std::vecto
     if (item.kind == Kind::sliding)
       text += fmt::format(", with friction {:.6g} while it slips ({})",
                           problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1),
-                          to_string(slip(item.sign)));
+                          to_string(slip_along(item.sign)));
     else if (item.kind == Kind::frictional)
       text += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}", problem.W(n, n + 1),
                           item.static_friction);
@@ -206,9 +205,9 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
       if (item.kind == Kind::normal) {
         state.state = State::closed;
       } else if (item.kind == Kind::sliding) {
-        state.state = slip(item.sign);
+        state.state = slip_along(item.sign);
       } else if (!is_zero_response(t)) {
-        state.state = slip(sign_of(rt));
+        state.state = slip_along(sign_of(rt));
       } else {
         const double l = item.kind == Kind::pressed ? item.pressing : solution->force[n];
         const double k = solution->force[t];
@@ -220,7 +219,7 @@ std::string JointDecision::decide(const Instant& instant, const Forcing& forcing
         if (!inside && item.static_friction == item.kinetic_friction && std::abs(k) > zero_force(t)) {
           entry.standing = Standing::limit;
           entry.who.sign = -sign_of(k);
-          state.state = slip(entry.who.sign);
+          state.state = slip_along(entry.who.sign);
         }
       }
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/friction.hpp"
 #include "decide/levels.hpp"
 
 namespace signorini {
@@ -46,11 +47,10 @@ void Decider::follow_velocity(const Instant& instant, const Forcing& after,
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
-      mode[c] = {State::stick, before[c].ut - before[c].T / *contact.tangential_stiffness};
-    if (contact.law != Law::slider || !contact.sticks_rigidly() || mode[c].state == State::open) continue;
+      mode[c] = {State::stick, slip_of(contact, before[c])};
+    if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].is_open()) continue;
     const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
-    if (std::abs(vt) > rounding_of_slide(c, after, instant))
-      mode[c].state = vt > 0.0 ? State::slip_plus : State::slip_minus;
+    if (std::abs(vt) > rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
   }
 }
 
@@ -83,19 +83,19 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   std::vector<std::size_t> touching;
   bool impact = false, apart = false;
   for (std::size_t c = 0; c < mode.size(); ++c) {
-    if (model_.contacts[c].law != Law::rigid) continue;
+    if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
     // One whose gap has become negative touches, too: it fell with others, within the resolution of the
     // clock.
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
-    if (mode[c].state == State::open && !instant.has_fired(c, Guard::closing) && !fell &&
+    if (mode[c].is_open() && !instant.has_fired(c, Guard::closing) && !fell &&
         !is_zero(m.gap, noise.gap, m.vn))
       continue;
     touching.push_back(c);
     joint.touching[c] = true;
     apart = apart || m.gap != 0.0;
-    impact = impact || (mode[c].state == State::open && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
+    impact = impact || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
   }
   if (apart && !impact) instant.u = impacts_.close(mode, touching, instant.u);
   if (impact) {
@@ -148,7 +148,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
   for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    if (contact.law != Law::slider || !contact.sticks_rigidly() || !decision.visited[c]) continue;
+    if (contact.has_gap() || !contact.sticks_rigidly() || !decision.visited[c]) continue;
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
     who.kinetic = joint.kinetic[c];

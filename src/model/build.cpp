@@ -47,12 +47,12 @@ std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.law == Law::slider)
+    if (c.is_pressed())
       closed.push_back(true);
     else if (model.static_start)
       closed.push_back(model.statics.reactions[k] > 0.0);
     else
-      closed.push_back(c.gap + c.normal.dot(model.u0) <= 0.0);
+      closed.push_back(c.gap_at(model.u0) <= 0.0);
   }
   return closed;
 }

@@ -82,7 +82,7 @@ void check_massless(const Model& model, const DofMap& map, const SourcePlace& pl
   if (where.empty()) return;
   std::vector<LineSpring> springs;
   for (const Contact& c : model.contacts) {
-    if (c.law == Law::compliant) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
     if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
   }
   const auto count = static_cast<int>(where.size());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/friction.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini {
@@ -36,9 +37,8 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
 
 void close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  double terms = std::abs(contact.gap);
-  for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * model.u0[dof]);
-  const double gap = contact.gap + contact.normal.dot(model.u0);
+  const double terms = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+  const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   if (carries || std::abs(gap) <= roundings * epsilon * terms) {
     double square = 0.0;
@@ -100,14 +100,14 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
   std::vector<std::size_t> rigid;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
-    if (contact.stribeck_velocity)
+    if (friction_varies(contact))
       for (const auto& term : contact.tangent.terms)
         if (const Dof& d = model.dofs[static_cast<std::size_t>(term.first)]; d.massless)
           refuse(
               scene, k, ".friction",
               fmt::format("friction that falls with the slip rate needs mass where it acts, and {} has none",
                           d.displacement));
-    if (contact.law != Law::rigid) continue;
+    if (!contact.takes_impulses()) continue;
     check_mass(scene, model, k);
     close_gap(scene, model, k);
     rigid.push_back(k);

@@ -38,9 +38,8 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
   double force = 0.0;
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
   for (const Contact& c : model.contacts) {
-    if (c.law == Law::slider) force = std::max(force, magnitude(c.normal_force, t_end));
-    if (c.law == Law::compliant)
-      force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap + c.normal.dot(model.u0)));
+    if (c.is_pressed()) force = std::max(force, magnitude(c.normal_force, t_end));
+    if (c.has_spring()) force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap_at(model.u0)));
   }
   for (const Load& load : model.loads) {
     if (load.name == "gravity" || load.name == "base motion") {
@@ -141,7 +140,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const Holding holding = hold_contacts(model.contacts, closed);
   Holding rested;  // without friction on what is rigid and closed
   for (std::size_t k = 0; k < closed.size(); ++k)
-    if (closed[k] && model.contacts[k].law == Law::rigid) rested.fixed.push_back(model.contacts[k].normal);
+    if (closed[k] && model.contacts[k].takes_impulses()) rested.fixed.push_back(model.contacts[k].normal);
   const double omega =
       model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
 

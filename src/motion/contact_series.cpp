@@ -13,17 +13,16 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   const double* surface = series.forcing.surface.data() + index * series.forcing.count;
   const double* pressing = series.forcing.pressing.data() + index * series.forcing.count;
   for (std::size_t k = 0; k < degree + 3; ++k) {
-    const double* u = series.u.col(static_cast<Eigen::Index>(k)).data();
-    normal_[k] = contact.normal.dot(u);
-    tangent_[k] = contact.tangent.dot(u) - surface[k];
+    normal_[k] = gap_coefficient(contact, series, k);
+    tangent_[k] = ut_coefficient(contact, index, series, k);
   }
   for (std::size_t k = 0; k <= degree; ++k) {
     const auto e = static_cast<Eigen::Index>(k);
     const double rate = static_cast<double>(k + 1) / series.scale;
     const double second = rate * static_cast<double>(k + 2) / series.scale;
-    row(N)[k] = series.forces(static_cast<Eigen::Index>(2 * index), e);
-    row(T)[k] = series.forces(static_cast<Eigen::Index>(2 * index) + 1, e);
-    row(gap)[k] = normal_[k] + (k == 0 ? contact.gap : 0.0);
+    row(N)[k] = series.forces(static_cast<Eigen::Index>(normal_slot(index)), e);
+    row(T)[k] = series.forces(static_cast<Eigen::Index>(tangent_slot(index)), e);
+    row(gap)[k] = normal_[k];
     row(ut)[k] = tangent_[k];
     row(vn)[k] = rate * normal_[k + 1];
     row(vt)[k] = rate * tangent_[k + 1];

@@ -42,7 +42,7 @@ Forcing::Forcing(const Model& model, double t, Side side)
     still_pressing_.push_back(pressing_.back()->value(t));
     drives_.push_back(moves_.back() || presses_.back());
     varies_ = varies_ || drives_.back();
-    lifted_.push_back(contact.law == Law::slider && vanishes(*pressing_.back()));
+    lifted_.push_back(contact.is_pressed() && vanishes(*pressing_.back()));
   }
   varies_ = varies_ || !varying_.empty();
   loaded_ = !varying_.empty() || !constant_.isZero(0.0);

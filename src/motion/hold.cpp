@@ -22,7 +22,7 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
           Vector& v) {
   const Mode& mode = system.mode();
   const auto is_held = [&](std::size_t c) {
-    return model.contacts[c].law == Law::rigid && mode[c].state != State::open;
+    return model.contacts[c].takes_impulses() && !mode[c].is_open();
   };
   const auto sticks = [&](std::size_t c) {
     return mode[c].state == State::stick && model.contacts[c].sticks_rigidly();
@@ -31,10 +31,10 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (is_held(c)) {
-      places[2 * c] = -(contact.gap + contact.normal.dot(u));
-      rates[2 * c] = -contact.normal.dot(v);
+      places[normal_slot(c)] = -contact.gap_at(u);
+      rates[normal_slot(c)] = -contact.normal.dot(v);
     }
-    if (sticks(c)) rates[2 * c + 1] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
+    if (sticks(c)) rates[tangent_slot(c)] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
   }
   correct(system, places, u);
   correct(system, rates, v);

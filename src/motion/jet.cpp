@@ -24,25 +24,18 @@ void fill(const Contact& contact, std::size_t c, const Series& series, Derivativ
   const auto n = static_cast<std::size_t>(series.u.rows()),
              forces = static_cast<std::size_t>(series.forces.rows());
   const ForcingSeries& f = series.forcing;
-  const auto terms = [](const Combination& form, const double* x) {
-    double sum = 0.0;
-    for (const auto& [dof, factor] : form.terms) sum += std::abs(factor * x[dof]);
-    return sum;
-  };
   double factorial = 1.0;
   for (std::size_t k = 0; k < known; ++k) {
     if (k > 1) factorial *= static_cast<double>(k);
     const double* u = series.u.data() + k * n;
-    const double surface = f.surface[c * f.count + k];
-    d.gap[k] = factorial * contact.normal.dot(u);
-    d.ut[k] = factorial * (contact.tangent.dot(u) - surface);
-    d.gap_terms[k] = factorial * terms(contact.normal, u);
-    d.ut_terms[k] = factorial * (terms(contact.tangent, u) + std::abs(surface));
+    d.gap[k] = factorial * gap_coefficient(contact, series, k);
+    d.ut[k] = factorial * ut_coefficient(contact, c, series, k);
+    d.gap_terms[k] = factorial * contact.normal.magnitude(u);
+    d.ut_terms[k] = factorial * (contact.tangent.magnitude(u) + std::abs(f.surface[c * f.count + k]));
     if (k >= MotionJet::orders) continue;
-    d.N[k] = factorial * series.forces.data()[k * forces + 2 * c];
-    d.T[k] = factorial * series.forces.data()[k * forces + 2 * c + 1];
+    d.N[k] = factorial * series.forces.data()[k * forces + normal_slot(c)];
+    d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
   }
-  d.gap[0] += contact.gap;
   d.gap_terms[0] += std::abs(contact.gap);
 }
 

@@ -1,5 +1,7 @@
 #include "motion/mode_systems.hpp"
 
+#include "contact/friction.hpp"
+
 namespace signorini {
 
 ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBounds bounds)
@@ -18,7 +20,7 @@ FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& 
   result.kinds = massless_ ? in_mode(own_kinds_, model_, rows) : own_kinds_;
   result.pinned = pinned_by(model_, rows);
   for (std::size_t c = 0; c < mode.size(); ++c)
-    if (model_.contacts[c].stribeck_velocity && slip_sign(mode[c].state) != 0) result.by_rate.push_back(c);
+    if (slips_nonlinearly(model_.contacts[c], mode[c].state)) result.by_rate.push_back(c);
   return result;
 }
 

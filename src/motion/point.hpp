@@ -1,8 +1,10 @@
 // point.hpp: the state at one time, and the motion of a contact in it.
 //
-//   g = g0 + n . u,   ut = t . u - s(t),   g' = n . v,   ut' = t . v - s'(t)
+//   u, v, N, T, a at t  ->  g, ut, g', ut', g'', ut'' of one contact       contact/motion.hpp
 #pragma once
 
+#include "contact/motion.hpp"
+#include "contact/slots.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini {
@@ -11,22 +13,26 @@ namespace signorini {
 struct Point {
   Vector u, v, forces;
   Vector a = {};  ///< empty where it is not needed
+
+  [[nodiscard]] double N(std::size_t k) const { return forces[static_cast<Eigen::Index>(normal_slot(k))]; }
+  [[nodiscard]] double T(std::size_t k) const { return forces[static_cast<Eigen::Index>(tangent_slot(k))]; }
 };
+
+/// On the straight line from a to b, 0 <= x <= 1.
+[[nodiscard]] inline Point between(const Point& a, const Point& b, double x) {
+  return {(1.0 - x) * a.u + x * b.u, (1.0 - x) * a.v + x * b.v, (1.0 - x) * a.forces + x * b.forces,
+          (1.0 - x) * a.a + x * b.a};
+}
 
 /// Motion of contact k; g'' and ut'' are zero without accelerations in the point.
 [[nodiscard]] inline ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing,
                                              double t, const Point& point) {
   ContactMotion m;
-  m.N = point.forces[static_cast<Eigen::Index>(2 * k)];
-  m.T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
-  m.gap = contact.gap + contact.normal.dot(point.u);
-  m.ut = contact.tangent.dot(point.u) - forcing.surface(k, t, 0);
-  m.vn = contact.normal.dot(point.v);
-  m.vt = contact.tangent.dot(point.v) - forcing.surface(k, t, 1);
-  if (point.a.size() > 0) {
-    m.an = contact.normal.dot(point.a);
-    m.at = contact.tangent.dot(point.a) - forcing.surface(k, t, 2);
-  }
+  m.N = point.N(k);
+  m.T = point.T(k);
+  set_place(contact, point.u, forcing.surface(k, t, 0), m);
+  set_velocity(contact, point.v, forcing.surface(k, t, 1), m);
+  if (point.a.size() > 0) set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);
   m.pressing = forcing.pressing(k, t, 0);
   m.pressing_rate = forcing.pressing(k, t, 1);
   return m;

@@ -10,10 +10,13 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     const int s = slip_sign(mode[k].state);
-    if (mode[k].state != State::open) out[1] += model_.contacts[k].normal_damping * m.vn * m.vn;
-    out[2 + 3 * k] = s == 0 ? 0.0 : m.T * slip_rate(model_.contacts[k], s).value(m);
-    out[3 + 3 * k] = -m.T * forcing.surface(k, t, 1);
-    out[4 + 3 * k] = -m.N;
+    const double slip = s == 0 ? 0.0 : slip_rate(model_.contacts[k], s).value(m);
+    const ContactWork power = work_on(model_.contacts[k], mode[k].state, m.N, m.T,
+                                      {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});
+    out[1] += power.damping;
+    out[2 + 3 * k] = power.friction;
+    out[3 + 3 * k] = power.surface;
+    out[4 + 3 * k] = power.pressing;
   }
 }
 

@@ -3,14 +3,13 @@
 //   loads     P(t) . v                       damping   v^T C v + sum_closed cn g'^2
 //   friction  T p'  of each contact          surface   -T s'(t)  of each contact
 //
-// A contact that a dashpot has opened while g < 0 (inside) carries nothing: its dashpot takes what its
-// spring gives, kn (g_from^2 - g_to^2)/2, until the gap opens or it closes again.
+// Those of a contact: contact/work.hpp.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "contact/mode.hpp"
+#include "contact/work.hpp"
 #include "linear/structure.hpp"
 #include "motion/point.hpp"
 
@@ -29,12 +28,14 @@ struct Works {
     std::fill(surface.begin(), surface.end(), 0.0);
     std::fill(pressing.begin(), pressing.end(), 0.0);
   }
+  /// += factor times what contact k does.
+  void add(std::size_t k, const ContactWork& work, double factor) {
+    damping += factor * work.damping;
+    friction[k] += factor * work.friction;
+    surface[k] += factor * work.surface;
+    pressing[k] += factor * work.pressing;
+  }
 };
-
-/// What the dashpot of a contact that is open and pressed in takes between two gaps.
-[[nodiscard]] inline double inside_loss(const Contact& contact, double gap_from, double gap_to) {
-  return 0.5 * contact.normal_stiffness * (gap_from - gap_to) * (gap_from + gap_to);
-}
 
 class Powers {
  public:

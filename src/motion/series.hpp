@@ -1,6 +1,6 @@
 // series.hpp: coefficients of the motion's Taylor series.
 //
-//   u(t + s z) = sum_k u_k z^k,   N and T likewise
+//   u(t + s z) = sum_k u_k z^k,   N, T, g and ut likewise
 #pragma once
 
 #include "motion/forcing.hpp"
@@ -15,5 +15,16 @@ struct Series {
   Eigen::MatrixXd forces;  ///< 2 contacts x (levels + 1): N_1, T_1, N_2, ...
   ForcingSeries forcing;   ///< levels + 3 coefficients
 };
+
+/// Coefficient k of g = g0 + n . u, and of ut = t . u - s at contact number `index`.
+[[nodiscard]] inline double gap_coefficient(const Contact& contact, const Series& series, std::size_t k) {
+  const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());
+  return k == 0 ? contact.gap_at(u) : contact.normal.dot(u);
+}
+[[nodiscard]] inline double ut_coefficient(const Contact& contact, std::size_t index, const Series& series,
+                                           std::size_t k) {
+  const double* u = series.u.data() + k * static_cast<std::size_t>(series.u.rows());
+  return contact.tangent.dot(u) - series.forcing.surface[index * series.forcing.count + k];
+}
 
 }  // namespace signorini

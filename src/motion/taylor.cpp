@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/law.hpp"
-
 namespace signorini {
 
 double Disturbance::sign(std::size_t i) {

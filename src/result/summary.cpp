@@ -81,15 +81,15 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
                {"law", to_string(contact.law)},
                {"static_friction", contact.static_friction},
                {"kinetic_friction", contact.kinetic_friction}};
-  if (contact.law != Law::slider) {
+  if (contact.has_gap()) {
     json["gap"] = contact.gap;
-    if (contact.law == Law::rigid)
+    if (contact.takes_impulses())
       json["restitution"] = contact.restitution;
     else
       json["normal_stiffness"] = contact.normal_stiffness;
   }
   if (contact.stribeck_velocity) json["stribeck_velocity"] = *contact.stribeck_velocity;
-  if (contact.law == Law::rigid && report != nullptr)
+  if (contact.takes_impulses() && report != nullptr)
     json["capture_velocity"] = contact.capture_velocity.value_or(capture_velocity);
   if (contact.shear) {
     json["tangential_stiffness"] = contact.shear->stiffness;
@@ -106,7 +106,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     json["peaks"] = {
         {"tangential", peak.horizontal}, {"normal", peak.vertical}, {"N", peak.N}, {"T", peak.T}};
   }
-  if (k < report->landings.size() && contact.law != Law::slider) {
+  if (k < report->landings.size() && contact.has_gap()) {
     json["landings"] = Json::array();
     for (const Landing& l : report->landings[k])
       json["landings"].push_back({{"start", l.start},

@@ -6,12 +6,6 @@
 
 namespace signorini {
 
-namespace {
-
-bool has_gap(const Contact& contact) { return contact.law != Law::slider; }
-
-}  // namespace
-
 EventWriter::EventWriter(const std::filesystem::path& path, const Model& model) : model_(model), file_(path) {
   for (const EventColumn& column : event_columns) block_.text(column.name);
   block_.end_row();
@@ -47,7 +41,7 @@ void ContactWriter::write(const Sample& sample) {
     const Contact& contact = model_.contacts[k];
     const ContactSample& row = sample.contacts[k];
     block_.number(sample.t).text(contact.name).text(to_string(row.state));
-    if (has_gap(contact)) {
+    if (contact.has_gap()) {
       block_.number(row.gap);
     } else {
       block_.empty();

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/law.hpp"
+#include "contact/conditions.hpp"
+#include "contact/work.hpp"
 
 namespace signorini {
 namespace {
@@ -66,26 +67,13 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
     peak.T = std::max(peak.T, std::abs(m.T));
     landings_.observe(k, m.N);
 
-    raise(audit_.tension, m.N, t, index);
-    if (contact.law == Law::compliant) {
-      // The surface in contact: the element's own length, which a dashpot may leave short (inside).
-      const bool closed = mode[k].state != State::open;
-      const double element = closed ? (m.N - contact.normal_damping * m.vn) / contact.normal_stiffness
-                             : mode[k].inside ? m.gap
-                                              : 0.0;
-      const double gap = m.gap - element;
-      raise(audit_.gap, -gap, t, index);
-      raise(audit_.product, std::abs(gap * m.N), t, index);
-    }
-    if (contact.law == Law::rigid) {
-      const bool closed = mode[k].state != State::open;
-      raise(audit_.penetration, closed ? std::abs(m.gap) : -m.gap, t, index);
-      raise(audit_.product, std::abs(m.gap * m.N), t, index);
-    }
-    const int s = slip_sign(mode[k].state);
-    const double friction = s == 0 ? contact.static_friction : sliding_friction(contact, s * m.vt);
-    if (mode[k].state != State::open) raise(audit_.friction, std::abs(m.T) + friction * m.N, t, index);
-    if (s != 0) raise(audit_.direction, -m.T * slip_rate(contact, s).value(m), t, index);
+    const Violations off = violations(contact, mode[k].state, m);
+    raise(audit_.tension, off.tension, t, index);
+    raise(audit_.gap, off.gap, t, index);
+    raise(audit_.penetration, off.penetration, t, index);
+    raise(audit_.product, off.product, t, index);
+    raise(audit_.friction, off.friction, t, index);
+    raise(audit_.direction, off.direction, t, index);
   }
 }
 
@@ -109,15 +97,15 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
     peaks_[k].N = std::max(peaks_[k].N, std::abs(b.N));
     peaks_[k].T = std::max(peaks_[k].T, std::abs(b.T));
     const Contact& contact = model_.contacts[k];
-    const auto& kt = contact.tangential_stiffness;
     if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
     double loss = 0.0;
     if (!massless_) {
-      if (kt && std::abs(a.T) < std::abs(b.T)) loss = (b.T * b.T - a.T * a.T) / (2.0 * *kt);
+      if (std::abs(a.T) < std::abs(b.T)) loss = shear_energy(contact, b.T) - shear_energy(contact, a.T);
     } else if (load_jumps) {  // parts without mass move at once; what slips does so at its limit
-      loss = a.T * (a.ut - b.ut - (kt ? (a.T - b.T) / *kt : 0.0));
-    } else if (kt) {  // a force that drops where parts without mass follow: friction takes all that is
-                      // released
+      loss = a.T * (slip_of(contact, a) - slip_of(contact, b));
+    } else if (contact.tangential_stiffness) {  // a force that drops where parts without mass follow:
+                                                // friction takes all that is
+                                                // released
       loss = released - lost;
     }
     friction_[k] += loss;
@@ -135,17 +123,12 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
   e.elastic = 0.5 * structure_.quadratic(structure_.k, point.u.data());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const double N = point.forces[static_cast<Eigen::Index>(2 * k)];
-    const double T = point.forces[static_cast<Eigen::Index>(2 * k) + 1];
-    if (contact.law == Law::compliant) {
-      const double spring = N - contact.normal_damping * contact.normal.dot(point.v);
-      if (mode[k].state != State::open) e.contact += spring * spring / (2.0 * contact.normal_stiffness);
-      if (mode[k].inside) {  // N = 0: the spring is as long as the gap is deep
-        const double gap = contact.gap + contact.normal.dot(point.u);
-        e.contact += 0.5 * contact.normal_stiffness * gap * gap;
-      }
-    }
-    if (contact.tangential_stiffness) e.contact += T * T / (2.0 * *contact.tangential_stiffness);
+    ContactMotion m;
+    m.N = point.N(k);
+    m.T = point.T(k);
+    m.gap = contact.gap_at(point.u);
+    m.vn = contact.normal.dot(point.v);
+    e.contact += stored_energy(contact, mode[k].state, m);
   }
   return e;
 }
@@ -168,15 +151,15 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
                               const Point& point) const {
   const ContactMotion m = motion(k, forcing, t, point);
   ContactSample s;
-  s.state = state.state;
+  s.state = state_of_rows(state.state);
   s.gap = m.gap;
   const BodySlide slide = slide_of(model_.contacts[k], k, forcing, t, point.u, point.v);
   s.ut = slide.ut;
   s.vt = slide.vt;
   s.N = m.N;
   s.T = m.T;
-  const auto& kt = model_.contacts[k].tangential_stiffness;
-  s.slip = state.state == State::stick && kt ? state.anchor : m.ut - (kt ? m.T / *kt : 0.0);
+  const bool anchored = state.state == State::stick && model_.contacts[k].tangential_stiffness;
+  s.slip = anchored ? state.anchor : slip_of(model_.contacts[k], m);
   return s;
 }
 

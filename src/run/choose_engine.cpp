@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/decay.hpp"
 #include "run/engines.hpp"
 #include "signorini/error.hpp"
 
@@ -14,27 +15,6 @@ namespace {
 constexpr double slow = 0.2;
 
 }  // namespace
-
-double fastest_decay(const Model& model) {
-  const Vector m = model.mass.diagonal();
-  Vector c = model.damping.diagonal(), k = model.stiffness.diagonal();
-  for (const Contact& contact : model.contacts) {
-    for (const auto& [dof, n] : contact.normal.terms) {
-      c[dof] += n * n * contact.normal_damping;
-      k[dof] += n * n * contact.normal_stiffness;
-    }
-    for (const auto& [dof, t] : contact.tangent.terms)
-      k[dof] += t * t * contact.tangential_stiffness.value_or(0.0);
-  }
-  double rate = model.alpha + model.beta * model.omega_max * model.omega_max;
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    if (m[i] > 0.0)
-      rate = std::max(rate, c[i] / m[i]);
-    else if (c[i] > 0.0)
-      rate = std::max(rate, k[i] / c[i]);
-  }
-  return rate;
-}
 
 EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::automatic) return {run.engine, "as given"};

@@ -25,8 +25,4 @@ struct EngineChoice {
 /// What run.engine says, with the reason "as given"; never Engine::automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
 
-/// The fastest decay, 1/time: of damping alpha M + beta K at omega_max, or what the diagonals say, dashpots
-/// and springs of contacts included.
-[[nodiscard]] double fastest_decay(const Model& model);
-
 }  // namespace signorini

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "run/choose_engine.hpp"
+#include "model/decay.hpp"
 
 namespace signorini {
 namespace {

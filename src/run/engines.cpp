@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contact/friction.hpp"
 #include "engine/exact/exact_engine.hpp"
 #include "engine/ida/ida_engine.hpp"
 #include "engine/ida/order.hpp"
@@ -22,7 +23,7 @@ void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
-    if (contact.stribeck_velocity)
+    if (friction_varies(contact))
       refuse(run,
              fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
                          "rate (stribeck_velocity); use \"ida\"",
@@ -33,7 +34,7 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
 void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   refuse_laws_that_are_not_linear(model, run);
   for (const Contact& contact : model.contacts) {
-    if (contact.law == Law::rigid)
+    if (contact.takes_impulses())
       refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid; use \"newmark\" or law = "
                               "\"compliant\"",
                               contact.name));

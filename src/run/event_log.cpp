@@ -23,8 +23,8 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool
   event.t = now.t;
   event.contact = static_cast<int>(k);
   event.type = type;
-  event.from = (*now.before)[k].state;
-  event.to = decision.mode[k].state;
+  event.from = state_of_rows((*now.before)[k].state);
+  event.to = state_of_rows(decision.mode[k].state);
   if (is_hit(decision, k)) {
     event.impulse_n = decision.impulses[k].normal;
     event.impulse_t = decision.impulses[k].tangent;
@@ -71,9 +71,9 @@ void EventLog::instant(const Instant& now, const Stepper& stepper) {
   if (now.load_jumps) load_jump(now);
   const Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
-    const State from = (*now.before)[k].state, to = decision.mode[k].state;
+    const State from = state_of_rows((*now.before)[k].state), to = state_of_rows(decision.mode[k].state);
     const bool let_go = from == State::stick && decision.visited[k] && decision.jumped[k] &&
-                        model_.contacts[k].law != Law::rigid;
+                        !model_.contacts[k].takes_impulses();
     auto type = is_hit(decision, k) ? std::optional(EventType::impact) : classify(from, to, let_go);
     if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
     if (type) contact(now, k, *type, stepper);
@@ -101,7 +101,7 @@ void EventLog::load_jump(const Instant& now) {
 
 void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
   if (type != EventType::time) ++report_.events_by_type[to_string(type)];
-  Event event = event_of(now, k, type, model_.contacts[k].law != Law::slider);
+  Event event = event_of(now, k, type, model_.contacts[k].has_gap());
   add_conditioning(now, stepper, k, event);
   recorder_.event(event);
 }

@@ -8,7 +8,7 @@ namespace signorini {
 void Landings::begin(double t, const Mode& mode) {
   lasts_.assign(mode.size(), false);
   for (std::size_t k = 0; k < mode.size(); ++k)
-    if (model_.contacts[k].law != Law::slider && mode[k].state != State::open) {
+    if (model_.contacts[k].has_gap() && !mode[k].is_open()) {
       all_[k].push_back({t, t, 0.0, 0.0});
       lasts_[k] = true;
     }
@@ -25,8 +25,8 @@ void Landings::observe(std::size_t k, double N) {
 
 void Landings::instant(double t, const Decision& decision, const Mode& old_mode) {
   for (std::size_t k = 0; k < lasts_.size(); ++k) {
-    if (model_.contacts[k].law == Law::slider) continue;
-    const bool was = old_mode[k].state != State::open, is = decision.mode[k].state != State::open;
+    if (model_.contacts[k].is_pressed()) continue;
+    const bool was = !old_mode[k].is_open(), is = !decision.mode[k].is_open();
     const double pushed = decision.impulses.empty() ? 0.0 : decision.impulses[k].normal;
     if (was) observe(k, decision.before[k].N);
     if (!was && (is || pushed > 0.0)) all_[k].push_back({t, t, 0.0, 0.0});

@@ -180,7 +180,7 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
         read_slider(table, contact, space, scene);
         break;
     }
-    if (contact.law != Law::rigid) read_elements(table, contact);
+    if (!takes_impulses(contact.law)) read_elements(table, contact);
     contact.surface_velocity = read_standing_history(table, "surface_velocity", directory_of(scene));
     if (!space.matrices && table.has("against")) read_against(table, contact, scene, space, node);
     if (contact.normal) contact.normal->node = node;

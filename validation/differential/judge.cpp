@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/friction.hpp"
 #include "differential/neighbour.hpp"
 
 namespace signorini::differential {
@@ -59,7 +60,7 @@ class Judge {
   /// Its default follows rtol, which is not the same for all: that of the loosest is taken by all.
   void fix_capture() {
     for (Contact& contact : model_.contacts)
-      if (contact.law == Law::rigid && !contact.capture_velocity)
+      if (contact.takes_impulses() && !contact.capture_velocity)
         contact.capture_velocity = settings_.loose * model_.scales.velocity;
   }
 
@@ -91,7 +92,7 @@ class Judge {
   bool find_reference() {
     reference_spec_ = spec(Engine::exact, settings_.tight);
     linear_ = std::none_of(model_.contacts.begin(), model_.contacts.end(),
-                           [](const Contact& c) { return c.stribeck_velocity.has_value(); });
+                           [](const Contact& c) { return friction_varies(c); });
     if (!linear_) reference_spec_ = spec(Engine::ida, 0.1 * settings_.tight);
     reference_ = run_of(model_, reference_spec_);
     if (reference_.end == Track::End::refused) {

@@ -49,15 +49,15 @@ Model neighbour(const Model& model, const Weights& weights, double delta, double
   for (Contact& contact : near.contacts) {
     const double share = draw.real(-1.0, 1.0);
     const double of_rebound = draw.real(-1.0, 1.0);
-    if (contact.law == Law::rigid) {
+    if (contact.takes_impulses()) {
       const double change = contact.restitution < 1.0 ? of_rebound : -std::abs(of_rebound);
       contact.restitution = std::min(1.0, contact.restitution * (1.0 + delta * change));
     }
-    if (contact.law == Law::slider || contact.gap + contact.normal.dot(model.u0) <= 0.0) continue;
+    if (contact.is_pressed() || contact.gap_at(model.u0) <= 0.0) continue;
     double reach = 0.0;
     for (const auto& [dof, factor] : contact.normal.terms)
       reach += std::abs(factor) * weights.u[static_cast<std::size_t>(dof)];
-    const double open = contact.gap + contact.normal.dot(model.u0);
+    const double open = contact.gap_at(model.u0);
     // It stays open: whether it starts closed is the scene's, not the engines'.
     contact.gap += std::max(share * delta * reach, -0.5 * open);
   }

@@ -113,8 +113,9 @@ class Bdf final : public Integrator {
       m.an = contact.normal.dot(a);
       m.at += contact.tangent.dot(a);
       r[f] = flow_.rows()[k].normal.value(m);
-      r[f + 1] = is_stribeck(contact, mode_[k].state) ? stribeck_row(contact, mode_[k].state, m.vt).value(m)
-                                                      : flow_.rows()[k].tangent.value(m);
+      r[f + 1] = slips_nonlinearly(contact, mode_[k].state)
+                     ? stribeck_row(contact, mode_[k].state, m.vt).value(m)
+                     : flow_.rows()[k].tangent.value(m);
     }
   }
   static int jacobian(realtype t, realtype cj, N_Vector y, N_Vector, N_Vector, SUNMatrix, void* self,
@@ -122,7 +123,7 @@ class Bdf final : public Integrator {
     auto* b = static_cast<Bdf*>(self);
     const double* x = NV_DATA_S(y);
     for (std::size_t k = 0; k < b->model_.contacts.size(); ++k)
-      if (const State state = b->mode_[k].state; is_stribeck(b->model_.contacts[k], state)) {
+      if (const State state = b->mode_[k].state; slips_nonlinearly(b->model_.contacts[k], state)) {
         const ContactMotion m = b->flow_.motion(k, t, 0, x, x + b->flow_.size());
         b->linear_.linearise(k, stribeck_tangent(b->model_.contacts[k], state, m.vt, x[b->layout_.force(k)]));
       }

@@ -8,16 +8,14 @@ namespace signorini::esdirk {
 
 Form stribeck_row(const Contact& contact, State state, double vt) {
   const int s = slip_sign(state);
-  Form row;
-  row.T = 1.0;
-  row.N = s * sliding_friction(contact, s * vt);
-  return row;
+  return sliding_row(s, sliding_friction(contact, s * vt));
 }
 
 Form stribeck_tangent(const Contact& contact, State state, double vt, double N) {
-  Form row = stribeck_row(contact, state, vt);
-  row.vt = sliding_friction_slope(contact, slip_sign(state) * vt) * N;
-  return row;
+  ContactMotion m;
+  m.vt = vt;
+  m.N = N;
+  return sliding_row_tangent(contact, slip_sign(state), m);
 }
 
 Flow::Flow(const Model& model, const Structure& structure)
@@ -44,8 +42,8 @@ void Flow::start(const Mode& mode, double t) {
   forcing_.emplace(model_, t, Side::after);
   linear_ = true;
   for (std::size_t k = 0; k < mode.size(); ++k)
-    if (is_stribeck(model_.contacts[k], mode[k].state)) {
-      if (model_.contacts[k].law != Law::slider)
+    if (slips_nonlinearly(model_.contacts[k], mode[k].state)) {
+      if (model_.contacts[k].has_gap())
         throw std::runtime_error("Stribeck's friction is treated on sliders only");
       linear_ = false;
     }
@@ -84,7 +82,7 @@ void Flow::derivative(double t, int order, const double* y, double* dy) {
     rhs_[row] = side(rows_[k].normal);
     rhs_[row + 1] = side(rows_[k].tangent);
     // N of a slider is known, so the friction of the slip rate is a constant of its row.
-    if (const State state = mode_[k].state; order == 0 && is_stribeck(model_.contacts[k], state))
+    if (const State state = mode_[k].state; order == 0 && slips_nonlinearly(model_.contacts[k], state))
       rhs_[row + 1] = (rows_[k].tangent.N - stribeck_row(model_.contacts[k], state, m.vt).N) * -m.pressing;
   }
   mass_.solve(rhs_.data());
@@ -95,7 +93,7 @@ void Flow::derivative(double t, int order, const double* y, double* dy) {
 void Flow::linearise(double t, const double* y) {
   if (linear_) return;
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    if (is_stribeck(model_.contacts[k], mode_[k].state)) {
+    if (slips_nonlinearly(model_.contacts[k], mode_[k].state)) {
       const ContactMotion m = motion(k, t, 0, y, y + n_);
       tangents_[k].tangent = stribeck_tangent(model_.contacts[k], mode_[k].state, m.vt, -m.pressing);
     }

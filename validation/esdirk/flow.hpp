@@ -10,6 +10,7 @@
 
 #include <optional>
 
+#include "contact/friction.hpp"
 #include "linear/system_matrix.hpp"
 #include "motion/forcing.hpp"
 
@@ -70,8 +71,5 @@ class Flow {
 /// f of a slipping contact under Stribeck's law, in the tangent row T + s f N = 0, and that row's tangent.
 [[nodiscard]] Form stribeck_row(const Contact& contact, State state, double vt);
 [[nodiscard]] Form stribeck_tangent(const Contact& contact, State state, double vt, double N);
-[[nodiscard]] inline bool is_stribeck(const Contact& contact, State state) {
-  return contact.stribeck_velocity && slip_sign(state) != 0;
-}
 
 }  // namespace signorini::esdirk

@@ -7,7 +7,9 @@
 #include <limits>
 #include <random>
 
+#include "model/decay.hpp"
 #include "motion/clock.hpp"
+#include "motion/equilibrium.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
@@ -33,7 +35,6 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       t_end_(t_end),
       norm_(model),
       contacts_(model.contacts.size()),
-      watches_(guards_per_contact * model.contacts.size()),
       sizes_(most_levels + 3),
       guard_(most_levels + 1),
       works_(model, structure),
@@ -41,14 +42,9 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
   for (const Dof& dof : model.dofs)
     scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
   weights_ = scales_;
-  fastest_ = std::max(model.omega_max, 1.0 / t_end);
-  for (int i = 0; i < model.size(); ++i) {
-    const double m = model.mass.coeff(i, i), c = model.damping.coeff(i, i), k = model.stiffness.coeff(i, i);
-    if (m > 0.0)
-      fastest_ = std::max(fastest_, c / m);
-    else if (c > 0.0)
-      fastest_ = std::max(fastest_, k / c);
-  }
+  fastest_ =
+      std::max({model.omega_max, 1.0 / t_end,
+                diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())});
 }
 
 /// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
@@ -82,19 +78,7 @@ void ExactEngine::start(const Segment& segment) {
   growth_now_ = std::max({growth_of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   last_ = first_step();
   polynomial_ = segment.forcing->greatest_degree();
-  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
-    const GuardStart& guard = decision.guards[slot];
-    GuardWatch& watch = watches_[slot];
-    watch.leading = 0;
-    if (guard.kind == Guard::none) {
-      watch.arming = Arming::idle;
-    } else if (!guard.at_zero) {
-      watch.arming = Arming::armed;
-    } else {
-      watch.arming = guard.leading > 0 ? Arming::leaving : Arming::unknown;
-      watch.leading = std::max(guard.leading, 0);
-    }
-  }
+  arming_.start(decision.guards);
   turns_.start(decision);
   ++counters.restarts;
 }
@@ -106,8 +90,7 @@ double ExactEngine::first_step() const {
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < decision.mode.size(); ++c) {
     const ContactMotion& m = decision.after[c];
-    if (model_.contacts[c].law != Law::rigid || decision.mode[c].state != State::open || !(m.an < 0.0))
-      continue;
+    if (!model_.contacts[c].takes_impulses() || !decision.mode[c].is_open() || !(m.an < 0.0)) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);
   }
@@ -202,7 +185,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
   double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
   const State state = segment_.decision->mode[c].state;
-  if (contact.law == Law::rigid && state != State::open) N = rate * rate * rest / norm_.normal(c);
+  if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
     T = contact.kinetic_friction * N;
   else if (contact.tangential_stiffness)
@@ -216,7 +199,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
 
 FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   const GuardStart& guard = segment_.decision->guards[slot];
-  const std::size_t c = slot / guards_per_contact;
+  const std::size_t c = contact_of_guard(slot);
   contacts_[c].combine(guard.form, guard_.data());
   double power = 1.0, terms = 0.0;
   for (std::size_t k = 0; k <= degree_; ++k, power *= x) {
@@ -225,21 +208,11 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   }
   const double rounding = 4.0 * epsilon * terms;
   const double slack = rest_of(guard.form, c, x, rest) + rounding + rounding_of_guard * guard.noise;
-  switch (watches_[slot].arming) {
-    case Arming::idle:
-      return {};
-    case Arming::armed:
-      return first_fall(guard_.data(), degree_, slack);
-    case Arming::leaving: {
-      // The decision found the lower derivatives to be zero, so they are.
-      const auto m = static_cast<std::size_t>(watches_[slot].leading);
-      return first_fall(guard_.data() + m, degree_ - m, 4.0 * epsilon * std::abs(guard_[m]));
-    }
-    case Arming::unknown:
-      guard_[0] += guard.noise + slack;
-      return first_fall(guard_.data(), degree_, 0.0);
-  }
-  return {};
+  if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
+  if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
+    return first_fall(guard_.data() + m, degree_ - m, 4.0 * epsilon * std::abs(guard_[m]));
+  guard_[0] += guard.noise + slack;
+  return first_fall(guard_.data(), degree_, 0.0);
 }
 
 Step ExactEngine::advance() {
@@ -280,13 +253,13 @@ Step ExactEngine::advance() {
   std::optional<std::size_t> first;
   std::vector<std::pair<std::size_t, double>> touches;  // slot, place in the step
   double at = 1.0;
-  for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
-    if (watches_[slot].arming == Arming::idle) continue;
+  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
+    if (arming_.idle(slot)) continue;
     const FirstFall fall = fall_of(slot, x, rest);
     if (fall.kind == FirstFall::Kind::fall && (!first || fall.x < at)) {
       first = slot;
       at = fall.x;
-    } else if (fall.kind == FirstFall::Kind::touch && watches_[slot].arming == Arming::armed) {
+    } else if (fall.kind == FirstFall::Kind::touch && arming_.armed(slot)) {
       touches.emplace_back(slot, fall.x);
     }
   }
@@ -295,23 +268,21 @@ Step ExactEngine::advance() {
       warnings.push_back(
           fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
                       "at this precision, and it was taken not to",
-                      model_.contacts[slot / guards_per_contact].name,
+                      model_.contacts[contact_of_guard(slot)].name,
                       to_string(segment_.decision->guards[slot].kind), t_ + where * x * scale));
     else if (where < at && touches_ == most_touches + 1)
       warnings.emplace_back("more guards touch zero; these are not listed");
   if (first) {
     step_.kind = Step::Kind::event;
-    step_.fired = {{*first / guards_per_contact, segment_.decision->guards[*first].kind}};
+    step_.fired = {{contact_of_guard(*first), segment_.decision->guards[*first].kind}};
     x *= at;
     end = t_ + scale * x;
   } else {
-    for (std::size_t slot = 0; slot < watches_.size(); ++slot) {
-      GuardWatch& watch = watches_[slot];
-      if (watch.arming != Arming::leaving && watch.arming != Arming::unknown) continue;
+    for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
+      if (arming_.idle(slot) || arming_.armed(slot)) continue;
       const GuardStart& guard = segment_.decision->guards[slot];
-      contacts_[slot / guards_per_contact].combine(guard.form, guard_.data());
-      watch.arming =
-          value_at(guard_.data(), degree_, x) > 4.0 * guard.noise ? Arming::armed : Arming::unknown;
+      contacts_[contact_of_guard(slot)].combine(guard.form, guard_.data());
+      arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * guard.noise);
     }
   }
   step_.end = end;
@@ -359,17 +330,6 @@ void ExactEngine::integrate(double from, double to, Works& works) {
   works_.add(segment_.decision->mode, *segment_.forcing, series_, contacts_, degree_, from, to, works);
 }
 
-double ExactEngine::residual() {
-  const Point& point = end_;
-  Vector r = Vector::Zero(model_.size());
-  segment_.forcing->add_load(t_, 0, r.data());
-  r = -r;
-  structure_.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    model_.contacts[k].normal.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k)]);
-    model_.contacts[k].tangent.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k) + 1]);
-  }
-  return r.cwiseAbs().maxCoeff();
-}
+double ExactEngine::residual() { return imbalance(model_, structure_, *segment_.forcing, t_, end_); }
 
 }  // namespace signorini

@@ -11,6 +11,7 @@
 
 #include "engine/exact/flow_norm.hpp"
 #include "engine/exact/series_works.hpp"
+#include "engine/falls/arming.hpp"
 #include "engine/falls/first_fall.hpp"
 #include "engine/falls/turning_points.hpp"
 #include "engine/stepper.hpp"
@@ -40,12 +41,6 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
 
  private:
-  enum class Arming : unsigned char { idle, armed, leaving, unknown };
-  struct GuardWatch {
-    Arming arming = Arming::idle;
-    int leading = 0;  // leaving: the guard is x^leading times a polynomial that is positive at 0
-  };
-
   [[nodiscard]] double growth_of(const ModeSystemPtr& system);
   [[nodiscard]] double first_step() const;
   void weigh();
@@ -67,7 +62,7 @@ class ExactEngine final : public Stepper {
   Segment segment_;
   Series series_;
   std::vector<ContactSeries> contacts_;
-  std::vector<GuardWatch> watches_;
+  Arming arming_;
   std::vector<double> scales_, weights_, sizes_, guard_;
   double fastest_ = 0.0;        // bound on all rates of the structure, for scaling
   std::size_t polynomial_ = 0;  // greatest degree in the forcing

@@ -11,7 +11,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   const int n = model.size();
   std::vector<LineSpring> springs;
   for (const Contact& c : model.contacts) {
-    if (c.law == Law::compliant) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
     if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
   }
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));

@@ -72,14 +72,14 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     const ContactState& state = mode[c];
-    if (state.inside) {
+    if (state.state == State::inside) {
       const auto gap = [&](double t) {
         return contacts[c].value(ContactSeries::gap, (t - series.t) / series.scale);
       };
-      works.damping += inside_loss(contact, gap(from), gap(to));
+      works.damping += inside_loss(contact, state.state, gap(from), gap(to));
     }
-    if (state.state == State::open) continue;
-    if (contact.law != Law::slider) {
+    if (state.is_open()) continue;
+    if (contact.has_gap()) {
       const auto pressed = [&](double time) {
         return contacts[c].integral(ContactSeries::N, (time - series.t) / series.scale);
       };
@@ -92,14 +92,14 @@ void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& se
     if (s != 0) contacts[c].combine(slip_rate(contact, s), slide_rate_.data());
     for (std::size_t i = 0; i < nodes; ++i) {
       const double weight = h * rule.w[i];
-      if (s != 0 || moved) {
-        const double T = contacts[c].value(ContactSeries::T, x[i]);
-        if (s != 0) works.friction[c] += weight * T * value_at(slide_rate_.data(), degree, x[i]);
-        if (moved) works.surface[c] -= weight * T * forcing.surface(c, from + h * rule.x[i], 1);
-      }
-      if (contact.normal_damping == 0.0) continue;
-      const double vn = contacts[c].value(ContactSeries::vn, x[i]);
-      works.damping += weight * contact.normal_damping * vn * vn;
+      ContactPath path;
+      double T = 0.0;
+      if (s != 0 || moved) T = contacts[c].value(ContactSeries::T, x[i]);
+      if (s != 0) path.slip = value_at(slide_rate_.data(), degree, x[i]);
+      if (moved) path.surface = forcing.surface(c, from + h * rule.x[i], 1);
+      if (contact.normal_damping != 0.0)
+        path.gap = path.gap_rate = contacts[c].value(ContactSeries::vn, x[i]);
+      works.add(c, work_on(contact, state.state, 0.0, T, path), weight);
     }
   }
 }

@@ -8,32 +8,27 @@ constexpr double resolution = 1e-12;  // of a step; the engine refines on its de
 }
 
 void Watch::start(const std::vector<GuardStart>& guards, std::vector<double> levels) {
-  kinds_.clear();
+  arming_.start(guards);
   forms_.clear();
-  armed_.clear();
-  for (const GuardStart& guard : guards) {
-    kinds_.push_back(guard.kind);
-    forms_.push_back(guard.form);
-    armed_.push_back(guard.kind != Guard::none && !guard.at_zero);
-  }
+  for (const GuardStart& guard : guards) forms_.push_back(guard.form);
   levels_ = std::move(levels);
 }
 
 double Watch::leeway(std::size_t contact, const Form& form) const {
-  const std::size_t first = guards_per_contact * contact;
-  for (std::size_t slot = first; slot < std::min(first + guards_per_contact, kinds_.size()); ++slot)
-    if (kinds_[slot] != Guard::none && forms_[slot] == form) return armed_[slot] ? 0.0 : levels_[slot];
+  const std::size_t end = std::min(guard_slot(contact + 1, 0), arming_.size());
+  for (std::size_t slot = guard_slot(contact, 0); slot < end; ++slot)
+    if (!arming_.idle(slot) && forms_[slot] == form) return arming_.armed(slot) ? 0.0 : levels_[slot];
   return 0.0;
 }
 
 std::vector<Fall> Watch::check(const StepHistory& history, double limit) {
   std::vector<Fall> falls;
-  for (std::size_t slot = 0; slot < kinds_.size(); ++slot) {
-    if (kinds_[slot] == Guard::none || (armed_[slot] && history.clearly_positive(slot))) continue;
+  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
+    if (arming_.idle(slot) || (arming_.armed(slot) && history.clearly_positive(slot))) continue;
     Bernstein p = history.polynomial(slot);
-    if (armed_[slot] && p.positive()) continue;
+    if (arming_.armed(slot) && p.positive()) continue;
     double from = 0.0;
-    if (!armed_[slot]) {
+    if (!arming_.armed(slot)) {
       const double level = levels_[slot];
       const auto rise = first_reach(p, level, resolution);
       Bernstein negative = p;
@@ -44,7 +39,7 @@ std::vector<Fall> Watch::check(const StepHistory& history, double limit) {
         continue;
       }
       if (!rise) continue;
-      armed_[slot] = true;
+      arming_.arm(slot);
       from = *rise;
       Bernstein before, after;
       p.split(from, before, after);

@@ -9,7 +9,7 @@
 // show where it does not: two crossings inside one step are not missed.
 #pragma once
 
-#include "decide/decide.hpp"
+#include "engine/falls/arming.hpp"
 #include "engine/falls/step_history.hpp"
 
 namespace signorini {
@@ -20,7 +20,7 @@ inline constexpr double re_arm_tolerances = 10.0;
 
 /// Where inside the last step a guard falls.
 struct Fall {
-  std::size_t slot = 0;  ///< guards_per_contact * contact + index
+  std::size_t slot = 0;  ///< contact/slots.hpp
   double x = 0.0;        ///< 0..1 over the step
 };
 
@@ -28,7 +28,7 @@ class Watch {
  public:
   /// levels: re-arming levels, one a slot.
   void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
-  [[nodiscard]] bool armed(std::size_t slot) const { return armed_[slot]; }
+  [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
   /// How far below zero the contact's guard of this form may sink before it is an event: 0 once it is armed.
   [[nodiscard]] double leeway(std::size_t contact, const Form& form) const;
   /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.
@@ -36,9 +36,8 @@ class Watch {
   [[nodiscard]] std::vector<Fall> check(const StepHistory& history, double limit);
 
  private:
-  std::vector<Guard> kinds_;
+  Arming arming_;
   std::vector<Form> forms_;
-  std::vector<bool> armed_;
   std::vector<double> levels_;
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/friction.hpp"
 #include "engine/ida/fast_vector.hpp"
 #include "engine/ida/ida_problem.hpp"
 
@@ -55,11 +56,11 @@ struct BdfIntegrator::Memory {
     IDASetDeltaCjLSetup(ida, 0.0);
     // Rows of friction that depends on the slip rate hold as well as Newton's method has converged.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                    [](const Contact& c) { return c.stribeck_velocity.has_value(); }))
+                    [](const Contact& c) { return friction_varies(c); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
     IDASetNoInactiveRootWarn(ida);
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                    [](const Contact& c) { return c.law == Law::rigid; }))
+                    [](const Contact& c) { return c.takes_impulses(); }))
       start_part = first_step_part_of_flights;
     directions.assign(problem.slots(), -1);
     found.assign(problem.slots(), 0);
@@ -263,7 +264,7 @@ BdfStep BdfIntegrator::advance() {
     IDAGetRootInfo(m_->ida, found.data());
     for (std::size_t slot = 0; slot < found.size(); ++slot)
       if (found[slot] != 0)
-        step.fired.push_back({slot / guards_per_contact, m_->segment.decision->guards[slot].kind});
+        step.fired.push_back({contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
   }
   return step;
 }
@@ -291,15 +292,8 @@ double BdfIntegrator::residual() {
   IDAGetDky(m_->ida, end, 0, m_->y);
   N_VLinearSum(cj, m_->y, -cj, y_predicted, m_->yp);
   N_VLinearSum(1.0, m_->yp, 1.0, yp_predicted, m_->yp);
-  m_->problem.residual(end, 0.0, NV_DATA_S(m_->y), NV_DATA_S(m_->yp), NV_DATA_S(m_->work));
   m_->held_time = std::numeric_limits<double>::quiet_NaN();
-  double greatest = 0.0;
-  const Layout& layout = m_->problem.layout();
-  for (std::size_t i = 0; i < layout.velocity.size(); ++i) {
-    const auto row = layout.velocity[i] >= 0 ? static_cast<std::size_t>(layout.velocity[i]) : i;
-    greatest = std::max(greatest, std::abs(NV_DATA_S(m_->work)[row]));
-  }
-  return greatest;
+  return m_->problem.imbalance(end, NV_DATA_S(m_->y), NV_DATA_S(m_->yp));
 }
 
 }  // namespace signorini

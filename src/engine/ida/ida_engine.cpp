@@ -15,7 +15,7 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
       tolerance_(tolerance),
       powers_(model, structure),
       bdf_(model, structure, tolerance, max_order, counters),
-      history_(guards_per_contact * model.contacts.size() + powers_.count()),
+      history_(guard_count(model.contacts.size()) + powers_.count()),
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
@@ -28,7 +28,7 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, *segment_.forcing, t, point);
     for (std::size_t i = 0; i < guards_per_contact; ++i)
-      *out++ = decision.guards[guards_per_contact * k + i].form.value(m);
+      *out++ = decision.guards[guard_slot(k, i)].form.value(m);
   }
   powers_.at(*segment_.forcing, t, decision.mode, point, out);
 }
@@ -36,11 +36,8 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
 /// Below the mean of tolerance and size half of a height's digits are gone: lower flights are left to the
 /// series (04a at rtol 1e-10: hits within 3e-9 s, against 1e-7 s down to the re-arming level).
 double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
-  double size = std::abs(contact.gap), absolute = 0.0;  // a gap is a sum: its terms' tolerances add up
-  for (const auto& [dof, factor] : contact.normal.terms) {
-    size += std::abs(factor * u[dof]);
-    absolute += std::abs(factor);
-  }
+  double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
+  for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
   const double tolerance = tolerance_.rtol * size + absolute * tolerance_.displacement;
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
@@ -55,7 +52,7 @@ void IdaEngine::start(const Segment& segment) {
   std::vector<double> levels;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
     const GuardStart& guard = decision.guards[slot];
-    const ContactMotion& motion = decision.after[slot / guards_per_contact];
+    const ContactMotion& motion = decision.after[contact_of_guard(slot)];
     double level = guard.noise + re_arm_tolerances * tolerance(guard.form, motion, tolerance_);
     // The decision's zero is that of the clock, which a stiff contact makes a force above the tolerance.
     if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
@@ -106,7 +103,7 @@ Step IdaEngine::advance() {
   if (const auto event = first_event(bdf, step.resolution)) {
     step.kind = Step::Kind::event;
     step.end = event->time;
-    step.fired = {{event->slot / guards_per_contact, segment_.decision->guards[event->slot].kind}};
+    step.fired = {{contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind}};
   }
   return step;
 }
@@ -120,7 +117,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     candidates.push_back({fall.slot, step.begin + fall.x * h});
   for (const Fired& fired : step.fired)
     for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      const std::size_t slot = guards_per_contact * fired.contact + i;
+      const std::size_t slot = guard_slot(fired.contact, i);
       if (guards[slot].kind != fired.guard) continue;
       const auto same = std::find_if(candidates.begin(), candidates.end(),
                                      [&](const Located& c) { return c.slot == slot; });
@@ -152,15 +149,14 @@ void IdaEngine::integrate(double from, double to, Works& works) {
   }
   powers_.add(integrals_.data(), 1.0, works);
   const Mode& mode = segment_.decision->mode;
-  if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.inside; })) return;
+  if (std::none_of(mode.begin(), mode.end(), [](const ContactState& s) { return s.state == State::inside; }))
+    return;
   Point first, last;
   bdf_.evaluate(from, first);
   bdf_.evaluate(to, last);
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    if (mode[k].inside)
-      works.damping += inside_loss(contact, contact.gap + contact.normal.dot(first.u),
-                                   contact.gap + contact.normal.dot(last.u));
+    works.damping += inside_loss(contact, mode[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
   }
 }
 

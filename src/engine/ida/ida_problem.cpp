@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/law.hpp"
+#include "contact/friction.hpp"
+#include "motion/equilibrium.hpp"
 
 namespace signorini {
 namespace {
@@ -20,6 +21,7 @@ constexpr double rounding_floor = 20.0 * std::numeric_limits<double>::epsilon();
 
 IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance)
     : model_(model),
+      structure_(structure),
       layout_(model),
       linear_(model, structure, layout_),
       tolerance_(tolerance),
@@ -55,67 +57,41 @@ void IdaProblem::start(const Segment& segment, const Watch& watch) {
   segment_ = segment;
   watch_ = &watch;
   linear_.set_mode(segment.decision->mode);
-  stribeck_.clear();
+  nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (model_.contacts[k].stribeck_velocity && slip_sign(segment.decision->mode[k].state) != 0)
-      stribeck_.push_back(k);
+    if (slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state)) nonlinear_.push_back(k);
 }
 
-/// T + s f(s vt) N = 0 has the tangent dT + s f dN + f' N dvt.
 void IdaProblem::linearise(double t, const double* y, const double* yp) {
-  for (const std::size_t k : stribeck_) {
-    const ContactMotion m = motion(k, t, y, yp);
-    const int s = slip_sign(segment_.decision->mode[k].state);
-    Form tangent;
-    tangent.T = 1.0;
-    tangent.N = s * sliding_friction(model_.contacts[k], s * m.vt);
-    tangent.vt = sliding_friction_slope(model_.contacts[k], s * m.vt) * m.N;
-    linear_.linearise(k, tangent);
-  }
+  for (const std::size_t k : nonlinear_)
+    linear_.linearise(k, sliding_row_tangent(model_.contacts[k], slip_sign(segment_.decision->mode[k].state),
+                                             motion(k, t, y, yp)));
 }
 
 ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const double* yp,
                                  double step) const {
   const Contact& contact = model_.contacts[k];
-  const auto velocity = [&](const Combination& form) {
-    double sum = 0.0;
-    for (const auto& [dof, factor] : form.terms) {
-      const int v = layout_.velocity[static_cast<std::size_t>(dof)];
-      sum += factor * (v >= 0 ? y[v] : yp[dof]);
-    }
-    return sum;
-  };
-  const auto acceleration = [&](const Combination& form) {
-    double sum = 0.0;
-    for (const auto& [dof, factor] : form.terms)
-      if (const int v = layout_.velocity[static_cast<std::size_t>(dof)]; v >= 0) sum += factor * yp[v];
-    return sum;
-  };
+  const Forcing& forcing = *segment_.forcing;
   ContactMotion m;
   const int f = layout_.force(k);
   m.N = y[f];
   m.T = y[f + 1];
-  m.gap = contact.gap + contact.normal.dot(y);
-  m.ut = contact.tangent.dot(y) - segment_.forcing->surface(k, t, 0);
+  set_place(contact, y, forcing.surface(k, t, 0), m);
   if (step != 0.0) {
-    const auto off = [&](const Combination& form) {
-      double sum = 0.0;
-      for (const auto& [dof, factor] : form.terms)
-        if (const int v = layout_.velocity[static_cast<std::size_t>(dof)]; v >= 0)
-          sum += factor * (yp[dof] - y[v]);
-      return sum;
-    };
-    m.gap -= step * off(contact.normal);
-    m.ut -= step * off(contact.tangent);
+    const auto off = by_dof([&](std::size_t i, int v) { return v >= 0 ? yp[i] - y[v] : 0.0; });
+    m.gap -= step * contact.normal.dot(off);
+    m.ut -= step * contact.tangent.dot(off);
   }
-  m.vn = velocity(contact.normal);
-  m.vt = velocity(contact.tangent) - segment_.forcing->surface(k, t, 1);
+  const auto velocity = by_dof([&](std::size_t i, int v) { return v >= 0 ? y[v] : yp[i]; });
+  set_velocity(contact, velocity, forcing.surface(k, t, 1), m);
   const Rows& rows = linear_.rows()[k];
-  if (rows.normal.an != 0.0) m.an = acceleration(contact.normal);
-  if (rows.tangent.at != 0.0) m.at = acceleration(contact.tangent) - segment_.forcing->surface(k, t, 2);
-  if (contact.law == Law::slider) {
-    m.pressing = segment_.forcing->pressing(k, t, 0);
-    m.pressing_rate = segment_.forcing->pressing(k, t, 1);
+  if (rows.normal.an != 0.0 || rows.tangent.at != 0.0) {
+    const auto acceleration = by_dof([&](std::size_t, int v) { return v >= 0 ? yp[v] : 0.0; });
+    set_acceleration(contact, acceleration, forcing.surface(k, t, 2), m);
+  }
+  if (contact.is_pressed()) {
+    m.pressing = forcing.pressing(k, t, 0);
+    m.pressing_rate = forcing.pressing(k, t, 1);
   }
   return m;
 }
@@ -154,10 +130,9 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     r[v >= 0 ? static_cast<std::size_t>(v) : i] = forces[i];
     if (v >= 0) r[i] = yp[i] - y[v];
   }
-  for (const std::size_t k : stribeck_) {
-    const ContactMotion m = motion(k, t, y, yp);
+  for (const std::size_t k : nonlinear_) {
     const int s = slip_sign(segment_.decision->mode[k].state);
-    r[layout_.force(k) + 1] = m.T + s * sliding_friction(model_.contacts[k], s * m.vt) * m.N;
+    r[layout_.force(k) + 1] = sliding_row_value(model_.contacts[k], s, motion(k, t, y, yp));
   }
 }
 
@@ -167,17 +142,16 @@ void IdaProblem::weights(const double* y, double* w) const {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     // kn g and kt (ut - p) are differences of large numbers: no tolerance below their rounding can be met.
     const Contact& contact = model_.contacts[k];
-    double gap = std::abs(contact.gap);
-    double ut = std::abs(segment_.forcing->surface(k, segment_.decision->jet.t, 0));
-    for (const auto& [dof, factor] : contact.normal.terms) gap += std::abs(factor * y[dof]);
-    for (const auto& [dof, factor] : contact.tangent.terms) ut += std::abs(factor * y[dof]);
+    const double gap = std::abs(contact.gap) + contact.normal.magnitude(y);
+    const double surface = segment_.forcing->surface(k, segment_.decision->jet.t, 0);
+    const double ut = std::abs(surface) + contact.tangent.magnitude(y);
     const auto limit = [&](int force, double magnitude) {
       const auto i = static_cast<std::size_t>(force);
       const double rounding = rounding_floor * magnitude;
       if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
     };
-    if (contact.law == Law::compliant) limit(layout_.force(k), contact.normal_stiffness * gap);
-    if (contact.tangential_stiffness) limit(layout_.force(k) + 1, *contact.tangential_stiffness * ut);
+    limit(layout_.force(k), contact.normal_stiffness * gap);
+    limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
   }
 }
 
@@ -186,7 +160,7 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion(k, t, y, yp);
     for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      const std::size_t slot = guards_per_contact * k + i;
+      const std::size_t slot = guard_slot(k, i);
       const GuardStart& guard = segment_.decision->guards[slot];
       // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
       if (guard.kind == Guard::none || guard.form.an != 0.0 || !watch_->armed(slot)) {
@@ -211,7 +185,16 @@ void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
   }
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     for (int side = 0; side < 2; ++side)
-      y[layout_.force(k) + side] = jet.forces(static_cast<Eigen::Index>(2 * k) + side, o);
+      y[layout_.force(k) + side] = jet.forces(static_cast<Eigen::Index>(normal_slot(k)) + side, o);
+}
+
+double IdaProblem::imbalance(double t, const double* y, const double* yp) const {
+  Point point;
+  read(y, yp, point);
+  point.a.setZero(layout_.dofs);
+  for (Eigen::Index i = 0; i < point.a.size(); ++i)
+    if (const int v = layout_.velocity[static_cast<std::size_t>(i)]; v >= 0) point.a[i] = yp[v];
+  return signorini::imbalance(model_, structure_, *segment_.forcing, t, point);
 }
 
 void IdaProblem::read(const double* y, const double* yp, Point& point) const {

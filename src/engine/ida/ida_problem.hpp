@@ -22,8 +22,11 @@ class IdaProblem {
 
   /// r = F(t, y, y') with rows combined for cj = 1/step; step = 0: the rows themselves.
   void residual(double t, double step, const double* y, const double* yp, double* r);
-  /// Puts the tangents of rows that are not linear (Stribeck's friction) into the linear solver.
+  /// Puts the tangents of rows that are not linear (friction that depends on the slip rate) into the linear
+  /// solver.
   void linearise(double t, const double* y, const double* yp);
+  /// Greatest entry of the residual of the equation of motion. Unit: force.
+  [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
   /// Error weights; see below.
   void weights(const double* y, double* w) const;
   /// Scaled guards, one a slot; masked ones are +1.
@@ -33,7 +36,7 @@ class IdaProblem {
   void read(const double* y, const double* yp, Point& point) const;
 
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  [[nodiscard]] std::size_t slots() const { return guards_per_contact * model_.contacts.size(); }
+  [[nodiscard]] std::size_t slots() const { return guard_count(model_.contacts.size()); }
 
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
@@ -42,7 +45,23 @@ class IdaProblem {
   [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
                                      double step = 0.0) const;
 
+  /// f(i, v) by degree of freedom i, v the index of its velocity.
+  template <class F>
+  struct ByDof {
+    const Layout& layout;
+    F f;
+    double operator[](int i) const {
+      const auto dof = static_cast<std::size_t>(i);
+      return f(dof, layout.velocity[dof]);
+    }
+  };
+  template <class F>
+  [[nodiscard]] ByDof<F> by_dof(F f) const {
+    return {layout_, f};
+  }
+
   const Model& model_;
+  const Structure& structure_;
   Layout layout_;
   IdaLinearSolver linear_;
   const Tolerance tolerance_;
@@ -52,7 +71,7 @@ class IdaProblem {
   // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
   // structure does not dilute the few contacts.
   std::vector<double> factor_, atol_;
-  std::vector<std::size_t> stribeck_;  // contacts that slip by Stribeck's law in this segment
+  std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
   Momentum momentum_;
   std::vector<double> forces_;  // of all degrees of freedom, where some have no mass
 };

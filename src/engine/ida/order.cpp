@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/decay.hpp"
+
 namespace signorini {
 namespace {
 
@@ -22,17 +24,6 @@ struct Stability {
 constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
 
 }  // namespace
-
-double least_damping_ratio(const Model& model) {
-  if (!(model.omega_max > 0.0)) return 0.0;
-  double beta = model.beta;
-  for (const Contact& contact : model.contacts)
-    if (contact.normal_stiffness > 0.0 || contact.tangential_stiffness) beta = 0.0;
-  // (alpha / omega + beta omega) / 2 is least at sqrt(alpha / beta).
-  const double alpha = model.alpha, omega_max = model.omega_max;
-  if (alpha < beta * omega_max * omega_max) return std::sqrt(alpha * beta);
-  return 0.5 * (alpha / omega_max + beta * omega_max);
-}
 
 Order choose_order(const Model& model, const RunSpec& run) {
   if (run.max_order) return {*run.max_order, "as given"};

@@ -21,7 +21,4 @@ struct Order {
 };
 [[nodiscard]] Order choose_order(const Model& model, const RunSpec& run);
 
-/// Least damping ratio of all modes; 0 where it is not known.
-[[nodiscard]] double least_damping_ratio(const Model& model);
-
 }  // namespace signorini

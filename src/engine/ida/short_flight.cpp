@@ -2,15 +2,17 @@
 
 #include <algorithm>
 
+#include "contact/friction.hpp"
+
 namespace signorini {
 namespace {
 
 constexpr int looks = 16;  // at the height of a flight
 
-/// A series of a mode with Stribeck's friction has no known radius.
+/// A series of a mode whose friction depends on the slip rate has no known radius.
 bool is_linear(const Model& model, const Mode& mode) {
   for (std::size_t c = 0; c < mode.size(); ++c)
-    if (slip_sign(mode[c].state) != 0 && model.contacts[c].stribeck_velocity) return false;
+    if (slips_nonlinearly(model.contacts[c], mode[c].state)) return false;
   return true;
 }
 
@@ -25,7 +27,7 @@ std::optional<Step> ShortFlight::take(const Segment& segment,
   const auto leaves = [&](std::size_t slot) {
     const GuardStart& guard = decision.guards[slot];
     return guard.kind == Guard::closing && guard.at_zero && guard.leading > 0 &&
-           model_.contacts[slot / guards_per_contact].law == Law::rigid;
+           model_.contacts[contact_of_guard(slot)].takes_impulses();
   };
   bool any = false;
   for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) any = any || leaves(slot);
@@ -34,14 +36,14 @@ std::optional<Step> ShortFlight::take(const Segment& segment,
   Step step = series_->advance();
   if (step.kind != Step::Kind::event) return std::nullopt;
   for (const Fired& fired : step.fired) {
-    const std::size_t slot = guards_per_contact * fired.contact;
+    const std::size_t slot = guard_slot(fired.contact, 0);
     if (!leaves(slot)) return std::nullopt;
     const Contact& contact = model_.contacts[fired.contact];
     const double lowest = level(contact);
     Point point;
     for (int i = 1; i < looks; ++i) {
       series_->evaluate(step.begin + (step.end - step.begin) * i / looks, point);
-      if (contact.gap + contact.normal.dot(point.u) > lowest) return std::nullopt;
+      if (contact.gap_at(point.u) > lowest) return std::nullopt;
     }
   }
   return step;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/friction.hpp"
+#include "contact/transition.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
@@ -22,6 +24,7 @@ constexpr int stops = 101;            // key: comes to rest within the step, wit
 
 FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const RunSpec& run)
     : model_(model),
+      structure_(structure),
       dt_(run.dt.value()),
       relaxation_(run.relaxation),
       most_(run.max_iterations),
@@ -47,11 +50,9 @@ void FrictionIteration::begin_sides() {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion_of(contact, k, *segment_.forcing, t0_, begin_);
     Side& side = sides_[k];
-    side.state = mode_[k].state;
+    side.state = state_of_rows(mode_[k].state);
     side.pressed = std::max(0.0, -m.N);
-    side.anchor = side.state == State::stick
-                      ? mode_[k].anchor
-                      : m.ut - (contact.tangential_stiffness ? m.T / *contact.tangential_stiffness : 0.0);
+    side.anchor = side.state == State::stick ? mode_[k].anchor : slip_of(contact, m);
   }
 }
 
@@ -65,8 +66,7 @@ void FrictionIteration::put_in_force() {
     key_[k] = static_cast<int>(side.state);
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
-      tangent = {};
-      tangent.T = 1.0;
+      tangent = sliding_row(s, 0.0);  // T is a load, of the last iterate's bound
       tangent.constant = -s * contact.kinetic_friction * side.pressed;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
@@ -86,21 +86,20 @@ State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const Side& side = sides_[k];
   const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
-  if (contact.law == Law::slider ? side.state == State::open
-                                 : contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
+  if (contact.is_pressed() ? is_open(side.state)
+                           : contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
     return State::open;
-  if (!contact.has_friction()) return State::closed;
-  if (side.state == State::open) return State::stick;
+  if (!contact.has_friction() || is_open(side.state)) return state_at_rest(contact);
   const auto& kt = contact.tangential_stiffness;
   if (const int s = slip_sign(side.state); s != 0) {
     if (!kt) return s * m.vt < 0.0 ? State::stick : side.state;
     const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
-    return s * (m.ut - m.T / *kt - side.anchor) < -rounding * epsilon * terms ? State::stick : side.state;
+    return s * (slip_of(contact, m) - side.anchor) < -rounding * epsilon * terms ? State::stick : side.state;
   }
   // What slips goes on slipping; what does not is held by static friction.
   const double friction = slip_sign(mode_[k].state) != 0 ? contact.kinetic_friction : contact.static_friction;
   if (std::abs(m.T) <= friction * side.pressed) return State::stick;
-  return m.T > 0.0 ? State::slip_plus : State::slip_minus;
+  return slip_along(m.T);
 }
 
 /// Takes the states that the iterate asks for. False: they are those that it was computed with.
@@ -133,16 +132,14 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const Contact& contact = model_.contacts[k];
       Side& side = sides_[k];
-      const double N = end_.forces[static_cast<Eigen::Index>(2 * k)];
-      const double T = end_.forces[static_cast<Eigen::Index>(2 * k) + 1];
+      const double N = end_.N(k), T = end_.T(k);
       force = std::max({force, std::abs(N), std::abs(T)});
       const double by = std::max(0.0, -N) - side.pressed;
       if (slip_sign(side.state) != 0 && contact.kinetic_friction * std::abs(by) > change) {
         change = contact.kinetic_friction * std::abs(by);
         worst = k;
       }
-      double terms = std::abs(contact.gap);
-      for (const auto& [dof, factor] : contact.normal.terms) terms += std::abs(factor * end_.u[dof]);
+      const double terms = std::abs(contact.gap) + contact.normal.magnitude(end_.u);
       noise = std::max(noise, rounding * epsilon * contact.normal_stiffness * terms);
       // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
       // once.
@@ -154,7 +151,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
   }
   std::string what;
   for (std::size_t k = 0; k < sides_.size(); ++k)
-    if (sides_[k].state != mode_[k].state || k == worst)
+    if (sides_[k].state != state_of_rows(mode_[k].state) || k == worst)
       what += fmt::format("{}'{}'", what.empty() ? "" : ", ", model_.contacts[k].name);
   return fmt::format(
       "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt, more "
@@ -196,10 +193,10 @@ Step FrictionIteration::advance() {
   step.resolution = resolution_at(t1_, h);
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    changed_ = changed_ || sides_[k].state != mode_[k].state;
-    mode_[k] = {sides_[k].state, sides_[k].state == State::stick ? sides_[k].anchor : 0.0,
-                sides_[k].state == State::open && contact.normal_damping > 0.0 &&
-                    contact.gap + contact.normal.dot(end_.u) < 0.0};
+    const Side& side = sides_[k];
+    changed_ = changed_ || side.state != state_of_rows(mode_[k].state);
+    mode_[k] = {side.state, side.state == State::stick ? side.anchor : 0.0};
+    if (is_open(side.state)) mode_[k].state = let_go(contact, contact.gap_at(end_.u));
   }
   if (changed_) {
     step.kind = Step::Kind::event;
@@ -215,12 +212,8 @@ void FrictionIteration::evaluate(double t, Point& point) {
     point = end_;
     return;
   }
-  const double x = (t - t0_) / (t1_ - t0_);
-  point.u = (1.0 - x) * begin_.u + x * end_.u;
-  point.v = (1.0 - x) * begin_.v + x * end_.v;
-  point.a = (1.0 - x) * begin_.a + x * end_.a;
-  point.forces = begin_.forces;
-  if (!changed_) point.forces += x * (end_.forces - begin_.forces);
+  point = between(begin_, end_, (t - t0_) / (t1_ - t0_));
+  if (changed_) point.forces = begin_.forces;
 }
 
 /// Of the whole step, in the states that it ends with.

@@ -14,6 +14,7 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
+#include "motion/equilibrium.hpp"
 
 namespace signorini {
 
@@ -26,7 +27,9 @@ class FrictionIteration final : public Stepper {
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
-  [[nodiscard]] double residual() override { return step_.residual(*segment_.forcing, t1_, end_); }
+  [[nodiscard]] double residual() override {
+    return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+  }
   [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
@@ -45,6 +48,7 @@ class FrictionIteration final : public Stepper {
   [[nodiscard]] std::string iterate(double h, bool kept);
 
   const Model& model_;
+  const Structure& structure_;
   const double dt_, relaxation_;
   const int most_;
   NewmarkStep step_;

@@ -28,6 +28,7 @@ constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
 NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, ModeSystems& systems,
                              const RunSpec& run, const Tolerance& tolerance)
     : model_(model),
+      structure_(structure),
       consistent_(systems),
       tolerance_(tolerance),
       dt_(run.dt.value()),
@@ -35,7 +36,7 @@ NewmarkEngine::NewmarkEngine(const Model& model, const Structure& structure, Mod
       doubling_(run.step == StepControl::doubling),
       step_(model, structure),
       works_(model, structure),
-      watched_(guards_per_contact * model.contacts.size()),
+      watched_(guard_count(model.contacts.size())),
       settles_(has_massless(model)),
       regular_(dt_) {}
 
@@ -45,22 +46,17 @@ void NewmarkEngine::start(const Segment& segment) {
   t0_ = t1_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
-  for (const ContactState& s : decision.mode) key.push_back(static_cast<int>(s.state));
+  for (const State s : states_of(decision.mode)) key.push_back(static_cast<int>(s));
   step_.set(std::move(key), rows_of(model_, decision.mode), decision.system->kinds());
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
   counted_length_ = 0.0;
   second_ = false;
+  arming_.start(decision.guards);
   for (std::size_t slot = 0; slot < watched_.size(); ++slot) {
-    const GuardStart& guard = decision.guards[slot];
-    Watched& w = watched_[slot];
-    w = {};
-    w.active = guard.kind != Guard::none;
-    if (!w.active) continue;
-    w.armed = !guard.at_zero;
-    w.noise = guard.noise;
-    w.has_rate = rates_known(slot);
+    watched_[slot] = {};
+    if (!arming_.idle(slot)) watched_[slot].has_rate = rates_known(slot);
   }
   weigh(end_, t1_);
   // What sticks does not move, so that doubling sees nothing of the load on it.
@@ -71,20 +67,19 @@ void NewmarkEngine::start(const Segment& segment) {
 
 /// Does the derivative of the guard follow from displacements, velocities and accelerations?
 bool NewmarkEngine::rates_known(std::size_t slot) const {
-  const std::size_t k = slot / guards_per_contact;
+  const std::size_t k = contact_of_guard(slot);
   const Form& form = segment_.decision->guards[slot].form;
   const Rows rows = signorini::rows(model_.contacts[k], segment_.decision->mode[k]);
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
   if (form.an != 0.0 || form.at != 0.0) return false;
   if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
-  if (through_T && (rows.tangent.T != 1.0 || rows.tangent.at != 0.0)) return false;
+  if (through_T && rows.tangent.T != 1.0) return false;
   const auto massless = [&](const Combination& c) {
     return std::any_of(c.terms.begin(), c.terms.end(), [&](const auto& term) {
       return model_.dofs[static_cast<std::size_t>(term.first)].massless;
     });
   };
-  const bool accelerates = form.vn != 0.0 || form.vt != 0.0 || (through_N && rows.normal.vn != 0.0) ||
-                           (through_T && rows.tangent.vt != 0.0);
+  const bool accelerates = form.vn != 0.0 || form.vt != 0.0 || (through_N && rows.normal.vn != 0.0);
   return !accelerates || (!massless(model_.contacts[k].normal) && !massless(model_.contacts[k].tangent));
 }
 
@@ -93,9 +88,10 @@ void NewmarkEngine::weigh(const Point& point, double t) {
   const Decision& decision = *segment_.decision;
   const Forcing& forcing = *segment_.forcing;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    Watched* w = watched_.data() + guards_per_contact * k;
-    const GuardStart* guards = decision.guards.data() + guards_per_contact * k;
-    if (!w[0].active && !w[1].active && !w[2].active) continue;
+    const std::size_t first = guard_slot(k, 0), end = guard_slot(k + 1, 0);
+    bool watched = false;
+    for (std::size_t slot = first; slot < end; ++slot) watched = watched || !arming_.idle(slot);
+    if (!watched) continue;
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     ContactMotion d;  // its derivative as far as it is known
     d.gap = m.vn;
@@ -106,12 +102,14 @@ void NewmarkEngine::weigh(const Point& point, double t) {
     d.pressing_rate = forcing.pressing(k, t, 2);
     const Form &normal = step_.rows()[k].normal, &tangent = step_.rows()[k].tangent;
     d.N = -(normal.gap * d.gap + normal.vn * d.vn + normal.pressing * d.pressing);
-    d.T = -(tangent.N * d.N + tangent.ut * d.ut + tangent.vt * d.vt);
-    for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      if (!w[i].active) continue;
-      w[i].g1 = guards[i].form.value(m);
-      w[i].level = w[i].noise + rounding * epsilon * guards[i].form.magnitude(m);
-      if (w[i].has_rate) w[i].rate1 = guards[i].form.rate(d);
+    d.T = -(tangent.N * d.N + tangent.ut * d.ut);  // rates_known: no row of T has velocities
+    for (std::size_t slot = first; slot < end; ++slot) {
+      if (arming_.idle(slot)) continue;
+      const GuardStart& guard = decision.guards[slot];
+      Watched& w = watched_[slot];
+      w.g1 = guard.form.value(m);
+      w.level = guard.noise + rounding * epsilon * guard.form.magnitude(m);
+      if (w.has_rate) w.rate1 = guard.form.rate(d);
     }
   }
 }
@@ -130,7 +128,7 @@ std::optional<double> NewmarkEngine::dip_of(const Watched& w, double h) const {
 }
 
 double NewmarkEngine::value_of(std::size_t slot, double t, const Point& point) const {
-  const std::size_t k = slot / guards_per_contact;
+  const std::size_t k = contact_of_guard(slot);
   return segment_.decision->guards[slot].form.value(
       motion_of(model_.contacts[k], k, *segment_.forcing, t, point));
 }
@@ -182,9 +180,9 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
   };
   for (std::size_t s = 0; s < watched_.size(); ++s) {
     const Watched& w = watched_[s];
-    if (!w.active || (located && s == slot)) continue;
+    if (arming_.idle(s) || (located && s == slot)) continue;
     const double zero = located ? -w.level : 0.0;
-    if (!w.armed) {
+    if (!arming_.armed(s)) {
       if (w.g1 < -w.level) consider(Candidate::Kind::sink, s, 0.0);
     } else if (w.g1 <= zero) {
       consider(Candidate::Kind::fall, s, GuardPath{w.g0, w.g1}.linear());
@@ -331,9 +329,9 @@ Step NewmarkEngine::advance() {
   step.resolution = resolution_at(t1_, h);
   if (event) {
     step.kind = Step::Kind::event;
-    step.fired = {{slot / guards_per_contact, segment_.decision->guards[slot].kind}};
+    step.fired = {{contact_of_guard(slot), segment_.decision->guards[slot].kind}};
   }
-  for (Watched& w : watched_) w.armed = w.armed || w.g1 > w.level;
+  for (std::size_t s = 0; s < watched_.size(); ++s) arming_.see(s, watched_[s].g1, watched_[s].level);
   return step;
 }
 
@@ -341,7 +339,7 @@ Step NewmarkEngine::advance() {
 /// highest modes, the step redone need not pass where the step itself went.
 bool NewmarkEngine::strays(double t, const Point& point) const {
   for (std::size_t s = 0; s < watched_.size(); ++s)
-    if (watched_[s].active && value_of(s, t, point) < -watched_[s].level) return true;
+    if (!arming_.idle(s) && value_of(s, t, point) < -watched_[s].level) return true;
   return false;
 }
 
@@ -352,13 +350,8 @@ const Point& NewmarkEngine::inside(double t) {
   if (t == t0_) return begin_;
   if (t != inner_time_) {
     inner_time_ = t;
-    if (!take(t - t0_, t, false, inner_) || strays(t, inner_)) {
-      const double x = (t - t0_) / (t1_ - t0_);
-      inner_.u = (1.0 - x) * begin_.u + x * end_.u;
-      inner_.v = (1.0 - x) * begin_.v + x * end_.v;
-      inner_.a = (1.0 - x) * begin_.a + x * end_.a;
-      inner_.forces = (1.0 - x) * begin_.forces + x * end_.forces;
-    }
+    if (!take(t - t0_, t, false, inner_) || strays(t, inner_))
+      inner_ = between(begin_, end_, (t - t0_) / (t1_ - t0_));
   }
   return inner_;
 }

@@ -12,12 +12,14 @@
 // as docs/theory.md says.
 #pragma once
 
+#include "engine/falls/arming.hpp"
 #include "engine/falls/guard_path.hpp"
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 #include "motion/consistent.hpp"
+#include "motion/equilibrium.hpp"
 
 namespace signorini {
 
@@ -31,16 +33,16 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
-  [[nodiscard]] double residual() override { return step_.residual(*segment_.forcing, t1_, end_); }
+  [[nodiscard]] double residual() override {
+    return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
+  }
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
                                    std::size_t contact) const override;
 
  private:
   struct Watched {
-    bool active = false, armed = false;
     bool has_rate = false;      // the equations yield its rate
     bool dismissed = false;     // a dip in this step that the step redone did not confirm
-    double noise = 0.0;         // rounding of its value at the start
     double level = 0.0;         // below this its sign at the end of the step is rounding
     double before = 0.0;        // its value at the beginning of the step before
     double g0 = 0.0, g1 = 0.0;  // at the ends of the step
@@ -70,6 +72,7 @@ class NewmarkEngine final : public Stepper {
   Step failed(std::string reason) const;
 
   const Model& model_;
+  const Structure& structure_;
   ConsistentMotion consistent_;
   const Tolerance tolerance_;
   const double dt_;
@@ -77,6 +80,7 @@ class NewmarkEngine final : public Stepper {
   NewmarkStep step_;
   NewmarkWorks works_;
   Segment segment_;
+  Arming arming_;
   std::vector<Watched> watched_;
   bool settles_ = false;  // parts without mass: their velocities follow from the equations
   Point begin_, end_, inner_, fine_, coarse_;

@@ -79,16 +79,13 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   forcing.add_load(t1, 0, x_.data());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const Form &normal = rows_[k].normal, &tangent = rows_[k].tangent;
-    double r = normal.constant, q = tangent.constant;
-    if (normal.pressing != 0.0) r += normal.pressing * forcing.pressing(k, t1, 0);
-    if (normal.gap != 0.0) r += normal.gap * (contact.gap + contact.normal.dot(u_));
-    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(v_);
-    if (tangent.ut != 0.0) q += tangent.ut * (contact.tangent.dot(u_) - forcing.surface(k, t1, 0));
-    if (tangent.vt != 0.0) q += tangent.vt * (contact.tangent.dot(v_) - forcing.surface(k, t1, 1));
-    if (tangent.at != 0.0) q -= tangent.at * forcing.surface(k, t1, 2);
-    x_.data()[n + 2 * k] = -r;
-    x_.data()[n + 2 * k + 1] = -q;
+    ContactMotion m;  // as far as it is known
+    set_place(contact, u_, forcing.surface(k, t1, 0), m);
+    set_velocity(contact, v_, forcing.surface(k, t1, 1), m);
+    m.at = -forcing.surface(k, t1, 2);
+    m.pressing = forcing.pressing(k, t1, 0);
+    x_.data()[n + normal_slot(k)] = -rows_[k].normal.value(m);
+    x_.data()[n + tangent_slot(k)] = -rows_[k].tangent.value(m);
   }
   factors->solve(x_.data(), work_.data());
   ++solves_;
@@ -117,21 +114,8 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   // The limit itself, not what the solve leaves of it: no drift.
   for (std::size_t k = 0; k < rows_.size(); ++k)
     if (const Form& tangent = rows_[k].tangent; tangent.T == 1.0 && tangent.N != 0.0)
-      to.forces.data()[2 * k + 1] = -tangent.N * to.forces.data()[2 * k];
+      to.forces.data()[tangent_slot(k)] = -tangent.N * to.forces.data()[normal_slot(k)];
   return true;
-}
-
-double NewmarkStep::residual(const Forcing& forcing, double t, const Point& point) {
-  Vector& r = u_;
-  r.setZero();
-  forcing.add_load(t, 0, r.data());
-  r = -r;
-  structure_.add_product(point.a.data(), point.v.data(), point.u.data(), r.data());
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    model_.contacts[k].normal.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k)]);
-    model_.contacts[k].tangent.add_to(r, point.forces[static_cast<Eigen::Index>(2 * k) + 1]);
-  }
-  return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0.0;
 }
 
 void NewmarkStep::count(Counters& counters) const {

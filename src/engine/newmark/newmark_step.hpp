@@ -33,8 +33,6 @@ class NewmarkStep {
   /// factorisation is kept. False: the matrix is singular.
   [[nodiscard]] bool take(const Forcing& forcing, const Point& from, double t1, double h, bool kept,
                           Point& to);
-  /// Greatest entry of the residual of the equation of motion at t. Unit: force.
-  [[nodiscard]] double residual(const Forcing& forcing, double t, const Point& point);
   void count(Counters& counters) const;
 
  private:

@@ -1,7 +1,5 @@
 #include "engine/newmark/newmark_works.hpp"
 
-#include "contact/law.hpp"
-
 namespace signorini {
 
 void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a, double t0, const Point& b,
@@ -15,22 +13,12 @@ void NewmarkWorks::add(const Forcing& forcing, const Mode& mode, const Point& a,
   works.damping += factor * h * structure_.damping_power(v_.data());
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const auto tangent_force = static_cast<Eigen::Index>(2 * k) + 1;
-    const double T0 = a.forces[tangent_force], T1 = b.forces[tangent_force], T = 0.5 * (T0 + T1);
-    const double ds = forcing.surface(k, t1, 0) - forcing.surface(k, t0, 0);
-    if (mode[k].state != State::open && contact.normal_damping > 0.0)
-      works.damping += factor * contact.normal_damping * contact.normal.dot(v_) * contact.normal.dot(du_);
-    if (mode[k].inside)
-      works.damping += factor * inside_loss(contact, contact.gap + contact.normal.dot(a.u),
-                                            contact.gap + contact.normal.dot(b.u));
-    if (slip_sign(mode[k].state) != 0) {
-      double dp = contact.tangent.dot(du_) - ds;
-      if (contact.tangential_stiffness) dp -= (T1 - T0) / *contact.tangential_stiffness;
-      works.friction[k] += factor * T * dp;
-    }
-    works.surface[k] -= factor * T * ds;
-    if (contact.law != Law::slider)
-      works.pressing[k] -= 0.5 * factor * h * (a.forces[tangent_force - 1] + b.forces[tangent_force - 1]);
+    const State state = mode[k].state;
+    const double surface = forcing.surface(k, t1, 0) - forcing.surface(k, t0, 0);
+    const double slip = slip_of(contact, contact.tangent.dot(du_) - surface, b.T(k) - a.T(k));
+    const ContactPath path{slip, surface, contact.normal.dot(du_), contact.normal.dot(v_), h};
+    works.add(k, work_on(contact, state, 0.5 * (a.N(k) + b.N(k)), 0.5 * (a.T(k) + b.T(k)), path), factor);
+    works.damping += factor * inside_loss(contact, state, contact.gap_at(a.u), contact.gap_at(b.u));
   }
 }
 

@@ -18,7 +18,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only = spec.law != Law::slider && spec.friction.static_ == 0.0;
+  const bool measures_only = has_gap(spec.law) && spec.friction.static_ == 0.0;
   return combination(map, direction, key + ".tangent", true, measures_only);
 }
 
@@ -74,10 +74,10 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map, key);
-    if (spec.law != Law::slider) {
+    if (has_gap(spec.law)) {
       if (spec.normal) c.normal = combination(map, *spec.normal, key + ".normal", true);
       check_gap(spec, c, key);
-      if (spec.law == Law::compliant) check_compliant(spec, c, key);
+      if (has_spring(spec.law)) check_compliant(spec, c, key);
     } else {
       c.normal_force = make_history(spec.normal_force, key + ".normal_force");
       check_slider(spec, c, scene.run.t_end, key);

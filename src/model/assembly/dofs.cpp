@@ -46,9 +46,9 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
       for (const auto& [node, weight] : at.against)
         if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, key + ".against"), direction);
     };
-    if (c.normal && c.law != Law::slider) need_all(*c.normal, clean_direction(c.normal->vector));
+    if (c.normal && has_gap(c.law)) need_all(*c.normal, clean_direction(c.normal->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
-    if (c.law == Law::slider || c.friction.static_ > 0.0) {
+    if (is_pressed(c.law) || c.friction.static_ > 0.0) {
       const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
       if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
     }

@@ -218,8 +218,8 @@ Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& dam
 Holding close_contacts(const std::vector<Contact>& contacts) {
   Holding holding;
   for (const Contact& c : contacts) {
-    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
-    if (c.law == Law::rigid) holding.fixed.push_back(c.normal);
+    if (c.has_spring()) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.takes_impulses()) holding.fixed.push_back(c.normal);
   }
   return holding;
 }

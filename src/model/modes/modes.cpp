@@ -76,11 +76,11 @@ Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bo
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     if (!closed[k]) continue;
-    if (c.law == Law::compliant) holding.springs.push_back({c.normal, c.normal_stiffness});
-    if (c.law == Law::rigid) holding.fixed.push_back(c.normal);
+    if (c.has_spring()) holding.springs.push_back({c.normal, c.normal_stiffness});
+    if (c.takes_impulses()) holding.fixed.push_back(c.normal);
     if (c.tangential_stiffness && !c.tangent.terms.empty())
       holding.springs.push_back({c.tangent, *c.tangential_stiffness});
-    else if ((c.law != Law::compliant || c.shear) && !c.tangent.terms.empty())
+    else if ((!c.has_spring() || c.shear) && !c.tangent.terms.empty())
       holding.fixed.push_back(c.tangent);
   }
   return holding;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "contact/friction.hpp"
 #include "model/assembly/selection.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/modes/growth.hpp"
@@ -48,10 +49,10 @@ void check_reducible(const Scene& scene, const Model& model) {
            "frequency; leave [reduction] out");
 }
 
-bool normal_needs_mass(const Contact& c) { return c.law == Law::rigid || c.normal_damping > 0.0; }
+bool normal_needs_mass(const Contact& c) { return c.takes_impulses() || c.normal_damping > 0.0; }
 
 bool tangent_needs_mass(const Contact& c, double tangential_damping) {
-  return c.sticks_rigidly() || c.stribeck_velocity || tangential_damping > 0.0;
+  return c.sticks_rigidly() || friction_varies(c) || tangential_damping > 0.0;
 }
 
 std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
@@ -67,7 +68,7 @@ std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {
   };
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.law != Law::slider)
+    if (c.has_gap())
       add(fmt::format("normal of contact '{}'", c.name), static_cast<int>(k), true, c.normal,
           normal_needs_mass(c));
     if (c.has_friction())
@@ -163,7 +164,7 @@ void reduce_contacts(const Scene& scene, const Basis& b, Model& model) {
     c.tangent = reduced_form(c.tangent, b, tangent_mass);
     if ((normal_mass && !has_mass(c.normal, b)) || (slides && tangent_mass && !has_mass(c.tangent, b)))
       refuse(scene, fmt::format("contact '{}' has no effective mass under the cutoff; raise it", c.name));
-    if ((c.law != Law::slider && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
+    if ((c.has_gap() && c.normal.terms.empty()) || (c.has_friction() && c.tangent.terms.empty()))
       refuse(scene, fmt::format("under the cutoff nothing moves along contact '{}'; raise it", c.name));
   }
 }
@@ -173,7 +174,7 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
                const std::vector<double>& rate, Vector& q, Vector& w) {
   std::vector<std::size_t> rigid;
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    if (model.contacts[k].law == Law::rigid) rigid.push_back(k);
+    if (model.contacts[k].takes_impulses()) rigid.push_back(k);
   if (rigid.empty()) return;
   const auto count = static_cast<Eigen::Index>(rigid.size());
   Eigen::MatrixXd forms(count, b.heavy);

@@ -134,7 +134,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
   HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
   std::vector<std::size_t> rigid;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
-    if (closed[c] && problem.contacts[c].law == Law::rigid) rigid.push_back(c);
+    if (closed[c] && problem.contacts[c].takes_impulses()) rigid.push_back(c);
   if (!rigid.empty()) {  // n . (u + K^-1 n r) = -g0 at all of them, r = -N
     const auto m = static_cast<Eigen::Index>(rigid.size());
     Eigen::MatrixXd answer(problem.size(), m), give(m, m);
@@ -152,7 +152,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
   }
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
-    if (closed[c] && problem.contacts[c].law == Law::compliant)
+    if (closed[c] && problem.contacts[c].has_spring())
       state.reactions[c] = std::max(0.0, -problem.normal_stiffness(c) * problem.gap(c, state.u));
   return state;
 }

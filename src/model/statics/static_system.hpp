@@ -22,14 +22,12 @@ struct StaticProblem {
   const DofMap& map;
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
-  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].law != Law::slider; }
+  [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].has_gap(); }
   [[nodiscard]] double normal_stiffness(std::size_t k) const {
-    return contacts[k].law == Law::rigid ? own_stiffness(stiffness, contacts[k].normal)
-                                         : contacts[k].normal_stiffness;
+    return contacts[k].takes_impulses() ? own_stiffness(stiffness, contacts[k].normal)
+                                        : contacts[k].normal_stiffness;
   }
-  [[nodiscard]] double gap(std::size_t k, const Vector& u) const {
-    return contacts[k].gap + contacts[k].normal.dot(u);
-  }
+  [[nodiscard]] double gap(std::size_t k, const Vector& u) const { return contacts[k].gap_at(u); }
   /// K with the springs of the closed contacts; closed[k] is ignored for sliders.
   [[nodiscard]] SparseMatrix matrix(const std::vector<bool>& closed) const;
   /// P - sum_closed kn g0 n

@@ -105,7 +105,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
     const Contact& c = problem.contacts[k];
     const double pull =
-        c.law == Law::rigid ? -gripped.reactions[k] : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
+        c.takes_impulses() ? -gripped.reactions[k] : problem.normal_stiffness(k) * problem.gap(k, gripped.u);
     if (!problem.is_support(k) || !(pull > 0.0)) continue;
     pulls += fmt::format("{}contact '{}' would have to pull with {:.4g} {}", pulls.empty() ? "" : ", ",
                          c.name, pull, unit);
@@ -145,7 +145,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
       // A contact that only just touches may count either way.
-      const bool rigid = contacts[k].law == Law::rigid;
+      const bool rigid = contacts[k].takes_impulses();
       if (rigid && closed[k])
         next[k] = trial.reactions[k] >= 0.0;
       else if (std::abs(g) > 1e-13 * (size + std::abs(contacts[k].gap)))

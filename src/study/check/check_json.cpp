@@ -21,7 +21,7 @@ Json frequency_json(const Frequencies& frequencies) {
 
 Json contact_json(const Contact& contact, const ContactSample& sample) {
   Json json = {{"name", contact.name}, {"law", to_string(contact.law)}, {"state", to_string(sample.state)}};
-  if (contact.law != Law::slider) json["gap"] = sample.gap;
+  if (contact.has_gap()) json["gap"] = sample.gap;
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;

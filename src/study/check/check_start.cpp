@@ -46,7 +46,7 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
   Eigen::MatrixXd held(model.size(), 0);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
-    if (c.law != Law::slider || c.tangential_stiffness || c.shear || !c.has_friction()) continue;
+    if (c.has_gap() || c.tangential_stiffness || c.shear || !c.has_friction()) continue;
     const Vector t = heavy_part(model, c.tangent);
     if (t.norm() == 0.0)
       return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "

@@ -49,7 +49,7 @@ DofMap map_of(const Scene& scene) {
 
 std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSample>& contacts) {
   std::vector<bool> closed;
-  for (const ContactSample& c : contacts) closed.push_back(c.state != State::open);
+  for (const ContactSample& c : contacts) closed.push_back(!is_open(c.state));
   closed.resize(model.contacts.size(), false);
   return closed;
 }
@@ -159,7 +159,7 @@ std::vector<StiffnessRatio> stiffness_ratios(const Model& model) {
   };
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const Contact& c = model.contacts[i];
-    if (c.law == Law::compliant) add(i, true, c.normal, c.normal_stiffness);
+    if (c.has_spring()) add(i, true, c.normal, c.normal_stiffness);
     if (c.tangential_stiffness && !c.tangent.terms.empty()) add(i, false, c.tangent, *c.tangential_stiffness);
     if (c.shear) add(i, false, c.shear->body, c.shear->stiffness);
   }

@@ -38,7 +38,7 @@ std::vector<Override> capture_velocities(const Scene& scene, const Model& model)
   std::vector<Override> list;
   const double velocity = tolerance_of(model, scene.run).capture_velocity();
   for (const Contact& contact : model.contacts)
-    if (contact.law == Law::rigid && !contact.capture_velocity)
+    if (contact.takes_impulses() && !contact.capture_velocity)
       list.push_back({"contacts." + contact.name + ".capture_velocity", shortest(velocity)});
   return list;
 }

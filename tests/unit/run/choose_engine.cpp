@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "engine/ida/order.hpp"
+#include "model/decay.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;

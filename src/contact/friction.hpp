@@ -1,0 +1,63 @@
+// friction.hpp: how large the friction force is, and how it changes.
+//
+//   stick   |T| <= fs |N|
+//   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    Stribeck; f = fk without v_s
+//
+// Its tangent at a motion is dT + s f dN + f' N dvt. Along a series of the motion, with E = exp(g):
+//   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
+// so that f_0 stands in the matrix and the rest is known when N_k and T_k are asked for.
+//
+// A law of friction is these functions and its constants; all else asks here. Units: f is a number.
+#pragma once
+
+#include <vector>
+
+#include "contact/form.hpp"
+
+namespace signorini {
+
+/// Coefficient of friction at a slip rate along the slip, s p'; smooth past zero. And its derivative by the
+/// rate.
+[[nodiscard]] double sliding_friction(const Contact& contact, double along);
+[[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
+
+/// The coefficient depends on the slip rate: what slips is not linear.
+[[nodiscard]] inline bool friction_varies(const Contact& contact) {
+  return contact.stribeck_velocity.has_value();
+}
+[[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
+  return friction_varies(contact) && slip_sign(state) != 0;
+}
+
+/// The row of a contact that slips in direction s with the coefficient f: T + s f N.
+[[nodiscard]] Form sliding_row(int s, double f);
+/// The row itself, where the coefficient depends on the rate: its value at a motion, and its tangent there.
+[[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
+[[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
+
+/// Friction along a series of the motion, coefficient by coefficient.
+class FrictionRecursion {
+ public:
+  /// rate: coefficient 0 of ut'.
+  void begin(const Contact& contact, int s, double rate);
+  /// f_0, the coefficient of the row s f_0 N.
+  [[nodiscard]] double first() const { return f_[0]; }
+  /// Takes coefficient k of ut', in turn from 1 on; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
+  template <class Pressing>
+  [[nodiscard]] double next(double rate, const Pressing& pressing) {
+    extend(rate);
+    const std::size_t k = f_.size() - 1;
+    double known = 0.0;
+    for (std::size_t j = 1; j <= k; ++j) known += f_[j] * pressing(k - j);
+    return s_ * known;
+  }
+
+ private:
+  void extend(double rate);
+
+  double kinetic_ = 0.0, velocity_ = 0.0;  // fk, v_s
+  int s_ = 0;
+  std::vector<double> exponent_, f_;  // g_k, f_k
+};
+
+}  // namespace signorini

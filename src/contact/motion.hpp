@@ -1,0 +1,39 @@
+// motion.hpp: the motion of a contact from that of the structure.
+//
+//   g = g0 + n . u,   ut = t . u - s,   g' = n . v,   ut' = t . v - s',   g'' = n . a,   ut'' = t . a - s''
+//   p = ut - T / kt                     what has slipped; ut itself without tangential stiffness
+//
+// s: motion of the surface. u, v, a: anything that has operator[] by degree of freedom.
+#pragma once
+
+#include "signorini/contact.hpp"
+
+namespace signorini {
+
+template <class U>
+void set_place(const Contact& contact, const U& u, double surface, ContactMotion& m) {
+  m.gap = contact.gap_at(u);
+  m.ut = contact.tangent.dot(u) - surface;
+}
+
+template <class V>
+void set_velocity(const Contact& contact, const V& v, double surface_velocity, ContactMotion& m) {
+  m.vn = contact.normal.dot(v);
+  m.vt = contact.tangent.dot(v) - surface_velocity;
+}
+
+template <class A>
+void set_acceleration(const Contact& contact, const A& a, double surface_acceleration, ContactMotion& m) {
+  m.an = contact.normal.dot(a);
+  m.at = contact.tangent.dot(a) - surface_acceleration;
+}
+
+/// p: where the anchor of a contact lies that sticks from now on. Of increments: that of p.
+[[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
+  return contact.tangential_stiffness ? ut - T / *contact.tangential_stiffness : ut;
+}
+[[nodiscard]] inline double slip_of(const Contact& contact, const ContactMotion& m) {
+  return slip_of(contact, m.ut, m.T);
+}
+
+}  // namespace signorini

@@ -1,0 +1,62 @@
+#include "engine/falls/turning_points.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace signorini;
+
+namespace {
+
+/// A step from t = 1 of length 2 on which N has the given coefficients and all else stands still.
+struct OneForce {
+  Series series;
+  std::vector<ContactSeries> contacts{1};
+  TurningPoints turns{1};
+
+  explicit OneForce(const std::vector<double>& N) {
+    const std::size_t degree = N.size() - 1;
+    series.t = 1.0;
+    series.scale = 2.0;
+    series.u = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(degree + 3));
+    series.forces = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(degree + 1));
+    for (std::size_t k = 0; k <= degree; ++k) series.forces(0, static_cast<Eigen::Index>(k)) = N[k];
+    series.forcing.count = degree + 3;
+    series.forcing.surface.assign(degree + 3, 0.0);
+    series.forcing.pressing = series.forcing.surface;
+    contacts[0].fill(Contact{}, 0, series, degree);
+    Decision decision;
+    ContactMotion m;
+    m.N = N[0];
+    decision.after = decision.before = {m};
+    decision.slides_after.resize(1);
+    turns.start(decision);
+  }
+  const std::vector<double>& times() {
+    turns.find(contacts, series, 1.0);
+    return turns.times();
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/falls/turning_points");
+
+TEST_CASE("a peak between the ends of a step is found where it is, whatever the sign of the value") {
+  for (const double level : {0.0, -50.0, 50.0}) {
+    CAPTURE(level);
+    OneForce peak({level - 3.0 * 0.37 * 0.37, 6.0 * 0.37, -3.0});  // level - 3 (x - 0.37)^2
+    REQUIRE(peak.times().size() == 1);
+    CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + 2.0 * 0.37).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("what turns within all that was before is no extreme, nor is the end of a slope") {
+  OneForce slope({1.0, 2.0, -0.5});
+  CHECK(slope.times().empty());
+  OneForce again({3.0 - 3.0 * 0.37 * 0.37, 6.0 * 0.37, -3.0});
+  REQUIRE(again.times().size() == 1);
+  again.series.forces *= 0.5;  // a lower peak on a later step
+  again.contacts[0].fill(Contact{}, 0, again.series, 2);
+  CHECK(again.times().empty());
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,72 @@
+#include "engine/ida/ida_problem.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "behaviour/one_mass.hpp"
+#include "engine/tolerance.hpp"
+
+using namespace signorini;
+
+namespace {
+
+Model coupled(const std::string& contact) {
+  return build_model(
+      parse_scene(tests::matrix_scene("t_end = 1.0\ninitial = { u = [0.0, 0.0, 0.0], v = [0.0, 0.0, 0.0] }",
+                                      "mass = [[2.0, 0.3, 0.1], [0.3, 1.7, 0.2], [0.1, 0.2, 1.3]]\nstiffness "
+                                      "= [[70.0, -33.0, -7.0], [-33.0, 91.0, -11.0], [-7.0, -11.0, 57.0]]",
+                                      contact),
+                  "test.toml"));
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/ida/ida_problem");
+
+TEST_CASE("no tolerance of a force lies below the rounding of the difference that it is") {
+  const Model model = coupled(
+      "law = \"compliant\"\nnormal = { d0 = 1.0 }\ntangent = { d1 = 1.0 }\nnormal_stiffness = 1e12\n"
+      "tangential_stiffness = 1e11\nfriction = 0.3\ngap = 2.0");
+  Tolerance tolerance;
+  tolerance.rtol = 1e-12;
+  tolerance.displacement = tolerance.velocity = tolerance.force = 1e-12;
+  const Structure structure(model);
+  const Forcing forcing(model, 0.0, Side::after);
+  IdaProblem problem(model, structure, tolerance);
+  Decision decision;
+  decision.mode = {{State::stick, 0.0}};
+  const Watch watch;
+  problem.start({1.0, &decision, &forcing}, watch);
+  std::vector<double> y(8, 0.0), w(8);
+  y[0] = -3.0;
+  y[1] = 0.5;
+  problem.weights(y.data(), w.data());
+  // In the norm of the group of N and T, of which a step may spend a fifth.
+  const double part = std::sqrt(8.0 / 2.0) / 0.2, epsilon = std::numeric_limits<double>::epsilon();
+  CHECK(part / w[6] == doctest::Approx(20.0 * epsilon * 1e12 * 5.0));
+  CHECK(part / w[7] == doctest::Approx(20.0 * epsilon * 1e11 * 0.5));
+}
+
+TEST_CASE("the acceleration of a held degree of freedom is exactly what its contact says") {
+  const Model model =
+      coupled("law = \"rigid\"\nnormal = { d0 = 3.0 }\ntangent = { d1 = 7.0 }\nfriction = 0.3");
+  const Structure structure(model);
+  const Layout layout(model);
+  IdaLinearSolver solver(model, structure, layout);
+  solver.set_mode({{State::stick, 0.0}});
+  for (int i = 1; i <= 20; ++i) {
+    CAPTURE(i);
+    solver.set_cj(0.37 * i * i);
+    REQUIRE(solver.factor());
+    std::vector<double> b(8), x(8);
+    for (std::size_t j = 0; j < b.size(); ++j)
+      b[j] = std::sin(static_cast<double>(i) + 3.7 * static_cast<double>(j));
+    solver.solve(b.data(), x.data());
+    CHECK(x[3] == b[6] / (solver.cj() * 3.0));
+    CHECK(x[4] == b[7] / (solver.cj() * 7.0));
+  }
+}
+
+TEST_SUITE_END();

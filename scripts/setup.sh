@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs what is missing to build, test and draw (Debian 12). Asks nothing; needs root or sudo only then.
+# Installs what is missing to build, test and draw (Debian 12), and the packages that are named. Asks nothing; needs
+# root or sudo only where something is missing.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev libeigen3-dev libgsl-dev
           doctest-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libspectra-dev
-          clang-format parallel)
+          clang-format parallel "$@")
 
 installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" == installed ]]; }
 

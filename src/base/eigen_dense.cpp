@@ -12,6 +12,10 @@ EigenPairs symmetric_eigen(const Eigen::MatrixXd& a) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 namespace {
 
 /// B = D L L^T D with D = diag(B)^1/2, and C = (D L)^-1 A (D L)^-T. Scaled to a unit diagonal of B first:
@@ -40,7 +44,7 @@ struct Reduced {
 Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Reduced reduced(a, b);
   if (reduced.s.size() == 0) return {};
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(reduced.c, Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigenvalues(reduced.c);
 }
 
 EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -65,6 +69,22 @@ Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a) {
 
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.fullPivLu().solve(b);
+}
+
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.completeOrthogonalDecomposition().solve(b);
+}
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.completeOrthogonalDecomposition().solve(b);
+}
+
+Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.colPivHouseholderQr().solve(b);
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
+  return a.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 }  // namespace signorini

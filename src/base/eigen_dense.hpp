@@ -15,6 +15,7 @@ struct EigenPairs {
 };
 
 [[nodiscard]] EigenPairs symmetric_eigen(const Eigen::MatrixXd& a);
+[[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 
 /// Eigenvalues of A x = mu B x, B positive definite; empty when B is not.
 [[nodiscard]] Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
@@ -30,5 +31,15 @@ struct EigenPairs {
 
 /// A^-1 b by full pivoting; A square, not necessarily symmetric, regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// The shortest x with the least |A x - b|; A: n x m of any rank.
+[[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+[[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// Some x with the least |A x - b|: what depends on other columns takes no part; A: n x m, m <= n.
+[[nodiscard]] Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+/// m x n, for A: n x m of any rank.
+[[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
 }  // namespace signorini

@@ -1,11 +1,11 @@
 #include "decide/coulomb_problem.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/eigen_dense.hpp"
 #include "decide/complementarity.hpp"
 
 namespace signorini {
@@ -269,8 +269,7 @@ bool may_have_many(const JointProblem& p) {
       nt(i, j) = s.W(2 * i, 2 * j + 1) * p.items[at].static_friction * s.ratio[at];
     }
   const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
-  const double least =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = symmetric_eigenvalues(symmetric)[0];
   return !(least > 2.0 * nt.norm());
 }
 

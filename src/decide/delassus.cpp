@@ -1,7 +1,8 @@
 #include "decide/delassus.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
+
+#include "base/eigen_dense.hpp"
 
 namespace signorini {
 
@@ -42,7 +43,7 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     const Fixed& f = fixed[static_cast<std::size_t>(i)];
     miss[i] = f.value - f.form->dot(v);
   }
-  v += effect * W.completeOrthogonalDecomposition().solve(miss);
+  v += effect * least_squares(W, miss);
   for (const Fixed& f : fixed) set_exactly(*f.form, f.value, v);
 }
 

@@ -2,8 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <cmath>
+
+#include "base/eigen_dense.hpp"
 
 namespace signorini {
 namespace {
@@ -33,7 +34,7 @@ Vector Impacts::closed(const std::vector<std::size_t>& touching, const Delassus&
   }
   const Eigen::MatrixXd W = d.W(normals, normals);
   const Eigen::MatrixXd effect = d.effect(Eigen::all, normals);
-  u -= effect * W.completeOrthogonalDecomposition().solve(gap);
+  u -= effect * least_squares(W, gap);
   for (const std::size_t c : touching) set_exactly(model_.contacts[c].normal, -model_.contacts[c].gap, u);
   return u;
 }

@@ -2,10 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "base/eigen_dense.hpp"
 
 namespace signorini {
 namespace {
@@ -58,8 +59,7 @@ Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::Vector
     result.force[i] = noise[i] / p.W(i, i) + rounding / unit;
   }
   if (rows.empty()) return result;
-  const Eigen::MatrixXd inverse =
-      Eigen::MatrixXd(columns(rows, Eigen::all)).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudo_inverse(columns(rows, Eigen::all));
   const Eigen::VectorXd forces = inverse.cwiseAbs() * noise(rows);
   for (std::size_t i = 0; i < rows.size(); ++i)
     result.force[rows[i]] = std::max(result.force[rows[i]], forces[static_cast<Eigen::Index>(i)]);

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
+#include "base/eigen_dense.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/springs.hpp"
 
@@ -66,7 +66,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
     const Contact& contact = model.contacts[k];
     const Vector normal = full(contact.normal, model.size());
     if (!members.empty()) {
-      const Eigen::VectorXd x = normals.colPivHouseholderQr().solve(normal);
+      const Eigen::VectorXd x = combination_of_columns(normals, normal);
       if ((normal - normals * x).norm() <= dependent * normal.norm()) {
         double gap = contact.gap, size = std::abs(contact.gap);
         std::string names;

@@ -16,19 +16,19 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   }
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
   g_ = model.mass + damping / w + with_springs(model.stiffness, springs) / (w * w);
-  Eigen::SimplicialLDLT<SparseMatrix> solver(g_);
-  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0.0)) {
+  SymmetricSolver solver(g_);
+  if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
     // A stiffness or damping that is not positive: the diagonal's magnitudes make a norm all the same.
     std::vector<Eigen::Triplet<double>> diagonal;
     for (int i = 0; i < n; ++i) diagonal.emplace_back(i, i, std::max(std::abs(g_.coeff(i, i)), 1e-300));
     g_.setZero();
     g_.setFromTriplets(diagonal.begin(), diagonal.end());
-    solver.compute(g_);
+    solver = SymmetricSolver(g_);
   }
   const auto greatest = [&](const Combination& form) {
     Vector x = Vector::Zero(n);
     form.add_to(x, 1.0);
-    return std::sqrt(std::max(0.0, x.dot(Vector(solver.solve(x)))));
+    return std::sqrt(std::max(0.0, x.dot(solver.solve(x))));
   };
   for (const Contact& c : model.contacts) {
     normal_.push_back(greatest(c.normal));

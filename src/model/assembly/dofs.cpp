@@ -121,8 +121,9 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   Combination result;
   if (map.matrices()) {
     for (const auto& [name, factor] : direction.dofs) {
+      const std::string wanted = name + ".u";
       const auto it = std::find_if(map.dofs.begin(), map.dofs.end(),
-                                   [&](const Dof& d) { return d.displacement == name + ".u"; });
+                                   [&](const Dof& d) { return d.displacement == wanted; });
       if (it == map.dofs.end())
         throw SceneError(direction.place, key, fmt::format("no degree of freedom is named '{}'", name));
       if (factor != 0.0) result.terms.emplace_back(static_cast<int>(it - map.dofs.begin()), factor);

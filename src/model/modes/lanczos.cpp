@@ -1,6 +1,8 @@
 #include "model/modes/lanczos.hpp"
 
+#include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymEigsSolver.h>
+#include <Spectra/SymGEigsShiftSolver.h>
 
 #include <algorithm>
 
@@ -8,30 +10,29 @@ namespace signorini {
 namespace {
 
 /// What Spectra asks of an operator.
-class Operator {
+class Products {
  public:
   using Scalar = double;
 
-  Operator(int n, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply)
-      : n_(n), apply_(apply) {}
+  Products(Eigen::Index n, const Operator& apply) : n_(n), apply_(apply) {}
   [[nodiscard]] Eigen::Index rows() const { return n_; }
   [[nodiscard]] Eigen::Index cols() const { return n_; }
+  void set_shift(double /*already in the operator*/) {}
   void perform_op(const double* x, double* y) const {
     Eigen::Map<Eigen::VectorXd>(y, n_) = apply_(Eigen::Map<const Eigen::VectorXd>(x, n_));
   }
 
  private:
   Eigen::Index n_;
-  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply_;
+  const Operator& apply_;
 };
 
 }  // namespace
 
-double greatest_eigenvalue(int n, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                           double tolerance) {
+double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
   if (n == 1) return apply(Eigen::VectorXd::Ones(1))[0];
-  Operator op(n, apply);
-  Spectra::SymEigsSolver<Operator> solver(op, 1, std::min(n, 40));
+  Products op(n, apply);
+  Spectra::SymEigsSolver<Products> solver(op, 1, std::min(n, 40));
   solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
   solver.compute(Spectra::SortRule::LargestAlge, 1000, tolerance);
   if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvalues()[0];
@@ -44,6 +45,19 @@ double greatest_eigenvalue(int n, const std::function<Eigen::VectorXd(const Eige
     x = y / value;
   }
   return value;
+}
+
+EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
+                             const Operator& inverse) {
+  using Mass = Spectra::SparseSymMatProd<double>;
+  Products op(mass.rows(), inverse);
+  Mass product(mass);
+  Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
+                                                                                       width, -shift);
+  solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+  solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful) return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 }  // namespace signorini

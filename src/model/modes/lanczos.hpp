@@ -1,16 +1,25 @@
-// lanczos.hpp: the greatest eigenvalue of a symmetric operator that is only known by its products.
+// lanczos.hpp: extreme eigenvalues of operators that are only known by their products (Spectra).
 //
 //   A x = mu x,   A: n x n, symmetric, positive semidefinite
+//   (K + s M)^-1 M phi = phi / (omega^2 + s)
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
+
+#include "base/eigen_dense.hpp"
+#include "signorini/model.hpp"
 
 namespace signorini {
 
+using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+
 /// Relative accuracy `tolerance`. Returns the best estimate when the iteration does not settle.
-[[nodiscard]] double greatest_eigenvalue(int n,
-                                         const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                                         double tolerance);
+[[nodiscard]] double greatest_eigenvalue(int n, const Operator& apply, double tolerance);
+
+/// The `count` lowest modes as far as a single start vector finds them: omega^2 and M-orthonormal shapes, not
+/// sorted, from a Krylov space of `width`; none when the iteration does not settle. `inverse`:
+/// (K + shift M)^-1.
+[[nodiscard]] EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
+                                           const Operator& inverse);
 
 }  // namespace signorini

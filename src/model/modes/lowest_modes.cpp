@@ -1,14 +1,12 @@
 #include "model/modes/lowest_modes.hpp"
 
-#include <Spectra/MatOp/SparseSymMatProd.h>
-#include <Spectra/SymGEigsShiftSolver.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "model/assembly/selection.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/modes/lanczos.hpp"
 
 namespace signorini {
 namespace {
@@ -16,28 +14,6 @@ namespace {
 constexpr double settled = 1e-8;  // residual of a Ritz vector; the error of its omega^2 is its square
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
-
-/// Spectra's view of (K + s M)^-1, free motions taken out of the answer: rounding would fill it with them.
-class Inverse {
- public:
-  using Scalar = double;
-
-  Inverse(const SymmetricSolver& solver, const SparseMatrix& mass, const Eigen::MatrixXd& free)
-      : solver_(solver), free_(free), inertia_(mass * free) {}
-  [[nodiscard]] Eigen::Index rows() const { return free_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return free_.rows(); }
-  void set_shift(double /*already in the solver*/) {}
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<Vector> answer(y, rows());
-    answer = solver_.solve(Eigen::Map<const Vector>(x, rows()));
-    if (free_.cols() > 0) answer -= free_ * (inertia_.transpose() * answer).eval();
-  }
-
- private:
-  const SymmetricSolver& solver_;
-  const Eigen::MatrixXd& free_;
-  Eigen::MatrixXd inertia_;
-};
 
 /// The modes of `pairs` up to the limit and of the others the lowest, after sorting.
 EigenPairs sorted(const EigenPairs& pairs, double limit) {
@@ -63,18 +39,17 @@ EigenPairs join(const EigenPairs& a, const EigenPairs& b) {
   return both;
 }
 
-/// What a single start vector finds.
+/// What a single start vector finds. Free motions are taken out of each answer: rounding would fill it with
+/// them.
 EigenPairs lanczos(int count, const SymmetricSolver& solver, const SparseMatrix& mass,
                    const Eigen::MatrixXd& free, double shift, int heavies) {
-  using Product = Spectra::SparseSymMatProd<double>;
-  Inverse inverse(solver, mass, free);
-  Product product(mass);
-  Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> eigen(
-      inverse, product, count, std::min(2 * count + 20, heavies), -shift);
-  eigen.init();  // Spectra's own fixed start vector: the same scene gives the same answer
-  eigen.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
-  if (eigen.info() != Spectra::CompInfo::Successful) return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
-  return {eigen.eigenvalues(), eigen.eigenvectors()};
+  const Eigen::MatrixXd inertia = mass * free;
+  const Operator inverse = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd answer = solver.solve(x);
+    if (free.cols() > 0) answer -= free * (inertia.transpose() * answer).eval();
+    return answer;
+  };
+  return lowest_by_inverse(count, std::min(2 * count + 20, heavies), mass, shift, inverse);
 }
 
 /// Grows span {X, A X, A^2 X, ...} in the M-complement of `known`, and reads modes off it.

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -187,9 +186,7 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
     miss(i, 1) = rate[k] - normal.dot(w);
   }
   const Eigen::VectorXd s = b.mass.head(b.heavy).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd change =
-      s.asDiagonal() *
-      Eigen::MatrixXd((forms * s.asDiagonal()).completeOrthogonalDecomposition().solve(miss));
+  const Eigen::MatrixXd change = s.asDiagonal() * least_squares(forms * s.asDiagonal(), miss);
   q.head(b.heavy) += change.col(0);
   w.head(b.heavy) += change.col(1);
 }

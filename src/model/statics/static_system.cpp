@@ -1,6 +1,5 @@
 #include "model/statics/static_system.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -147,7 +146,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
       miss[i] = -problem.gap(c, state.u);
       for (Eigen::Index j = 0; j < m; ++j) give(i, j) = problem.contacts[c].normal.dot(answer.col(j));
     }
-    const Eigen::VectorXd r = give.completeOrthogonalDecomposition().solve(miss);
+    const Eigen::VectorXd r = least_squares(give, miss);
     state.u += answer * r;
     for (Eigen::Index i = 0; i < m; ++i) state.reactions[rigid[static_cast<std::size_t>(i)]] = r[i];
   }

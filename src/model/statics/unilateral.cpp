@@ -50,13 +50,12 @@ double best_step(const StaticProblem& problem, const SparseMatrix& k0, const Vec
   return 1.0;
 }
 
+/// A row of zeros is seen by no contact, whose spring would stand in it: any stiffness will do there.
 SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
-  const double largest = d.size() == 0 ? 0.0 : d.maxCoeff();
   SparseMatrix weak(k.rows(), k.cols());
   weak.reserve(Eigen::VectorXi::Constant(k.cols(), 1));
-  for (int i = 0; i < d.size(); ++i)
-    weak.insert(i, i) = 1e-12 * (d[i] > 0.0 ? d[i] : largest > 0.0 ? largest : 1.0);
+  for (int i = 0; i < d.size(); ++i) weak.insert(i, i) = 1e-12 * (d[i] > 0.0 ? d[i] : 1.0);
   return weak;
 }
 

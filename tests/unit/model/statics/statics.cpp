@@ -248,4 +248,14 @@ TEST_SUITE("unit/model/statics/statics") {
       CHECK(null_motions(build_model(s).stiffness).cols() == 0);
     }
   }
+
+  TEST_CASE("a motion that only the rounding of many entries holds is free") {
+    // K = 1 1^T holds one motion; each of its entries is off by one rounding, all of them against a second
+    // one, whose energy is that rounding times the number of its terms.
+    const int n = 100;
+    Eigen::MatrixXd k(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) k(i, j) = 1.0 + ((i + j) % 2 == 0 ? 1.0 : -1.0) * 0x1p-52;
+    CHECK(null_motions(SparseMatrix(k.sparseView())).cols() == n - 1);
+  }
 }

@@ -1,0 +1,23 @@
+#include <doctest/doctest.h>
+
+#include "unit/model/scenes.hpp"
+
+using namespace signorini;
+using namespace signorini::test;
+
+TEST_SUITE("unit/model/rigid_contacts") {
+  TEST_CASE("a gap that is the rounding of its terms is closed at the start") {
+    Scene s = empty_scene();
+    s.nodes = {{"P", 0.0, 0.0, {}}};
+    s.masses = {{"P", 1.0, 0.0, {}}};
+    s.initial.components = {{"P", "uy", -0.3, {}}};
+    ContactSpec c = support_contact("ground", "P", 0.0, 0.0);
+    c.law = Law::rigid;
+    c.tangential_stiffness.reset();
+    c.gap = 0.1 + 0.2;  // one rounding above 0.3
+    s.contacts = {c};
+    REQUIRE(c.gap - 0.3 > 0.0);
+    const Model model = build_model(s);
+    CHECK(model.contacts[0].gap + model.contacts[0].normal.dot(model.u0) == 0.0);
+  }
+}

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "decide/decide.hpp"
+#include "decide/decider.hpp"
+#include "decide/driven_states.hpp"
 #include "engine/falls/bernstein.hpp"
 #include "engine/falls/step_history.hpp"
 #include "engine/newmark/newmark_step.hpp"

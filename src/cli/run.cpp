@@ -13,6 +13,7 @@
 #include "cli/terminal.hpp"
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
+#include "result/trace_writer.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::cli {
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 struct RunOptions {
   std::string scene, engine;
-  std::optional<std::string> directory;
+  std::optional<std::string> directory, trace;
   std::vector<std::string> settings;
   bool force = false, quiet = false, json = false, no_plots = false;
 };
@@ -56,6 +57,9 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const fs::path path = directory_of(options);
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
+  const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
+  RoundListener listener;
+  if (trace) listener = [&](const Round& round) { trace->write(round); };
   RunDirectory directory(path, scene, model, {options.force, command_line});
 
   const bool tables = !options.quiet && !options.json;
@@ -64,7 +68,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   {
     Live live(directory, model, scene.run.t_end, !options.quiet);
     try {
-      report = simulate(model, scene.run, live);
+      report = simulate(model, scene.run, live, listener);
     } catch (const FileError& error) {
       if (!directory.started()) throw;
       directory.abandon(live.reached(), error.what());
@@ -109,6 +113,8 @@ void add_run(Program& program) {
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");
   add_settings(*command, options->settings);
+  command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
+      ->option_text("FILE");
   command->add_flag("--force", options->force,
                     "replace an earlier run in the directory, unless the scene lies in it");
   command->add_flag("--quiet", options->quiet, "print errors only");

@@ -10,7 +10,7 @@
 //
 // Forces and velocities are continuous for contacts with elements, so each decides alone from its own
 // one-sided derivatives; contacts without tangential stiffness are tried this way too, and the caller
-// repeats until every guard of the new states holds (decide/decide.hpp).
+// repeats until every guard of the new states holds (decide/decider.hpp).
 // Source: Lukashevich et al. 2021, section on contact states; the closing rule is the apex of the cone.
 #pragma once
 

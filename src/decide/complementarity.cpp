@@ -60,7 +60,7 @@ class Tableau {
     for (Eigen::Index i = 0; i < n_; ++i)
       if (i != row && t_(i, column) != 0.0) {
         const double factor = t_(i, column);
-        t_.row(i) -= factor * t_.row(row);
+        for (Eigen::Index j = 0; j < t_.cols(); ++j) t_(i, j) = difference(t_(i, j), factor * t_(row, j));
         t_(i, column) = 0.0;
       }
     return std::exchange(basis_[static_cast<std::size_t>(row)], column);
@@ -75,6 +75,11 @@ class Tableau {
   }
 
  private:
+  /// a - b; what an elimination leaves of a zero is zero, or ties would be broken by rounding.
+  [[nodiscard]] static double difference(double a, double b) {
+    const double d = a - b;
+    return std::abs(d) <= 64.0 * epsilon * std::max(std::abs(a), std::abs(b)) ? 0.0 : d;
+  }
   /// Row i over its pivot before row j over its own: right side first, then the columns of w, which hold the
   /// inverse of the basis.
   [[nodiscard]] bool lexicographically_less(Eigen::Index i, double pi, Eigen::Index j, double pj) const {

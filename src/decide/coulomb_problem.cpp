@@ -1,6 +1,7 @@
 #include "decide/coulomb_problem.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +12,7 @@
 namespace signorini {
 namespace {
 
-using Kind = JointItem::Kind;
+using Kind = CoulombItem::Kind;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -32,7 +33,7 @@ struct Scaled {
   std::vector<double> ratio;  // unit of the normal over that of the tangent: f l is a force along t
 };
 
-Scaled scaled(const JointProblem& p) {
+Scaled scaled(const CoulombProblem& p) {
   Scaled s;
   const Index n = p.b.size();
   s.unit = VectorXd::Ones(n);
@@ -45,14 +46,14 @@ Scaled scaled(const JointProblem& p) {
   return s;
 }
 
-double friction(const JointItem& item, bool kinetic) {
+double friction(const CoulombItem& item, bool kinetic) {
   return kinetic ? item.kinetic_friction : item.static_friction;
 }
 
 /// The linear complementarity problem: forces = F z, given ones apart; w = rows of response, or of cones.
-std::optional<VectorXd> by_lemke(const JointProblem& p, const Scaled& s, const std::vector<bool>& kinetic) {
+std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const std::vector<bool>& kinetic) {
   Index size = 0;
-  for (const JointItem& item : p.items)
+  for (const CoulombItem& item : p.items)
     size += item.kind == Kind::frictional ? 4 : item.kind == Kind::pressed ? 3 : 1;
   const Index n = s.b.size();
   MatrixXd F = MatrixXd::Zero(n, size);  // forces of a unit of each variable
@@ -61,7 +62,7 @@ std::optional<VectorXd> by_lemke(const JointProblem& p, const Scaled& s, const s
   VectorXd h = VectorXd::Zero(size), given = VectorXd::Zero(n);
   Index at = 0;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     const Index ni = normal(i), ti = tangent(i);
     // In scaled units: force_t = physical * unit_t; f l * unit_t = f (l unit_n) unit_t / unit_n.
     const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
@@ -111,7 +112,7 @@ std::optional<VectorXd> by_lemke(const JointProblem& p, const Scaled& s, const s
 /// What an item may do, for trying all states. sign: of slipping.
 enum class Try : unsigned char { open, stick, slip_plus, slip_minus };
 
-std::vector<Try> choices(const JointItem& item) {
+std::vector<Try> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
       return {Try::open, Try::stick};  // stick: closed
@@ -128,7 +129,7 @@ std::vector<Try> choices(const JointItem& item) {
 }
 
 /// The forces (scaled) of one combination of states, if it fulfils all conditions.
-std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const std::vector<Try>& states,
+std::optional<VectorXd> forces_of(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
                                   const std::vector<bool>& kinetic) {
   const Index n = s.b.size();
   const Index m = static_cast<Index>(p.items.size());
@@ -136,7 +137,7 @@ std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const 
   MatrixXd A = MatrixXd::Zero(n, n);
   VectorXd c = VectorXd::Zero(n);
   for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     const Index ni = normal(i), ti = tangent(i);
     const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
@@ -166,7 +167,7 @@ std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const 
   if (!((A * x - c).cwiseAbs().maxCoeff() <= zero)) return std::nullopt;
   const VectorXd r = s.b + s.W * x;
   for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     const Index ni = normal(i), ti = tangent(i);
     const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
@@ -185,22 +186,45 @@ std::optional<VectorXd> forces_of(const JointProblem& p, const Scaled& s, const 
   return x;
 }
 
-JointSolution finished(const JointProblem& p, const Scaled& s, const VectorXd& force,
-                       std::vector<bool> kinetic) {
-  JointSolution solution;
+CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorXd& force,
+                         std::vector<bool> kinetic) {
+  CoulombSolution solution;
   solution.force = s.unit.cwiseInverse().cwiseProduct(force);
   solution.response = p.b + p.W * solution.force;
   solution.kinetic = std::move(kinetic);
   return solution;
 }
 
+/// Does x (scaled) fulfil all conditions? Lemke's method ends with a basis that may have come of a tie.
+bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const std::vector<bool>& kinetic) {
+  const VectorXd r = s.b + s.W * x;
+  const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
+  const auto complementary = [&](double a, double b) { return std::abs(std::min(a, b)) <= zero; };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    const CoulombItem& item = p.items[i];
+    const double xt = x[tangent(i)], rt = r[tangent(i)];
+    if (item.kind == Kind::limit) {
+      if (!complementary(item.sign * xt, item.sign * rt)) return false;
+      continue;
+    }
+    if (item.kind != Kind::pressed && !complementary(x[normal(i)], r[normal(i)])) return false;
+    if (item.kind == Kind::normal) continue;
+    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[normal(i)] : x[normal(i)];
+    const double most = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i] * l;
+    const int sign = item.kind == Kind::sliding ? item.sign : rt > zero ? 1 : rt < -zero ? -1 : 0;
+    const bool good = sign == 0 ? std::abs(xt) <= most + zero : std::abs(xt + sign * most) <= zero;
+    if (!good) return false;
+  }
+  return true;
+}
+
 /// Items that slip although their coefficient is still the static one.
-bool mark_slipping(const JointProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
+bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
   const double zero = misses * (s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff());
   bool changed = false;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     if (kinetic[i] || item.static_friction == item.kinetic_friction) continue;
     if (item.kind != Kind::frictional && item.kind != Kind::pressed) continue;
     const double l = item.kind == Kind::pressed ? item.pressing : x[normal(i)];
@@ -211,13 +235,13 @@ bool mark_slipping(const JointProblem& p, const Scaled& s, const VectorXd& x, st
 
 }  // namespace
 
-std::vector<JointSolution> all_solutions(const JointProblem& p) {
-  std::vector<JointSolution> found;
+std::vector<CoulombSolution> all_solutions(const CoulombProblem& p) {
+  std::vector<CoulombSolution> found;
   if (p.items.size() > most_enumerated) return found;
   const Scaled s = scaled(p);
   std::vector<std::vector<Try>> options;
   std::size_t combinations = 1;
-  for (const JointItem& item : p.items) {
+  for (const CoulombItem& item : p.items) {
     options.push_back(choices(item));
     combinations *= options.back().size();
   }
@@ -233,8 +257,8 @@ std::vector<JointSolution> all_solutions(const JointProblem& p) {
     }
     const auto x = forces_of(p, s, states, kinetic);
     if (!x) continue;
-    JointSolution solution = finished(p, s, *x, kinetic);
-    const bool known = std::any_of(found.begin(), found.end(), [&](const JointSolution& other) {
+    CoulombSolution solution = finished(p, s, *x, kinetic);
+    const bool known = std::any_of(found.begin(), found.end(), [&](const CoulombSolution& other) {
       const VectorXd inverse = s.unit.cwiseInverse();
       const double size =
           s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
@@ -246,20 +270,25 @@ std::vector<JointSolution> all_solutions(const JointProblem& p) {
   return found;
 }
 
-std::optional<JointSolution> solve(const JointProblem& p) {
+std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   std::vector<bool> kinetic(p.items.size(), false);
   for (;;) {  // ends: each round marks one more item
     const auto x = by_lemke(p, s, kinetic);
-    if (!x) break;
+    if (!x || !fulfils(p, s, *x, kinetic)) break;
     if (!mark_slipping(p, s, *x, kinetic)) return finished(p, s, *x, kinetic);
   }
-  std::vector<JointSolution> all = all_solutions(p);
+  std::vector<CoulombSolution> all = all_solutions(p);
   if (all.empty()) return std::nullopt;
   return all.front();
 }
 
-bool may_have_many(const JointProblem& p) {
+double condition_of(const CoulombProblem& p) {
+  const VectorXd values = Eigen::JacobiSVD<MatrixXd>(scaled(p).W).singularValues();
+  return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
+}
+
+bool may_have_many(const CoulombProblem& p) {
   const Scaled s = scaled(p);
   const auto m = static_cast<Index>(p.items.size());
   MatrixXd nt(m, m);  // what friction at its limit does to the normal responses

@@ -1,4 +1,5 @@
-// joint_problem.hpp: which of several contacts open, stick or slip, where each one's force moves all others.
+// coulomb_problem.hpp: which of several contacts open, stick or slip, where each one's force moves all
+// others.
 //
 //   r = b + W f,   r = (rn_1, rt_1, rn_2, ...),   f = (l_1, k_1, l_2, ...)
 //   0 <= l  _|_  rn >= 0,      |k| <= f l,  k = -f l sign(rt) where rt is not 0        (frictional)
@@ -16,7 +17,7 @@
 
 namespace signorini {
 
-struct JointItem {
+struct CoulombItem {
   enum class Kind : unsigned char {
     normal,      ///< without friction: l alone
     sliding,     ///< it moves along sign already: k = -sign f l
@@ -29,27 +30,30 @@ struct JointItem {
   int sign = 0;           ///< sliding, limit
 };
 
-struct JointProblem {
+struct CoulombProblem {
   Eigen::MatrixXd W;  ///< 2m x 2m, symmetric positive semidefinite but for `limit`
   Eigen::VectorXd b;  ///< 2m
-  std::vector<JointItem> items;
+  std::vector<CoulombItem> items;
 };
 
-struct JointSolution {
+struct CoulombSolution {
   Eigen::VectorXd force, response;  ///< 2m each
   std::vector<bool> kinetic;        ///< items whose slipping has begun: f is the kinetic coefficient
 };
 
 /// A solution by Lemke's method, then, for up to `most_enumerated` items, by trying all states. Nothing:
 /// none was found.
-[[nodiscard]] std::optional<JointSolution> solve(const JointProblem& problem);
+[[nodiscard]] std::optional<CoulombSolution> solve(const CoulombProblem& problem);
 
 inline constexpr std::size_t most_enumerated = 6;
 
 /// All solutions that differ in their response, by trying all states; at most `most_enumerated` items.
-[[nodiscard]] std::vector<JointSolution> all_solutions(const JointProblem& problem);
+[[nodiscard]] std::vector<CoulombSolution> all_solutions(const CoulombProblem& problem);
+
+/// Of W, in units that make its diagonal one: greatest over least singular value.
+[[nodiscard]] double condition_of(const CoulombProblem& problem);
 
 /// False: friction couples tangent to normal too weakly for more than one solution.
-[[nodiscard]] bool may_have_many(const JointProblem& problem);
+[[nodiscard]] bool may_have_many(const CoulombProblem& problem);
 
 }  // namespace signorini

@@ -1,10 +1,11 @@
-// States that follow from displacements, velocities and the forcing alone: at the start, and where the
-// forcing is not smooth.
+#include "decide/driven_states.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "decide/decide.hpp"
+#include "contact/motion.hpp"
+#include "contact/transition.hpp"
 
 namespace signorini {
 namespace {
@@ -29,7 +30,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
       s.state = state_at_rest(contact);
       if (contact.tangential_stiffness) {
         s.anchor = slip_of(contact, m.ut, contact.initial_shear);
-      } else if (contact.has_friction() && !contact.shear) {
+      } else if (contact.sticks_rigidly()) {
         const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
         if (std::abs(m.vt) >
             8.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, t))
@@ -41,15 +42,15 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
   return mode;
 }
 
-void Decider::follow_forcing(const Instant& instant, const Forcing& before, const Forcing& after,
-                             const std::vector<ContactMotion>& motion, Mode& mode) const {
+void follow_forcing(const Model& model, const Instant& instant, const Forcing& before, const Forcing& after,
+                    const std::vector<ContactMotion>& motion, Mode& mode) {
   const double t = instant.t;
   for (std::size_t c = 0; c < mode.size(); ++c) {
-    const Contact& contact = model_.contacts[c];
+    const Contact& contact = model.contacts[c];
     ContactState& s = mode[c];
     const bool massless = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),
-        [&](const auto& term) { return model_.dofs[static_cast<std::size_t>(term.first)].massless; });
+        [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
     // Where ut itself may jump, the slip of that instant is found as in statics: from the anchor that the
     // motion before has left, elastic first, then slip in the direction in which the limit is exceeded.
     if (massless && slip_sign(s.state) != 0 && contact.tangential_stiffness)
@@ -65,13 +66,13 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
     // Smooth tables meet to the rounding of their pieces: no jump.
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
-    if (std::abs(surface_jump) <= same_speed * (speed + model_.scales.velocity)) surface_jump = 0.0;
+    if (std::abs(surface_jump) <= same_speed * (speed + model.scales.velocity)) surface_jump = 0.0;
     const bool moves = std::abs(m.vt) > 64.0 * std::numeric_limits<double>::epsilon() *
                                                 (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
                                             after.surface_rounding(c, t);
     if (s.is_open()) {
       s = {state_at_rest(contact), m.ut};
-      if (contact.has_friction() && !contact.tangential_stiffness && moves) s.state = slip_along(m.vt);
+      if (contact.sticks_rigidly() && moves) s.state = slip_along(m.vt);
       continue;
     }
     const int sign = slip_sign(s.state);
@@ -79,7 +80,7 @@ void Decider::follow_forcing(const Instant& instant, const Forcing& before, cons
       // T is continuous when the compression jumps up: below its new limit the contact sticks.
       if (sign != 0 && after.pressing(c, t, 0) > before.pressing(c, t, 0))
         s = {State::stick, slip_of(contact, m.ut, motion[c].T)};
-    } else if (contact.has_friction() && surface_jump != 0.0 && moves) {
+    } else if (contact.sticks_rigidly() && surface_jump != 0.0 && moves) {
       s.state = slip_along(m.vt);
     }
   }

@@ -44,6 +44,93 @@ Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching
   return system ? closed(touching, delassus(model_, *system, touching), u) : u;
 }
 
+Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& system,
+                           const std::vector<std::size_t>& touching, const Vector& v) const {
+  const auto m = static_cast<Eigen::Index>(touching.size());
+  Hit hit{delassus(model_, system, touching), {}, Eigen::VectorXd(2 * m), {}, Eigen::VectorXd(m), {}};
+  hit.problem.W = hit.d.W;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const std::size_t c = touching[static_cast<std::size_t>(i)];
+    const Contact& contact = model_.contacts[c];
+    hit.before[2 * i] = contact.normal.dot(v);
+    hit.before[2 * i + 1] = contact.tangent.dot(v) - forcing.surface(c, t, 1);
+    hit.restitution[i] = contact.restitution;
+    CoulombItem item;
+    item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
+    item.static_friction = contact.static_friction;
+    item.kinetic_friction = contact.kinetic_friction;
+    hit.problem.items.push_back(item);
+  }
+  return hit;
+}
+
+/// Velocities after; rebounds slower than capture_velocity are none. False: there is no solution.
+bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const {
+  const Eigen::Index m = hit.restitution.size();
+  for (bool captured = true; captured;) {  // ends: each round captures one more contact
+    captured = false;
+    hit.problem.b = hit.before;
+    for (Eigen::Index i = 0; i < m; ++i)
+      hit.problem.b[2 * i] += hit.restitution[i] * std::min(hit.before[2 * i], 0.0);
+    hit.solution = signorini::solve(hit.problem);
+    if (!hit.solution) return false;
+    hit.after = hit.before + hit.d.W * hit.solution->force;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
+      const double slowest = contact.capture_velocity.value_or(capture_velocity_);
+      if (hit.restitution[i] == 0.0 || !(hit.before[2 * i] < 0.0) || hit.after[2 * i] >= slowest) continue;
+      hit.restitution[i] = 0.0;
+      captured = true;
+    }
+  }
+  return true;
+}
+
+/// Velocities that the solution makes known are exact.
+void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching,
+                           Hit& hit, Impact& impact) const {
+  const double size = hit.before.cwiseAbs().maxCoeff();
+  std::vector<Fixed> fixed;
+  for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::size_t c = touching[at];
+    const double n = hit.solution->force[2 * i], k = hit.solution->force[2 * i + 1];
+    if (!(n > 0.0)) continue;
+    hit.after[2 * i] = -hit.restitution[i] * std::min(hit.before[2 * i], 0.0);
+    fixed.push_back({2 * i, &model_.contacts[c].normal, hit.after[2 * i]});
+    impact.impulses[c].rests = hit.after[2 * i] == 0.0;
+    if (!model_.contacts[c].has_friction()) continue;
+    const CoulombItem& item = hit.problem.items[at];
+    const double f = hit.solution->kinetic[at] ? item.kinetic_friction : item.static_friction;
+    const double slip = std::abs(hit.after[2 * i + 1]);
+    if (slip > at_rest * size && (slip > rounded_rest * size || std::abs(k) > inside_cone * f * n)) continue;
+    hit.after[2 * i + 1] = 0.0;
+    fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
+    impact.impulses[c].sticks = true;
+  }
+  settle(hit.d, fixed, impact.v);
+}
+
+/// Impulses and energies.
+void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
+                      const std::vector<std::size_t>& touching, const Hit& hit, Impact& impact) const {
+  double greatest = 0.0;
+  for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
+    const std::size_t c = touching[static_cast<std::size_t>(i)];
+    const double n = hit.solution->force[2 * i], k = hit.solution->force[2 * i + 1];
+    Impulse& impulse = impact.impulses[c];
+    impulse.hit = n > 0.0 && mode[c].is_open();
+    impulse.normal = n;
+    impulse.tangent = k;
+    const double normal = 0.5 * n * (hit.before[2 * i] + hit.after[2 * i]);
+    const double tangent = 0.5 * k * (hit.before[2 * i + 1] + hit.after[2 * i + 1]);
+    impact.loss -= normal + tangent;
+    impact.surface_work += k * forcing.surface(c, t, 1);
+    greatest = std::max({greatest, std::abs(n * hit.before[2 * i]), std::abs(k * hit.before[2 * i + 1])});
+  }
+  impact.gains = impact.loss < -1e-9 * greatest;
+}
+
 Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
                       const std::vector<std::size_t>& touching, const Vector& u, const Vector& v) {
   Impact impact;
@@ -51,86 +138,24 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
   impact.impulses.resize(model_.contacts.size());
   const ModeSystemPtr system = systems_.of(released(model_, mode));
   if (!system) {
-    impact.reason = "the mass matrix is singular";
+    impact.refusal = {Refusal::Kind::singular, "the mass matrix is singular", touching};
     return impact;
   }
-  const Delassus d = delassus(model_, *system, touching);
-  const auto m = static_cast<Eigen::Index>(touching.size());
-  Eigen::VectorXd before(2 * m), restitution(m);
-  JointProblem problem{d.W, {}, {}};
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
-    before[2 * i] = contact.normal.dot(v);
-    before[2 * i + 1] = contact.tangent.dot(v) - forcing.surface(touching[static_cast<std::size_t>(i)], t, 1);
-    restitution[i] = contact.restitution;
-    JointItem item;
-    item.kind = contact.has_friction() ? JointItem::Kind::frictional : JointItem::Kind::normal;
-    item.static_friction = contact.static_friction;
-    item.kinetic_friction = contact.kinetic_friction;
-    problem.items.push_back(item);
+  Hit hit = meet(forcing, t, *system, touching, v);
+  if (!rebound(touching, hit)) {
+    impact.refusal = {Refusal::Kind::impact,
+                      "the impact has no solution: its complementarity problem ends in a ray", touching,
+                      condition_of(hit.problem)};
+    for (std::size_t i = 0; i < touching.size(); ++i)
+      impact.refusal.reason += fmt::format(
+          "; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
+          hit.before[static_cast<Eigen::Index>(2 * i)], hit.before[static_cast<Eigen::Index>(2 * i) + 1]);
+    return impact;
   }
-  std::optional<JointSolution> solution;
-  Eigen::VectorXd after;
-  for (bool captured = true; captured;) {  // ends: each round captures one more contact
-    captured = false;
-    problem.b = before;
-    for (Eigen::Index i = 0; i < m; ++i) problem.b[2 * i] += restitution[i] * std::min(before[2 * i], 0.0);
-    solution = signorini::solve(problem);
-    if (!solution) {
-      impact.reason = "the impact has no solution: its complementarity problem ends in a ray";
-      for (Eigen::Index i = 0; i < m; ++i)
-        impact.reason += fmt::format("; '{}': vn = {:.6g}, vt = {:.6g}",
-                                     model_.contacts[touching[static_cast<std::size_t>(i)]].name,
-                                     before[2 * i], before[2 * i + 1]);
-      return impact;
-    }
-    after = before + d.W * solution->force;
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
-      const double slowest = contact.capture_velocity.value_or(capture_velocity_);
-      if (restitution[i] == 0.0 || !(before[2 * i] < 0.0) || after[2 * i] >= slowest) continue;
-      restitution[i] = 0.0;
-      captured = true;
-    }
-  }
-  impact.solved = true;
-  impact.u = closed(touching, d, u);
-  impact.v += d.effect * solution->force;
-  const double size = before.cwiseAbs().maxCoeff();
-  std::vector<Fixed> fixed;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const std::size_t c = touching[static_cast<std::size_t>(i)];
-    const double n = solution->force[2 * i], k = solution->force[2 * i + 1];
-    if (!(n > 0.0)) continue;
-    after[2 * i] = -restitution[i] * std::min(before[2 * i], 0.0);
-    fixed.push_back({2 * i, &model_.contacts[c].normal, after[2 * i]});
-    impact.impulses[c].rests = after[2 * i] == 0.0;
-    if (!model_.contacts[c].has_friction()) continue;
-    const JointItem& item = problem.items[static_cast<std::size_t>(i)];
-    const double f =
-        solution->kinetic[static_cast<std::size_t>(i)] ? item.kinetic_friction : item.static_friction;
-    const double slip = std::abs(after[2 * i + 1]);
-    if (slip > at_rest * size && (slip > rounded_rest * size || std::abs(k) > inside_cone * f * n)) continue;
-    after[2 * i + 1] = 0.0;
-    fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
-    impact.impulses[c].sticks = true;
-  }
-  settle(d, fixed, impact.v);
-  double greatest = 0.0;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const std::size_t c = touching[static_cast<std::size_t>(i)];
-    const double n = solution->force[2 * i], k = solution->force[2 * i + 1];
-    Impulse& impulse = impact.impulses[c];
-    impulse.hit = n > 0.0 && mode[c].is_open();
-    impulse.normal = n;
-    impulse.tangent = k;
-    const double normal = 0.5 * n * (before[2 * i] + after[2 * i]);
-    const double tangent = 0.5 * k * (before[2 * i + 1] + after[2 * i + 1]);
-    impact.loss -= normal + tangent;
-    impact.surface_work += k * forcing.surface(c, t, 1);
-    greatest = std::max({greatest, std::abs(n * before[2 * i]), std::abs(k * before[2 * i + 1])});
-  }
-  impact.gains = impact.loss < -1e-9 * greatest;
+  impact.u = closed(touching, hit.d, u);
+  impact.v += hit.d.effect * hit.solution->force;
+  come_to_rest(forcing, t, touching, hit, impact);
+  balance(forcing, t, mode, touching, hit, impact);
   return impact;
 }
 

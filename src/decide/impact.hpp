@@ -15,6 +15,7 @@
 #include "decide/delassus.hpp"
 #include "motion/forcing.hpp"
 #include "motion/mode_systems.hpp"
+#include "signorini/trace.hpp"
 
 namespace signorini {
 
@@ -26,8 +27,7 @@ struct Impulse {
 };
 
 struct Impact {
-  bool solved = false;
-  std::string reason;             ///< why not
+  Refusal refusal;                ///< why there is none
   Vector u, v;                    ///< after; g = 0 at all that touch
   std::vector<Impulse> impulses;  ///< one a contact of the model
   double loss = 0.0;              ///< energy that it dissipates
@@ -47,6 +47,20 @@ class Impacts {
                              const std::vector<std::size_t>& touching, const Vector& u, const Vector& v);
 
  private:
+  /// What all that touch bring along, and what becomes of it; rows as those of Delassus.
+  struct Hit {
+    Delassus d;
+    CoulombProblem problem;
+    Eigen::VectorXd before, after, restitution;
+    std::optional<CoulombSolution> solution;
+  };
+  [[nodiscard]] Hit meet(const Forcing& forcing, double t, const ModeSystem& system,
+                         const std::vector<std::size_t>& touching, const Vector& v) const;
+  [[nodiscard]] bool rebound(const std::vector<std::size_t>& touching, Hit& hit) const;
+  void come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching, Hit& hit,
+                    Impact& impact) const;
+  void balance(const Forcing& forcing, double t, const Mode& mode, const std::vector<std::size_t>& touching,
+               const Hit& hit, Impact& impact) const;
   [[nodiscard]] Vector closed(const std::vector<std::size_t>& touching, const Delassus& d, Vector u) const;
 
   const Model& model_;

@@ -11,19 +11,30 @@
 namespace signorini {
 namespace {
 
-using Kind = JointItem::Kind;
+using Kind = CoulombItem::Kind;
 
 constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
 constexpr double noise_of_solution = 2.0;  // over that which its right side passes on
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
+/// The normal of what is at its limit is a row in force already: what an elimination leaves of it is zero.
+void hold_normals(CoulombProblem& p) {
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
+    if (p.items[i].kind != Kind::limit) continue;
+    const auto n = static_cast<Eigen::Index>(2 * i);
+    p.W.row(n).setZero();
+    p.W.col(n).setZero();
+    p.b[n] = 0.0;
+  }
+}
+
 /// What noise in b makes of forces and responses, with the solution's own contacts in force.
 struct Noise {
   Eigen::VectorXd force, response;
 };
 
-Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::VectorXd& noise) {
+Noise pass_on(const CoulombProblem& p, const CoulombSolution& s, const Eigen::VectorXd& noise) {
   const Eigen::Index n = noise.size();
   // Columns: forces that answer to a response of zero; a slipping contact's k goes with its l.
   std::vector<Eigen::Index> rows;
@@ -34,7 +45,7 @@ Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::Vector
     columns.rightCols(1) = column;
   };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     const auto row = static_cast<Eigen::Index>(2 * i);
     const double l = s.force[row], k = s.force[row + 1];
     const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
@@ -69,10 +80,16 @@ Noise pass_on(const JointProblem& p, const JointSolution& s, const Eigen::Vector
 
 }  // namespace
 
-JointItem JointDecision::item_of(const Entry& entry, const Forcing& forcing, double t) const {
+Refusal dependent_rows(std::vector<std::size_t> contacts) {
+  return {Refusal::Kind::dependent,
+          "the rows of the contacts that stick are linearly dependent, so their forces are not unique",
+          std::move(contacts)};
+}
+
+CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t) const {
   const std::size_t c = entry.who.contact;
   const Contact& contact = model_.contacts[c];
-  JointItem item;
+  CoulombItem item;
   item.sign = entry.who.sign;
   item.kinetic_friction = entry.who.sliding_friction;
   item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.static_friction;
@@ -89,140 +106,177 @@ JointItem JointDecision::item_of(const Entry& entry, const Forcing& forcing, dou
   return item;
 }
 
-std::string JointDecision::refusal(const JointProblem& problem, const std::vector<std::size_t>& contacts,
-                                   bool several) const {
-  std::string text =
-      several ? "several motions continue this one (Painleve's paradox: friction is so strong that "
-                "a contact may as well press as let go)"
-              : "no motion continues this one (Painleve's paradox: friction is so strong that "
-                "pressing a sliding contact pushes it into what it slides on)";
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const JointItem& item = problem.items[i];
+Refusal Levels::refusal(const Level& level, bool several) const {
+  const CoulombProblem& problem = level.problem;
+  Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
+                 several
+                     ? "several motions continue this one (Painleve's paradox: friction is so strong that "
+                       "a contact may as well press as let go)"
+                     : "no motion continues this one (Painleve's paradox: friction is so strong that "
+                       "pressing a sliding contact pushes it into what it slides on)",
+                 level.contacts, condition_of(problem)};
+  for (std::size_t i = 0; i < level.contacts.size(); ++i) {
+    const CoulombItem& item = problem.items[i];
     const auto n = static_cast<Eigen::Index>(2 * i);
-    text += fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
-                        model_.contacts[contacts[i]].name, problem.b[n], problem.b[n + 1], problem.W(n, n));
+    result.reason +=
+        fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
+                    model_.contacts[level.contacts[i]].name, problem.b[n], problem.b[n + 1], problem.W(n, n));
     if (item.kind == Kind::sliding)
-      text += fmt::format(", with friction {:.6g} while it slips ({})",
-                          problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1),
-                          to_string(slip_along(item.sign)));
+      result.reason += fmt::format(", with friction {:.6g} while it slips ({})",
+                                   problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1),
+                                   to_string(slip_along(item.sign)));
     else if (item.kind == Kind::frictional)
-      text += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}", problem.W(n, n + 1),
-                          item.static_friction);
+      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}", problem.W(n, n + 1),
+                                   item.static_friction);
   }
-  return text;
+  return result;
 }
 
-std::string JointDecision::decide(const Instant& instant, const Forcing& forcing,
-                                  const std::vector<Participant>& participants, const Mode& old, Mode& mode) {
+/// The problem of one order for all that are undecided. False: their rows are dependent.
+bool Levels::pose(const Instant& instant, const Forcing& forcing, std::size_t order,
+                  const std::vector<Entry>& entries, const Mode& mode, Level& level) {
+  level = {};
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    if (entries[i].standing != Standing::decided) {
+      level.entries.push_back(i);
+      level.contacts.push_back(entries[i].who.contact);
+    }
+  level.order = order;
+  if (level.entries.empty()) return true;
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return false;
+  std::vector<MotionJet> jets;
+  level.system = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
+  const auto size = static_cast<Eigen::Index>(2 * level.entries.size());
+  level.problem.b = Eigen::VectorXd::Zero(size);
+  level.noise.resize(size);
+  for (std::size_t i = 0; i < level.entries.size(); ++i) {
+    const MotionJet& jet = jets[level.contacts[i]];
+    const ContactMotion &now = jet.motion[order], &zero = jet.noise[order];
+    const bool last = order + 1 == MotionJet::orders;
+    const double an = last ? 0.0 : jet.motion[order + 1].an, at = last ? 0.0 : jet.motion[order + 1].at;
+    const auto n = static_cast<Eigen::Index>(2 * i);
+    level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
+    level.noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
+    if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;
+    if (std::abs(now.at) > level.noise[n + 1]) level.problem.b[n + 1] = now.at;
+    level.problem.items.push_back(item_of(entries[level.entries[i]], forcing, instant.t));
+  }
+  return true;
+}
+
+/// Takes over what the solution decides. True: it decides somebody. A force that is not zero answers to a
+/// response of zero, whatever rounding has left of that, and friction inside its cone to rest.
+bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
+                    Mode& mode, std::vector<KnownGuards>& known) const {
+  const Noise passed = pass_on(level.problem, solution, level.noise);
+  const auto is_zero_response = [&](Eigen::Index i) {
+    return std::abs(solution.response[i]) <= noise_of_solution * passed.response[i];
+  };
+  const auto zero_force = [&](Eigen::Index i) { return noise_of_solution * passed.force[i]; };
+  const Known slides{level.order + 1, true}, lifts{level.order + 2, true}, at_order{level.order, true};
+  bool decides = false;
+  for (std::size_t i = 0; i < level.entries.size(); ++i) {
+    Entry& entry = entries[level.entries[i]];
+    const CoulombItem& item = level.problem.items[i];
+    ContactState& state = mode[entry.who.contact];
+    KnownGuards& guards = known[entry.who.contact];
+    const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+    const double rt = solution.response[t];
+    const auto slip = [&](int sign) {
+      state.state = slip_along(sign);
+      guards.sliding = slides;
+    };
+    if (item.kind == Kind::limit) {
+      if (item.sign * solution.force[t] > zero_force(t)) {
+        state.state = State::stick;
+        (item.sign > 0 ? guards.slip_plus : guards.slip_minus) = at_order;
+      } else if (is_zero_response(t)) {
+        continue;  // still at its limit
+      } else {
+        slip(item.sign);
+      }
+      entry.standing = Standing::decided;
+      decides = true;
+      continue;
+    }
+    if (item.kind != Kind::pressed && !(solution.force[n] > zero_force(n))) {
+      if (!(solution.force[n] > 0.0) && !is_zero_response(n)) {
+        entry.standing = Standing::decided;  // open
+        guards.closing = lifts;
+        decides = true;
+      } else if (item.kind == Kind::frictional && !is_zero_response(t)) {
+        entry.who.slipping = true;
+        entry.who.sign = sign_of(rt);
+      }
+      continue;
+    }
+    entry.standing = Standing::decided;
+    decides = true;
+    if (item.kind != Kind::pressed) guards.separation = at_order;
+    if (item.kind == Kind::normal) {
+      state.state = State::closed;
+      continue;
+    }
+    if (item.kind == Kind::sliding) {
+      state.state = slip_along(item.sign);
+      continue;
+    }
+    const double l = item.kind == Kind::pressed ? item.pressing : solution.force[n];
+    const double k = solution.force[t];
+    const double f = solution.kinetic[i] ? item.kinetic_friction : item.static_friction;
+    const bool inside = f * l - std::abs(k) > zero_force(t) + f * zero_force(n);
+    state.state = State::stick;
+    if (inside) continue;
+    if (!is_zero_response(t)) {
+      slip(sign_of(rt));
+    } else if (item.static_friction == item.kinetic_friction && std::abs(k) > zero_force(t)) {
+      // At its limit: with one coefficient the next derivative decides; with two it sticks until the
+      // guard of the static limit falls.
+      entry.standing = Standing::limit;
+      entry.who.sign = -sign_of(k);
+      state.state = slip_along(entry.who.sign);
+    }
+  }
+  return decides;
+}
+
+Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
+                       const std::vector<Participant>& participants, const Mode& old, Mode& mode,
+                       std::vector<KnownGuards>& known) {
   std::vector<Entry> entries;
   for (const Participant& who : participants) {
     entries.push_back({who});
     mode[who.contact] = {State::open, 0.0};
   }
-  std::vector<MotionJet> jets;
   // An order is solved again as long as it decides somebody: with the great forces in force the small ones
   // stand out from the rounding.
-  bool again = false;
-  for (std::size_t order = 0; order < MotionJet::orders; order += again ? 0 : 1) {
-    again = false;
-    std::vector<std::size_t> undecided, contacts;  // entries, and their contacts
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      if (entries[i].standing != Standing::decided) {
-        undecided.push_back(i);
-        contacts.push_back(entries[i].who.contact);
-      }
-    if (undecided.empty()) break;
-    const ModeSystemPtr system = systems_.of(mode);
-    if (!system) return dependent_rows;
-    const Jet jet_now = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets);
-
-    const auto size = static_cast<Eigen::Index>(2 * undecided.size());
-    JointProblem problem;
-    problem.b = Eigen::VectorXd::Zero(size);
-    Eigen::VectorXd noise(size);
-    for (std::size_t i = 0; i < undecided.size(); ++i) {
-      const MotionJet& jet = jets[contacts[i]];
-      const ContactMotion &now = jet.motion[order], &zero = jet.noise[order];
-      const bool last = order + 1 == MotionJet::orders;
-      const double an = last ? 0.0 : jet.motion[order + 1].an, at = last ? 0.0 : jet.motion[order + 1].at;
-      const auto n = static_cast<Eigen::Index>(2 * i);
-      noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
-      noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
-      if (std::abs(now.an) > noise[n]) problem.b[n] = now.an;
-      if (std::abs(now.at) > noise[n + 1]) problem.b[n + 1] = now.at;
-      problem.items.push_back(item_of(entries[undecided[i]], forcing, instant.t));
-    }
+  for (std::size_t order = 0; order < MotionJet::orders;) {
+    Level level;
+    if (!pose(instant, forcing, order, entries, mode, level)) return dependent_rows(level.contacts);
+    if (level.entries.empty()) break;
+    CoulombProblem& problem = level.problem;
     const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
-                                     [](const JointItem& item) { return item.kind == Kind::pressed; });
-    if (problem.b.isZero(0.0) && !pressed) continue;
-    problem.W = delassus(model_, *jet_now.system, contacts).W;
+                                     [](const CoulombItem& item) { return item.kind == Kind::pressed; });
+    if (problem.b.isZero(0.0) && !pressed) {
+      ++order;
+      continue;
+    }
+    problem.W = delassus(model_, *level.system, level.contacts).W;
+    hold_normals(problem);
     const auto solution = solve(problem);
-    if (!solution) return refusal(problem, contacts, false);
-    if (undecided.size() <= most_compared && may_have_many(problem)) {
+    if (!solution) return refusal(level, false);
+    if (level.entries.size() <= most_compared && may_have_many(problem)) {
       // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
-      JointProblem settled = problem;
+      CoulombProblem settled = problem;
       for (std::size_t i = 0; i < settled.items.size(); ++i) {
-        JointItem& item = settled.items[i];
+        CoulombItem& item = settled.items[i];
         (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
             solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
       }
-      if (all_solutions(settled).size() > 1) return refusal(problem, contacts, true);
+      if (all_solutions(settled).size() > 1) return refusal(level, true);
     }
-
-    const Noise passed = pass_on(problem, *solution, noise);
-    const auto is_zero_response = [&](Eigen::Index i) {
-      return std::abs(solution->response[i]) <= noise_of_solution * passed.response[i];
-    };
-    const auto zero_force = [&](Eigen::Index i) { return noise_of_solution * passed.force[i]; };
-    for (std::size_t i = 0; i < undecided.size(); ++i) {
-      Entry& entry = entries[undecided[i]];
-      const JointItem& item = problem.items[i];
-      ContactState& state = mode[entry.who.contact];
-      const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
-      const double rt = solution->response[t];
-      if (item.kind == Kind::limit) {
-        if (item.sign * solution->force[t] > zero_force(t))
-          state.state = State::stick;
-        else if (is_zero_response(t))
-          continue;  // still at its limit
-        entry.standing = Standing::decided;
-        again = true;
-        continue;
-      }
-      const bool presses = item.kind == Kind::pressed || solution->force[n] > zero_force(n);
-      if (!presses) {
-        if (!is_zero_response(n)) {
-          entry.standing = Standing::decided;  // open
-          again = true;
-        } else if (item.kind == Kind::frictional && !is_zero_response(t)) {
-          entry.who.slipping = true;
-          entry.who.sign = sign_of(rt);
-        }
-        continue;
-      }
-      entry.standing = Standing::decided;
-      again = true;
-      if (item.kind == Kind::normal) {
-        state.state = State::closed;
-      } else if (item.kind == Kind::sliding) {
-        state.state = slip_along(item.sign);
-      } else if (!is_zero_response(t)) {
-        state.state = slip_along(sign_of(rt));
-      } else {
-        const double l = item.kind == Kind::pressed ? item.pressing : solution->force[n];
-        const double k = solution->force[t];
-        const double f = solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
-        // At its limit: with one coefficient the next derivative decides; with two it sticks until the
-        // guard of the static limit falls.
-        const bool inside = f * l - std::abs(k) > zero_force(t) + f * zero_force(n);
-        state.state = State::stick;
-        if (!inside && item.static_friction == item.kinetic_friction && std::abs(k) > zero_force(t)) {
-          entry.standing = Standing::limit;
-          entry.who.sign = -sign_of(k);
-          state.state = slip_along(entry.who.sign);
-        }
-      }
-    }
+    if (!settle(level, *solution, entries, mode, known)) ++order;
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {

@@ -1,10 +1,9 @@
-// joint_decision.hpp: the next states of all contacts whose forces may jump, at one instant together.
+// levels.hpp: the next states of all contacts whose forces may jump, at one instant together.
 //
-//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)        r: g'' and ut'' of the contacts that are
-//   undecided
+//   order k = 0, 1, 2, ...:  r^(k) = b^(k) + W f^(k)        r: g'' and ut'' of those that are undecided
 //
 // Rigid contacts with g = g' = 0 and sliders that stick rigidly move each other through M. On the level of
-// accelerations that is a joint problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact
+// accelerations that is a Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact
 // whose force and acceleration are both zero, or whose friction is just at its limit, stays undecided and
 // goes into the same problem of the next derivative, with all decided ones in force. What is undecided after
 // the last known derivative stays as it was.
@@ -14,11 +13,11 @@
 // Source: Glocker 2001, chapters 4 to 6; Painleve 1895.
 #pragma once
 
-#include <string>
-
 #include "decide/coulomb_problem.hpp"
-#include "decide/decide.hpp"
 #include "decide/delassus.hpp"
+#include "decide/guard_signs.hpp"
+#include "motion/jet.hpp"
+#include "signorini/trace.hpp"
 
 namespace signorini {
 
@@ -31,15 +30,15 @@ struct Participant {
   bool kinetic = false;           ///< its slip has begun at this instant: the static coefficient is gone
 };
 
-class JointDecision {
+class Levels {
  public:
-  JointDecision(ModeSystems& systems, JetMaker& jets)
-      : model_(systems.model()), systems_(systems), jets_(jets) {}
+  Levels(ModeSystems& systems, JetMaker& jets) : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Changes the states of the participants, open in `mode`; old: what they were. Returns an empty text, or
-  /// why there are none.
-  [[nodiscard]] std::string decide(const Instant& instant, const Forcing& forcing,
-                                   const std::vector<Participant>& participants, const Mode& old, Mode& mode);
+  /// Changes the states of the participants in `mode`; old: what they were. known: what follows for their
+  /// guards, one a contact.
+  [[nodiscard]] Refusal decide(const Instant& instant, const Forcing& forcing,
+                               const std::vector<Participant>& participants, const Mode& old, Mode& mode,
+                               std::vector<KnownGuards>& known);
 
  private:
   enum class Standing : unsigned char { apex, limit, decided };
@@ -47,13 +46,27 @@ class JointDecision {
     Participant who;
     Standing standing = Standing::apex;
   };
-  [[nodiscard]] JointItem item_of(const Entry& entry, const Forcing& forcing, double t) const;
-  [[nodiscard]] std::string refusal(const JointProblem& problem, const std::vector<std::size_t>& contacts,
-                                    bool several) const;
+  /// The Coulomb problem of one order.
+  struct Level {
+    std::size_t order = 0;
+    std::vector<std::size_t> entries, contacts;  // that are undecided, and their contacts
+    CoulombProblem problem;
+    Eigen::VectorXd noise;  // of problem.b
+    ModeSystemPtr system;
+  };
+  [[nodiscard]] CoulombItem item_of(const Entry& entry, const Forcing& forcing, double t) const;
+  [[nodiscard]] bool pose(const Instant& instant, const Forcing& forcing, std::size_t order,
+                          const std::vector<Entry>& entries, const Mode& mode, Level& level);
+  [[nodiscard]] bool settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
+                            Mode& mode, std::vector<KnownGuards>& known) const;
+  [[nodiscard]] Refusal refusal(const Level& level, bool several) const;
 
   const Model& model_;
   ModeSystems& systems_;
   JetMaker& jets_;
 };
+
+/// Of contacts that stick, no forces are the only ones.
+[[nodiscard]] Refusal dependent_rows(std::vector<std::size_t> contacts = {});
 
 }  // namespace signorini

@@ -1,10 +1,10 @@
-// Decider, its rigid part: contacts that touch, from velocities to states.
+#include "decide/touching.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "contact/friction.hpp"
-#include "decide/levels.hpp"
 
 namespace signorini {
 namespace {
@@ -22,8 +22,16 @@ double rounding_of(const Combination& form, const Vector& v) {
 
 }  // namespace
 
+Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity)
+    : model_(systems.model()),
+      systems_(systems),
+      jets_(jets),
+      capture_velocity_(capture_velocity),
+      impacts_(systems, capture_velocity),
+      levels_(systems, jets) {}
+
 /// The rounding of t.v less the velocity of the surface.
-double Decider::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
+double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
   return rounding_of(model_.contacts[c].tangent, instant.v) +
          64.0 * std::numeric_limits<double>::epsilon() * std::abs(forcing.surface(c, instant.t, 1)) +
          forcing.surface_rounding(c, instant.t);
@@ -31,19 +39,21 @@ double Decider::rounding_of_slide(std::size_t c, const Forcing& forcing, const I
 
 /// g' from which on a contact with g = 0 leaves. Slower, and pulled back, it stays: its flight would be
 /// shorter than the clock resolves, lower than the rounding of its gap, or a rebound below capture_velocity.
-double Decider::leaving_velocity(std::size_t c, const MotionJet& free, const Instant& instant) const {
+double Touching::leaving_velocity(std::size_t c, const MotionJet& free, const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
-  const double rounding = free.noise[0].vn + rounding_of(contact.normal, instant.v);
   const double pull = -free.motion[0].an;
+  // What stands still moves by the rounding of its equilibrium, not of its velocity.
+  const double rounding =
+      free.noise[0].vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
   if (!(pull > 0.0)) return rounding;
-  return rounding + std::max({instant.resolution * pull, std::sqrt(2.0 * pull * free.noise[0].gap),
+  return rounding + std::max({std::sqrt(2.0 * pull * free.noise[0].gap),
                               contact.capture_velocity.value_or(capture_velocity_)});
 }
 
 /// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
 /// lets N jump, T stays continuous: the element sticks at it unless its limit has fallen below.
-void Decider::follow_velocity(const Instant& instant, const Forcing& after,
-                              const std::vector<ContactMotion>& before, Mode& mode) const {
+void Touching::follow_velocity(const Instant& instant, const Forcing& after,
+                               const std::vector<ContactMotion>& before, Mode& mode) const {
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
@@ -55,33 +65,31 @@ void Decider::follow_velocity(const Instant& instant, const Forcing& after,
 }
 
 /// What counts as zero becomes zero, for all contacts at once: setting one to zero moves the others.
-void Decider::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
-                             const std::vector<std::size_t>& touching,
-                             const std::vector<Participant>& participants) const {
+void Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                              const Met& met, Block& block) const {
   std::vector<Fixed> fixed;
-  for (std::size_t i = 0; i < touching.size(); ++i) {
-    const Contact& contact = model_.contacts[touching[i]];
-    const auto who = std::find_if(participants.begin(), participants.end(),
-                                  [&](const Participant& p) { return p.contact == touching[i]; });
-    if (who == participants.end()) continue;
+  for (std::size_t i = 0; i < met.contacts.size(); ++i) {
+    const std::size_t c = met.contacts[i];
+    const Contact& contact = model_.contacts[c];
+    const auto who = std::find_if(block.participants.begin(), block.participants.end(),
+                                  [&](const Participant& p) { return p.contact == c; });
+    if (who == block.participants.end()) continue;
     const auto row = static_cast<Eigen::Index>(2 * i);
     fixed.push_back({row, &contact.normal, 0.0});
-    if (contact.has_friction() && !who->slipping)
-      fixed.push_back({row + 1, &contact.tangent, forcing.surface(touching[i], instant.t, 1)});
+    block.known[c].closing.zeros = 2;
+    if (!contact.has_friction() || who->slipping) continue;
+    fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
+    block.known[c].sliding.zeros = 1;
   }
-  if (!settled(fixed, instant.v)) settle(delassus(model_, free, touching), fixed, instant.v);
+  if (!settled(fixed, instant.v)) settle(delassus(model_, free, met.contacts), fixed, instant.v);
 }
 
-/// Impacts where there are any, then the states. Returns why it cannot, or nothing.
-std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
-                                    const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
-                                    Mode& mode) {
+Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
+                             const std::vector<Failure>& failed, const Mode& mode) const {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
-  const Mode old = mode;
-  std::vector<std::size_t> touching;
-  bool impact = false, apart = false;
+  Met met;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
@@ -92,74 +100,106 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     if (mode[c].is_open() && !instant.has_fired(c, Guard::closing) && !fell &&
         !is_zero(m.gap, noise.gap, m.vn))
       continue;
-    touching.push_back(c);
-    joint.touching[c] = true;
-    apart = apart || m.gap != 0.0;
-    impact = impact || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
+    met.contacts.push_back(c);
+    met.apart = met.apart || m.gap != 0.0;
+    met.hit = met.hit || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
   }
-  if (apart && !impact) instant.u = impacts_.close(mode, touching, instant.u);
-  if (impact) {
-    const Impact result = impacts_.solve(after, instant.t, mode, touching, instant.u, instant.v);
-    if (!result.solved) return result.reason;
-    instant.u = result.u;
-    instant.v = result.v;
-    joint.stays.assign(mode.size(), false);
-    joint.rests.assign(mode.size(), false);
-    decision.impact_loss += result.loss;
-    decision.impact_surface_work += result.surface_work;
-    decision.impact_gains = decision.impact_gains || result.gains;
-    if (decision.impulses.empty()) decision.impulses.resize(mode.size());
-    for (const std::size_t c : touching) {
-      Impulse& sum = decision.impulses[c];
-      sum.hit = sum.hit || result.impulses[c].hit;
-      sum.normal += result.impulses[c].normal;
-      sum.tangent += result.impulses[c].tangent;
-      sum.rests = result.impulses[c].rests;
-      sum.sticks = result.impulses[c].sticks;
-    }
-    follow_velocity(instant, after, decision.before, mode);
+  return met;
+}
+
+Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, Block& block,
+                         Decision& decision, Mode& mode) {
+  const Impact result = impacts_.solve(forcing, instant.t, mode, met.contacts, instant.u, instant.v);
+  if (result.refusal) return result.refusal;
+  instant.u = result.u;
+  instant.v = result.v;
+  block.stays.assign(mode.size(), false);
+  block.rests.assign(mode.size(), false);
+  decision.impact_loss += result.loss;
+  decision.impact_surface_work += result.surface_work;
+  decision.impact_gains = decision.impact_gains || result.gains;
+  if (decision.impulses.empty()) decision.impulses.resize(mode.size());
+  for (const std::size_t c : met.contacts) {
+    Impulse& sum = decision.impulses[c];
+    sum.hit = sum.hit || result.impulses[c].hit;
+    sum.normal += result.impulses[c].normal;
+    sum.tangent += result.impulses[c].tangent;
+    sum.rests = result.impulses[c].rests;
+    sum.sticks = result.impulses[c].sticks;
   }
-  // Without forces at all that touch: how fast each is pulled back.
-  for (const std::size_t c : touching) mode[c] = {State::open, 0.0};
-  const ModeSystemPtr system = systems_.of(mode);
-  if (!system) return "the equations of motion without rigid contacts are singular";
-  std::vector<MotionJet> free;
-  const Jet free_jet = jets_.make(system, after, instant.t, instant.u, instant.v, free);
+  follow_velocity(instant, forcing, decision.before, mode);
+  return {};
+}
+
+/// Those that do not leave. free: the motion without forces at all that touch.
+std::vector<Participant> Touching::staying(const Instant& instant, const Forcing& forcing, const Met& met,
+                                           const std::vector<MotionJet>& free, const Decision& decision,
+                                           Block& block) const {
   std::vector<Participant> participants;
-  for (const std::size_t c : touching) {
+  for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
-    const Impulse struck = impact ? decision.impulses[c] : Impulse{};
-    if (!struck.rests && !joint.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
-    joint.stays[c] = true;
-    const double zero = noise.vt + rounding_of_slide(c, after, instant) + instant.resolution * std::abs(m.at);
-    const bool rests = struck.sticks || joint.rests[c] || (!impact && instant.has_fired(c, Guard::sliding)) ||
-                       std::abs(m.vt) <= zero;
+    const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
+    if (!struck.rests && !block.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
+    block.stays[c] = true;
+    const double zero =
+        noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
+    const bool rests = struck.sticks || block.rests[c] ||
+                       (!met.hit && instant.has_fired(c, Guard::sliding)) || std::abs(m.vt) <= zero;
     Participant who{c};
     who.slipping = contact.has_friction() && !rests;
     who.sign = m.vt > 0.0 ? 1 : -1;
     who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
-    who.kinetic = joint.kinetic[c];
+    who.kinetic = block.kinetic[c];
     participants.push_back(who);
   }
-  const Vector moving = instant.v;
-  settle_resting(instant, after, *free_jet.system, touching, participants);
-  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
-  decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
-  for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
+  return participants;
+}
+
+/// Sliders whose friction has let go or has stopped them.
+void Touching::add_sliders(const Decision& decision, Block& block) const {
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
     if (contact.has_gap() || !contact.sticks_rigidly() || !decision.visited[c]) continue;
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
-    who.kinetic = joint.kinetic[c];
-    participants.push_back(who);
+    who.kinetic = block.kinetic[c];
+    block.known[c] = {};
+    block.participants.push_back(who);
   }
-  std::string reason = JointDecision(systems_, jets_).decide(instant, after, participants, old, mode);
-  for (const Participant& who : participants) {
-    joint.decided[who.contact] = true;
+}
+
+Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
+                         const std::vector<Failure>& failed, Block& block, Decision& decision, Mode& mode) {
+  const Mode old = mode;
+  const Met met = meet(instant, jets, failed, mode);
+  block.hit = met.hit;
+  for (const std::size_t c : met.contacts) {
+    block.known[c] = {};
+    block.known[c].touches = true;
+    block.known[c].closing.zeros = 1;
+  }
+  if (met.apart && !met.hit) instant.u = impacts_.close(mode, met.contacts, instant.u);
+  if (met.hit)
+    if (Refusal why = strike(instant, forcing, met, block, decision, mode)) return why;
+  for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system)
+    return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
+  std::vector<MotionJet> free;
+  const Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
+  block.participants = staying(instant, forcing, met, free, decision, block);
+  const Vector moving = instant.v;
+  settle_resting(instant, forcing, *free_jet.system, met, block);
+  // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
+  decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
+  if (block.sliders) add_sliders(decision, block);
+  Refusal refusal = levels_.decide(instant, forcing, block.participants, old, mode, block.known);
+  for (const Participant& who : block.participants) {
+    block.decided[who.contact] = true;
     if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
   }
-  return reason;
+  return refusal;
 }
 
 }  // namespace signorini

@@ -9,7 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "decide/decide.hpp"
+#include "decide/decision.hpp"
+#include "decide/instant.hpp"
 #include "motion/powers.hpp"
 #include "signorini/result.hpp"
 

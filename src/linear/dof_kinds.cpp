@@ -17,11 +17,15 @@ std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure) {
 }
 
 std::vector<DofKind> in_mode(std::vector<DofKind> kinds, const Model& model, const std::vector<Rows>& rows) {
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].normal.vn != 0.0)
-      for (const auto& [dof, factor] : model.contacts[k].normal.terms)
-        if (DofKind& kind = kinds[static_cast<std::size_t>(dof)]; kind == DofKind::algebraic && factor != 0.0)
-          kind = DofKind::damped;
+  const auto damp = [&](const Combination& form) {
+    for (const auto& [dof, factor] : form.terms)
+      if (DofKind& kind = kinds[static_cast<std::size_t>(dof)]; kind == DofKind::algebraic && factor != 0.0)
+        kind = DofKind::damped;
+  };
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].normal.vn != 0.0) damp(model.contacts[k].normal);
+    if (rows[k].tangent.vt != 0.0) damp(model.contacts[k].tangent);
+  }
   return kinds;
 }
 

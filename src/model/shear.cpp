@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "model/assembly/springs.hpp"
@@ -35,17 +36,23 @@ void add_shear_elements(const Scene& scene, Model& model) {
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
                       "below the shortest period of the structure, {:.3g}; give 0.0 or more",
                       ct / kt, 2.0 * std::numbers::pi / model.omega_max));
+    // A body without mass has no motion that the dashpot alone could give it: the dashpot tells only how fast
+    // p leaves it. Then that is the degree of freedom, p - ut.
+    const bool relative = std::any_of(
+        contact.tangent.terms.begin(), contact.tangent.terms.end(),
+        [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
     const int p = model.size();
     model.dofs.push_back({contact.name + ".slip", contact.name + ".slip_rate", false, true});
-    u.push_back(contact.tangent.dot(model.u0) - contact.initial_shear / kt);
+    u.push_back((relative ? 0.0 : contact.tangent.dot(model.u0)) - contact.initial_shear / kt);
     v.push_back(contact.surface_motion.piece(0.0).value(0.0, 1));
-    Combination element = contact.tangent;
+    Combination element = relative ? Combination{} : contact.tangent;
     element.terms.emplace_back(p, -1.0);
     stiffness.push_back({element, kt});
     damping.push_back({element, ct});
     contact.shear = ShearElement{contact.tangent, kt, ct};
     contact.tangential_stiffness.reset();
-    contact.tangent.terms = {{p, 1.0}};
+    if (!relative) contact.tangent.terms.clear();
+    contact.tangent.terms.emplace_back(p, 1.0);
   }
   const int size = model.size();
   if (size == before) return;

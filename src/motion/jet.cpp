@@ -19,8 +19,29 @@ struct Derivatives {
   std::array<double, known> N{}, T{}, gap{}, ut{}, gap_terms{}, ut_terms{};
 };
 
+constexpr std::size_t most_plane_terms = 4;  // of a form on the translations of one node, or of two
+
+/// What data that are known to a rounding leave uncertain of form . x, in roundings. In the plane that is
+/// |form| |x|, whatever the angle between them and the axes; components that the form does not have do not
+/// count. Forms on other coordinates are sums of unlike terms.
+double size_of(const Model& model, const Combination& form, const double* x) {
+  double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) {
+    const bool in_plane =
+        form.terms.size() <= most_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
+    if (!in_plane) {
+      terms += std::abs(factor * x[dof]);
+    } else if (factor != 0.0) {
+      form_squared += factor * factor;
+      x_squared += x[dof] * x[dof];
+    }
+  }
+  return terms + std::sqrt(form_squared * x_squared);
+}
+
 /// From a series of scale 1: derivatives are k! times the coefficients.
-void fill(const Contact& contact, std::size_t c, const Series& series, Derivatives& d) {
+void fill(const Model& model, std::size_t c, const Series& series, Derivatives& d) {
+  const Contact& contact = model.contacts[c];
   const auto n = static_cast<std::size_t>(series.u.rows()),
              forces = static_cast<std::size_t>(series.forces.rows());
   const ForcingSeries& f = series.forcing;
@@ -30,8 +51,8 @@ void fill(const Contact& contact, std::size_t c, const Series& series, Derivativ
     const double* u = series.u.data() + k * n;
     d.gap[k] = factorial * gap_coefficient(contact, series, k);
     d.ut[k] = factorial * ut_coefficient(contact, c, series, k);
-    d.gap_terms[k] = factorial * contact.normal.magnitude(u);
-    d.ut_terms[k] = factorial * (contact.tangent.magnitude(u) + std::abs(f.surface[c * f.count + k]));
+    d.gap_terms[k] = factorial * size_of(model, contact.normal, u);
+    d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
     if (k >= MotionJet::orders) continue;
     d.N[k] = factorial * series.forces.data()[k * forces + normal_slot(c)];
     d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
@@ -72,8 +93,8 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
   Derivatives a, b;
   for (std::size_t c = 0; c < result.size(); ++c) {
     const Rows& rows = system.rows()[c];
-    fill(model_.contacts[c], c, series_, a);
-    fill(model_.contacts[c], c, disturbed_, b);
+    fill(model_, c, series_, a);
+    fill(model_, c, disturbed_, b);
     const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
     double factorial = 1.0;
     for (std::size_t k = 0; k < MotionJet::orders; ++k) {

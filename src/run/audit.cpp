@@ -129,6 +129,12 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     m.gap = contact.gap_at(point.u);
     m.vn = contact.normal.dot(point.v);
     e.contact += stored_energy(contact, mode[k].state, m);
+    if (contact.shear) {  // a spring of the contact, though it stands among those of the structure
+      const double strain = contact.shear->body.dot(point.u) - contact.tangent.dot(point.u);
+      const double energy = 0.5 * contact.shear->stiffness * strain * strain;
+      e.contact += energy;
+      e.elastic -= energy;
+    }
   }
   return e;
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "decide/decider.hpp"
+#include "decide/driven_states.hpp"
 #include "motion/clock.hpp"
 #include "run/audit.hpp"
 #include "run/breakpoints.hpp"
@@ -22,7 +24,8 @@ constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
 class Loop {
  public:
-  Loop(const Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder)
+  Loop(const Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
+       const RoundListener& listener)
       : model_(model),
         spec_(spec),
         recorder_(recorder),
@@ -38,6 +41,7 @@ class Loop {
         breakpoints_(breakpoints(model, spec.t_end)),
         forcing_(model, 0.0, Side::after) {
     report_.method = std::move(method);
+    decider_.trace(listener);
   }
 
   Report run() {
@@ -66,7 +70,7 @@ class Loop {
     now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     const Mode guessed = now.mode;
     decision_ = decider_.decide(std::move(now), forcing_, forcing_);
-    if (!decision_.consistent) return stop(decision_.reason);
+    if (!decision_.consistent) return stop(decision_.refusal.reason);
     report_.warnings = cut_shears(model_, decision_);
     warn_of_gain();
     auditor_.begin(decision_, guessed, forcing_);
@@ -139,7 +143,7 @@ class Loop {
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
-      return stop(next.reason);
+      return stop(next.refusal.reason);
     }
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
@@ -218,6 +222,11 @@ class Loop {
 }  // namespace
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder) {
+  return simulate(model, settings, recorder, {});
+}
+
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
+                const RoundListener& listener) {
   const EngineChoice choice = choose_engine(model, settings);
   RunSpec spec = settings;
   spec.engine = choice.engine;
@@ -225,7 +234,7 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder)
   engine.refuse(model, spec);
   Method method = engine.method(model, spec);
   method.reason = choice.reason;
-  return Loop(model, spec, engine, std::move(method), recorder).run();
+  return Loop(model, spec, engine, std::move(method), recorder, listener).run();
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

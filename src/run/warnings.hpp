@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "decide/decide.hpp"
+#include "decide/decision.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {

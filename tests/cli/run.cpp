@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -171,6 +172,35 @@ TEST_CASE("cli run: a disk that fills up during a run leaves whole rows, and a m
     CHECK(text.size() <= 40000);
   }
   CHECK(lines(shell.read("belt-run/history.csv")) > 100);
+}
+
+TEST_CASE("cli run: --trace writes the rounds of each decision, a JSON object a line") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots", "--trace", "rounds.jsonl"}).code == 0);
+  const std::string text = shell.read("rounds.jsonl");
+  std::istringstream stream(text);
+  bool slips = false;
+  double last = 0.0;
+  for (std::string line; std::getline(stream, line);) {
+    const json round = json::parse(line);
+    CHECK(round["t"].get<double>() >= last);
+    last = round["t"];
+    CHECK(round["holds"] == round["failed"].empty());
+    // The block sticks until its friction limit falls, and slips in the next round.
+    slips = slips || (round["round"] == 1 && round["holds"] && round["tried"]["belt"] == "slip-") ||
+            (round["round"] == 1 && round["holds"] && round["tried"]["belt"] == "slip+");
+  }
+  CHECK(slips);
+}
+
+TEST_CASE("cli run: a trace that cannot be written is exit code 6, before anything is computed") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending = shell.run({"run", "belt.toml", "--no-plots", "--trace", "nowhere/rounds.jsonl"});
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("nowhere/rounds.jsonl") != std::string::npos);
+  CHECK_FALSE(exists(shell, "belt-run/events.csv"));
 }
 
 TEST_SUITE_END();

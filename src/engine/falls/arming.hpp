@@ -9,7 +9,7 @@
 // guard, for an integrator what its steps may be off.
 #pragma once
 
-#include "decide/decide.hpp"
+#include "decide/decision.hpp"
 
 namespace signorini {
 

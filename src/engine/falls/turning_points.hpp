@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "decide/decide.hpp"
+#include "decide/decision.hpp"
 #include "motion/contact_series.hpp"
 
 namespace signorini {

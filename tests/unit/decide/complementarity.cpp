@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-using Kind = JointItem::Kind;
+using Kind = CoulombItem::Kind;
 
 MatrixXd random_matrix(std::mt19937_64& random, Eigen::Index rows, Eigen::Index columns) {
   std::normal_distribution<double> normal;
@@ -49,13 +49,13 @@ int count_solutions(const MatrixXd& M, const VectorXd& q) {
 }
 
 /// m contacts on a body whose inverse mass in their coordinates is random, positive definite.
-JointProblem random_problem(std::mt19937_64& random, std::size_t m, double friction, bool only_frictional) {
+CoulombProblem random_problem(std::mt19937_64& random, std::size_t m, double friction, bool only_frictional) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto size = static_cast<Eigen::Index>(2 * m);
   const MatrixXd a = random_matrix(random, size, size + 2);
-  JointProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
+  CoulombProblem p{a * a.transpose(), random_matrix(random, size, 1), {}};
   for (std::size_t i = 0; i < m; ++i) {
-    JointItem item;
+    CoulombItem item;
     const double choice = uniform(random);
     item.kind = only_frictional || choice < 0.5 ? Kind::frictional
                 : choice < 0.7                  ? Kind::normal
@@ -71,10 +71,10 @@ JointProblem random_problem(std::mt19937_64& random, std::size_t m, double frict
 }
 
 /// Signorini's and Coulomb's conditions.
-void check_conditions(const JointProblem& p, const JointSolution& s) {
+void check_conditions(const CoulombProblem& p, const CoulombSolution& s) {
   const double zero = 1e-9 * (1.0 + s.force.cwiseAbs().maxCoeff() + p.b.cwiseAbs().maxCoeff());
   for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const JointItem& item = p.items[i];
+    const CoulombItem& item = p.items[i];
     const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
     const double l = item.kind == Kind::pressed ? item.pressing : s.force[n];
     const double k = s.force[t], rn = s.response[n], rt = s.response[t];
@@ -150,8 +150,8 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
   int unique = 0, none = 0, several = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 3);
-    const JointProblem p = random_problem(random, m, 2.0, false);
-    const std::vector<JointSolution> all = all_solutions(p);
+    const CoulombProblem p = random_problem(random, m, 2.0, false);
+    const std::vector<CoulombSolution> all = all_solutions(p);
     const auto one = solve(p);
     CHECK(one.has_value() == !all.empty());
     (all.empty() ? none : all.size() == 1 ? unique : several) += 1;
@@ -159,7 +159,7 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
     if (!one) continue;
     check_conditions(p, *one);
     bool among = false;
-    for (const JointSolution& s : all)
+    for (const CoulombSolution& s : all)
       among = among || (s.response - one->response).norm() <= 1e-7 * (1.0 + one->response.norm());
     CHECK(among);
   }
@@ -172,7 +172,7 @@ TEST_CASE("an impact without restitution has a solution whatever the friction, a
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 3000; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 4);
-    const JointProblem p = random_problem(random, m, 3.0, true);
+    const CoulombProblem p = random_problem(random, m, 3.0, true);
     const auto s = solve(p);
     REQUIRE(s.has_value());
     check_conditions(p, *s);
@@ -183,7 +183,7 @@ TEST_CASE("an impact without restitution has a solution whatever the friction, a
 
 TEST_CASE(
     "static above kinetic friction: what sticks has the static coefficient, what slips the kinetic one") {
-  JointProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
+  CoulombProblem p{MatrixXd::Identity(2, 2), VectorXd(2), {{Kind::frictional, 0.5, 0.3, 0.0, 0}}};
   p.b << -1.0, 0.4;
   auto s = solve(p);
   REQUIRE(s.has_value());
@@ -198,7 +198,7 @@ TEST_CASE(
 
 TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where it may also let go") {
   // g'' = b_n + (W_nn - s f W_nt) l with a negative factor
-  JointProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
+  CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::sliding, 1.5, 1.5, 0.0, 1}}};
   p.W << 1.0, 0.9, 0.9, 1.2;
   p.b << -1.0, 0.0;
   CHECK(!solve(p).has_value());

@@ -1,6 +1,8 @@
-#include "decide/decide.hpp"
+#include "decide/decider.hpp"
 
 #include <doctest/doctest.h>
+
+#include "decide/driven_states.hpp"
 
 using namespace signorini;
 
@@ -97,7 +99,7 @@ TEST_CASE("two sliders without stiffness on one degree of freedom have no unique
   model.contacts.push_back(model.contacts[0]);
   const Decision d = start(model);
   CHECK_FALSE(d.consistent);
-  CHECK(d.reason.find("linearly dependent") != std::string::npos);
+  CHECK(d.refusal.reason.find("linearly dependent") != std::string::npos);
 }
 
 TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its derivative") {
@@ -115,6 +117,40 @@ TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its deri
       model.contacts[c].tangent.add_to(r, d.jet.forces(static_cast<Eigen::Index>(2 * c) + 1, k));
     CHECK(r.norm() < 1e-12 * (1.0 + d.jet.forces.col(k).norm()));
   }
+}
+
+TEST_CASE("a trace hears of every mode that is tried, and the last one holds") {
+  const Model model = blocks({{2.0}}, {0.5}, 0.4);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  Decider decider(systems, 100, 1e-9);
+  std::vector<Round> rounds;
+  decider.trace([&](const Round& round) { rounds.push_back(round); });
+  const Forcing forcing(model, 0.0, Side::after);
+  Instant instant;
+  instant.t = 0.25;
+  instant.u = model.u0;
+  instant.v = model.v0;
+  instant.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
+  REQUIRE(decider.decide(instant, forcing, forcing).consistent);
+  REQUIRE(rounds.size() == 2);
+  CHECK(rounds[0].t == 0.25);
+  CHECK(rounds[0].number == 0);
+  CHECK(rounds[0].tried[0].state == State::stick);
+  REQUIRE(rounds[0].failed.size() == 1);
+  CHECK(rounds[0].failed[0].guard == "friction limit (+)");
+  CHECK(rounds[0].failed[0].order == 0);
+  CHECK(rounds[0].failed[0].excess > 1.0);
+  CHECK(rounds[1].number == 1);
+  CHECK(rounds[1].tried[0].state == State::slip_plus);
+  CHECK(rounds[1].failed.empty());
+}
+
+TEST_CASE("a refusal says what kind it is") {
+  Model model = blocks({{2.0}}, {0.1}, 0.4);
+  model.contacts.push_back(model.contacts[0]);
+  CHECK(start(model).refusal.kind == Refusal::Kind::dependent);
+  CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).refusal.kind == Refusal::Kind::none);
 }
 
 TEST_SUITE_END();

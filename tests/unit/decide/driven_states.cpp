@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include "decide/decide.hpp"
+#include "decide/driven_states.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;

@@ -1,0 +1,264 @@
+#include "decide/decider.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "decide/driven_states.hpp"
+#include "decide/enumeration.hpp"
+#include "motion/hold.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double unlucky = 16.0;  // times noise and resolution, where decisions go in circles
+
+/// How a guard passed through zero, from the motion in the mode that it ended.
+Crossing crossing(const Form& form, const MotionJet& jet) {
+  Crossing result{form, true, {}, form.magnitude(jet.noise[0])};
+  for (std::size_t k = 1; k < jet.motion.size(); ++k) result.derivatives[k - 1] = form.rate(jet.motion[k]);
+  return result;
+}
+
+std::vector<std::size_t> contacts_of(const std::vector<Failure>& failed) {
+  std::vector<std::size_t> result;
+  for (const Failure& f : failed) result.push_back(f.contact);
+  return result;
+}
+
+}  // namespace
+
+struct Decider::Course {
+  Instant instant;
+  const Forcing& after;
+  Decision decision;
+  Mode mode;                    // tried last
+  std::vector<MotionJet> jets;  // in it
+  std::vector<Failure> failed;  // there
+  std::vector<Mode> seen;       // for recognising a circle
+  std::vector<ContactMotion> noise_before;
+  Block block;
+  bool blurred = false;
+};
+
+Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
+    : model_(systems.model()),
+      systems_(systems),
+      jets_(systems),
+      max_rounds_(max_rounds),
+      touching_(systems, jets_, capture_velocity) {}
+
+/// The motion in a mode. False: its rows are dependent.
+bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course) {
+  Decision& d = course.decision;
+  const Instant& instant = course.instant;
+  d.system = systems_.of(mode);
+  if (!d.system) return false;
+  d.u = instant.u;
+  d.v = instant.v;
+  hold(model_, *d.system, forcing, instant.t, d.u, d.v);
+  d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets);
+  d.u = d.jet.u.col(0);
+  d.v = d.jet.u.col(1);
+  d.mode = mode;
+  return true;
+}
+
+std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& decision) const {
+  std::vector<BodySlide> result;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    result.push_back(slide_of(model_.contacts[k], k, forcing, decision.jet.t, decision.u, decision.v));
+  return result;
+}
+
+/// The motion just before, in the old mode under the old forcing, and the states that the forcing asks for.
+Refusal Decider::begin(const Forcing& before, Course& course) {
+  Instant& instant = course.instant;
+  Decision& d = course.decision;
+  if (!evaluate(before, instant.mode, course)) return dependent_rows();
+  for (const MotionJet& jet : course.jets) {
+    d.before.push_back(jet.motion[0]);
+    course.noise_before.push_back(jet.noise[0]);
+  }
+  d.slides_before = slides(before, d);
+  // What sticks rigidly moves with its surface, what touches rigidly has no gap: an integrator's drift must
+  // not decide what comes next.
+  instant.u = d.u;
+  instant.v = d.v;
+  course.mode = instant.mode;
+  if (!instant.jump) return {};
+  follow_forcing(model_, instant, before, course.after, d.before, course.mode);
+  return evaluate(course.after, course.mode, course) ? Refusal{} : dependent_rows();
+}
+
+/// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
+void Decider::look(Course& course, bool before) {
+  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.block.known);
+  if (!listener_) return;
+  Round round{course.instant.t, course.decision.rounds, {}, {}, course.block.hit, course.mode, {}};
+  for (const Fired& f : course.instant.fired) round.fired.push_back({f.contact, to_string(f.guard)});
+  for (const Failure& f : course.failed)
+    round.failed.push_back({f.contact, to_string(f.guard), f.sign.order, f.sign.excess});
+  for (std::size_t c = 0; c < course.block.known.size(); ++c)
+    if (course.block.known[c].touches) round.touching.push_back(c);
+  listener_(round);
+}
+
+/// Contacts that decide alone take their next states. True: others must be decided together.
+bool Decider::react(Course& course) const {
+  Block& block = course.block;
+  bool jointly = block.sliders;
+  for (const Failure& f : course.failed) {
+    const std::size_t c = f.contact;
+    const Contact& contact = model_.contacts[c];
+    if (!course.decision.visited[c]) course.decision.crossings[c] = crossing(f.form, course.jets[c]);
+    course.decision.visited[c] = true;
+    if (!contact.takes_impulses() && !(block.sliders && contact.sticks_rigidly())) {
+      course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
+      continue;
+    }
+    jointly = true;
+    // It was left at its static limit, and that falls.
+    const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    if (slips && block.decided[c]) block.kinetic[c] = true;
+    if (f.guard == Guard::sliding && block.decided[c] &&
+        starts_at_zero(f.form, course.jets[c], course.instant))
+      block.rests[c] = true;
+  }
+  return jointly;
+}
+
+/// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
+/// sliders may have to be decided together; then rounding cannot tell, and all combinations are weighed.
+Refusal Decider::leave_circle(Course& course) {
+  Instant& instant = course.instant;
+  if (!course.blurred) {
+    course.blurred = true;
+    instant.blur = unlucky;
+    instant.resolution *= unlucky;
+    course.seen.clear();
+    return {};
+  }
+  if (!course.block.sliders) {
+    course.block.sliders = true;
+    return {};
+  }
+  Refusal refusal{
+      Refusal::Kind::endless,
+      "no combination of states is consistent; guards that fail: " + names_of(model_, course.failed),
+      contacts_of(course.failed)};
+  Enumeration enumeration(systems_, jets_);
+  if (const auto best = enumeration.least_failing(instant, course.after, course.block, course.mode)) {
+    refusal.condition = best->condition;
+    refusal.residual = best->forgiveness;
+    if (best->acceptable()) {
+      course.mode = best->mode;
+      for (KnownGuards& known : course.block.known) known = known.of_motion();
+      course.decision.undecided = true;
+      return {};
+    }
+  }
+  return refusal;
+}
+
+/// The next mode, from the guards that failed in the last one.
+Refusal Decider::try_next(Course& course) {
+  Decision& d = course.decision;
+  const bool jointly = react(course) || (course.instant.start && d.rounds == 1);
+  course.block.hit = false;
+  if (jointly) {
+    Refusal why = touching_.decide(course.instant, course.after, course.jets, course.failed, course.block, d,
+                                   course.mode);
+    if (why) {
+      if (!course.failed.empty()) why.reason += " (after " + names_of(model_, course.failed) + ")";
+      return why;
+    }
+  }
+  if (course.block.hit) course.seen.clear();  // other velocities: the same states mean something else
+  const bool again = std::find(course.seen.begin(), course.seen.end(), course.mode) != course.seen.end();
+  if (again && !(course.instant.start && d.rounds == 1))
+    if (Refusal why = leave_circle(course)) return why;
+  course.seen.push_back(course.mode);
+  if (evaluate(course.after, course.mode, course)) return {};
+  Refusal why = dependent_rows(contacts_of(course.failed));
+  why.reason += fmt::format(" (after {}); law = \"compliant\" or a tangential_stiffness makes them so",
+                            names_of(model_, course.failed));
+  return why;
+}
+
+Refusal Decider::go(const Forcing& before, Course& course) {
+  if (Refusal why = begin(before, course)) return why;
+  course.seen.push_back(course.mode);
+  look(course, true);
+  Decision& d = course.decision;
+  while (!d.undecided && (!course.failed.empty() || (course.instant.start && d.rounds == 0))) {
+    if (++d.rounds > max_rounds_)
+      return {Refusal::Kind::endless,
+              fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
+                          max_rounds_, names_of(model_, course.failed)),
+              contacts_of(course.failed)};
+    if (Refusal why = try_next(course)) return why;
+    look(course, false);
+  }
+  return {};
+}
+
+/// What an engine and the log want to know of the new mode.
+void Decider::finish(Course& course) const {
+  Decision& d = course.decision;
+  d.consistent = true;
+  d.slides_after = slides(course.after, d);
+  for (std::size_t c = 0; c < course.mode.size(); ++c) {
+    const MotionJet& jet = course.jets[c];
+    const ContactMotion& now = jet.motion[0];
+    d.after.push_back(now);
+    d.jumped[c] = std::abs(now.N - d.before[c].N) > course.noise_before[c].N + jet.noise[0].N ||
+                  std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
+    for (const GuardForm& guard : guards(model_.contacts[c], course.mode[c])) {
+      GuardStart start{guard.kind, guard.form};
+      if (guard.kind != Guard::none) {
+        const Known known = course.block.known[c].of(guard.kind);
+        start.at_zero = known.zeros > 0 || starts_at_zero(guard.form, jet, course.instant);
+        start.noise = guard.form.magnitude(jet.noise[0]);
+        const int order = sign_of_guard(guard.form, jet, course.instant, known).order;
+        start.leading = order < static_cast<int>(jet.motion.size()) ? order : -1;
+      }
+      d.guards.push_back(std::move(start));
+    }
+  }
+}
+
+Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
+  const std::size_t count = model_.contacts.size();
+  Course course{std::move(instant), after, {}, {}, {}, {}, {}, {}, Block(count)};
+  course.decision.visited.assign(count, false);
+  course.decision.jumped.assign(count, false);
+  course.decision.crossings.resize(count);
+  course.decision.refusal = go(before, course);
+  if (!course.decision.refusal) finish(course);
+  return std::move(course.decision);
+}
+
+Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {
+  Course course{instant, forcing, {}, {}, {}, {}, {}, {}, Block(mode.size())};
+  Decision& d = course.decision;
+  d.visited.assign(mode.size(), false);
+  d.jumped.assign(mode.size(), false);
+  d.crossings.resize(mode.size());
+  if (!evaluate(forcing, mode, course)) {
+    d.refusal = dependent_rows();
+    return std::move(d);
+  }
+  d.consistent = true;
+  for (const MotionJet& jet : course.jets) d.after.push_back(jet.motion[0]);
+  d.before = d.after;
+  d.slides_after = d.slides_before = slides(forcing, d);
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+      d.guards.push_back({guard.kind, guard.form});
+  return std::move(d);
+}
+
+}  // namespace signorini

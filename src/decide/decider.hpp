@@ -1,0 +1,53 @@
+// decider.hpp: the states of all contacts just after an instant.
+//
+//   every guard g of the new states:  g, g', g'', ...  is lexicographically not negative
+//
+// Never a flipped flag: the next states are those whose guards hold on the solution to their right.
+// Contacts whose guard fails take their next state (contact/transition.hpp), the jet is expanded again
+// in the new mode, until all guards hold. Rigid contacts are decided together (decide/touching.hpp):
+// velocities first where one closes with g' < 0, then accelerations and their derivatives. Sliders without
+// tangential stiffness join them if their own states repeat. Where rounds go in circles, what rounding has
+// made of zeros was told too sharply: first blurred, then all combinations of states are tried
+// (decide/enumeration.hpp). If no mode is consistent the decision says so.
+#pragma once
+
+#include "decide/touching.hpp"
+
+namespace signorini {
+
+class Decider {
+ public:
+  /// capture_velocity: of rigid contacts that have none of their own.
+  Decider(ModeSystems& systems, int max_rounds, double capture_velocity);
+
+  /// `before` and `after`: the forcing on both sides of the instant.
+  [[nodiscard]] Decision decide(Instant instant, const Forcing& before, const Forcing& after);
+  /// Takes the states of `mode` as they are, from an engine that finds states itself and no instants:
+  /// forces and accelerations that follow from them, the same before and after.
+  [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
+
+  /// Hears of every mode that is tried.
+  void trace(RoundListener listener) { listener_ = std::move(listener); }
+
+ private:
+  /// One decision under way.
+  struct Course;
+  [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
+  [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
+  void look(Course& course, bool before);
+  [[nodiscard]] bool react(Course& course) const;
+  [[nodiscard]] Refusal try_next(Course& course);
+  [[nodiscard]] Refusal leave_circle(Course& course);
+  [[nodiscard]] Refusal go(const Forcing& before, Course& course);
+  void finish(Course& course) const;
+  [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
+
+  const Model& model_;
+  ModeSystems& systems_;
+  JetMaker jets_;
+  int max_rounds_;
+  Touching touching_;
+  RoundListener listener_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,52 @@
+// decision.hpp: what comes after an instant: states, motion, and how sharply they are known.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "decide/impact.hpp"
+#include "motion/jet.hpp"
+#include "signorini/trace.hpp"
+
+namespace signorini {
+
+/// One guard in force after the decision.
+struct GuardStart {
+  Guard kind = Guard::none;
+  Form form;
+  bool at_zero = false;  ///< starts at zero and rises
+  double noise = 0.0;    ///< rounding of its value at the start
+  int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
+};
+
+/// The guard whose failure changed a contact's state.
+struct Crossing {
+  Form form;
+  bool failed = false;
+  std::array<double, MotionJet::orders - 1> derivatives{};  ///< g', g'', ... just before, in the old mode
+  double noise = 0.0;                                       ///< rounding of its value
+};
+
+struct Decision {
+  bool consistent = false;
+  Refusal refusal;  ///< why not
+  Mode mode;
+  ModeSystemPtr system;  ///< of `mode`; engines go on with it
+  Vector u, v;
+  Jet jet;
+  std::vector<ContactMotion> before, after;  ///< one a contact
+  std::vector<BodySlide> slides_before, slides_after;
+  std::vector<GuardStart> guards;    ///< guards_per_contact a contact
+  std::vector<Crossing> crossings;   ///< of the contacts visited
+  std::vector<bool> visited;         ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;          ///< contacts whose N or T jumps
+  std::vector<Impulse> impulses;     ///< one a contact, where rigid contacts were hit; else empty
+  double impact_loss = 0.0;          ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;  ///< that moving surfaces do in them
+  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
+  bool undecided = false;            ///< rounding could not tell: the states that fail least were taken
+  int rounds = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,94 @@
+#include "decide/guard_signs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace signorini {
+namespace {
+
+double derivative(const Form& form, const MotionJet& jet, std::size_t k) {
+  return k == 0 ? form.value(jet.motion[0]) : form.rate(jet.motion[k]);
+}
+
+/// Below this derivative k is zero.
+double zero_of(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t k) {
+  double zero = instant.blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
+  if (k + 1 < jet.motion.size()) zero += instant.resolution * std::abs(form.rate(jet.motion[k + 1]));
+  return zero;
+}
+
+/// The guard of a contact that fails soonest.
+std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
+                                  const ContactState& state, const Instant& instant, bool before,
+                                  const KnownGuards& known) {
+  const auto all = guards(contact, state);
+  std::optional<Failure> soonest;
+  for (const GuardForm& guard : all) {
+    if (guard.kind == Guard::none) continue;
+    // What the integrator located is zero, also where the last rounding leaves it positive.
+    const bool located = before && instant.has_fired(c, guard.kind) && guard.form.value(jet.motion[0]) > 0.0;
+    Known guard_known = known.of(guard.kind);
+    if (located) guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
+    const Sign sign = sign_of_guard(guard.form, jet, instant, guard_known);
+    // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
+    // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
+    if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;
+    soonest = Failure{c, guard.kind, guard.form, sign};
+  }
+  if (!soonest || soonest->sign.order == 0) return soonest;
+  // Friction limit and compression vanish together in a vertical lift-off: one separation.
+  if (soonest->guard == Guard::slip_plus || soonest->guard == Guard::slip_minus) {
+    const GuardForm& separation = all[0];
+    if (separation.kind == Guard::separation && starts_at_zero(separation.form, jet, instant) &&
+        separation.form.rate(jet.motion[1]) < 0.0) {
+      soonest->guard = Guard::separation;
+      soonest->form = separation.form;
+    }
+  }
+  return soonest;
+}
+
+}  // namespace
+
+Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
+  for (std::size_t k = first; k < jet.motion.size(); ++k) {
+    const double d = derivative(form, jet, k), zero = zero_of(form, jet, instant, k);
+    if (std::abs(d) > zero) return {d > 0.0 ? 1 : -1, static_cast<int>(k), std::abs(d) / zero};
+  }
+  return {0, static_cast<int>(jet.motion.size()), 0.0};
+}
+
+Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant, const Known& known) {
+  const Sign sign = sign_after(form, jet, instant, known.zeros);
+  if (!known.rises || (sign.sign < 0 && sign.order == static_cast<int>(known.zeros))) return sign;
+  return {1, static_cast<int>(known.zeros), sign.order == static_cast<int>(known.zeros) ? sign.excess : 1.0};
+}
+
+bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant) {
+  const double zero =
+      instant.blur * form.magnitude(jet.noise[0]) + instant.resolution * std::abs(form.rate(jet.motion[1]));
+  return std::abs(form.value(jet.motion[0])) <= zero;
+}
+
+double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
+  double most = 0.0;
+  for (std::size_t k = first; k < jet.motion.size(); ++k) {
+    const double ratio = derivative(form, jet, k) / zero_of(form, jet, instant, k);
+    if (ratio > 1.0) break;
+    if (ratio < -1.0) most = std::max(most, -ratio);
+  }
+  return most;
+}
+
+std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets, const Mode& mode,
+                              const Instant& instant, bool before, const std::vector<KnownGuards>& known) {
+  std::vector<Failure> result;
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c]))
+      result.push_back(std::move(*failed));
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,85 @@
+// guard_signs.hpp: which guards of a mode fail just after an instant.
+//
+//   g, g', g'', ...  lexicographically not negative, each entry zero within its rounding
+//
+// A derivative also counts as zero when the next one would undo it within the resolution of the clock. What a
+// decision has set to zero is zero, whatever an elimination has left of it.
+#pragma once
+
+#include <algorithm>
+
+#include "decide/instant.hpp"
+#include "motion/jet.hpp"
+
+namespace signorini {
+
+/// What a decision knows of a guard: derivatives below `zeros` vanish, and whether the next one is positive.
+struct Known {
+  std::size_t zeros = 0;
+  bool rises = false;
+};
+
+/// Of the guards of one contact that is decided together with others.
+struct KnownGuards {
+  bool touches = false;  ///< g = 0
+  Known closing, separation, slip_plus, slip_minus, sliding;
+
+  /// What holds whatever the states are: g, g' and the slip rate that were set to zero.
+  [[nodiscard]] KnownGuards of_motion() const {
+    KnownGuards result;
+    result.touches = touches;
+    result.closing.zeros = std::min<std::size_t>(closing.zeros, 2);
+    result.sliding.zeros = std::min<std::size_t>(sliding.zeros, 1);
+    return result;
+  }
+  [[nodiscard]] Known of(Guard guard) const {
+    switch (guard) {
+      case Guard::closing:
+        return closing;
+      case Guard::separation:
+        return separation;
+      case Guard::slip_plus:
+        return slip_plus;
+      case Guard::slip_minus:
+        return slip_minus;
+      case Guard::sliding:
+        return sliding;
+      case Guard::none:
+      case Guard::clearing:
+        break;
+    }
+    return {};
+  }
+};
+
+struct Sign {
+  int sign = 0;         // -1, 0, +1
+  int order = 0;        // of the derivative that decides; past the last one when all vanish
+  double excess = 0.0;  // that derivative's magnitude over what counts as zero
+};
+
+/// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
+[[nodiscard]] Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant,
+                              std::size_t first);
+[[nodiscard]] bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant);
+/// How many times its rounding must be forgiven for the form not to be lexicographically negative; 0: none.
+[[nodiscard]] double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant,
+                                 std::size_t first);
+/// Sign of a guard of which something is known: one that rises is only asked whether it clearly does not.
+[[nodiscard]] Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant,
+                                 const Known& known);
+
+struct Failure {
+  std::size_t contact = 0;
+  Guard guard = Guard::none;
+  Form form = {};
+  Sign sign = {};
+};
+
+/// The guard that fails soonest of each contact of which one fails. before: the mode is that of the motion
+/// up to the instant, so what the engine located is zero. known: one a contact.
+[[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
+                                            const Mode& mode, const Instant& instant, bool before,
+                                            const std::vector<KnownGuards>& known);
+
+}  // namespace signorini

@@ -1,0 +1,45 @@
+// instant.hpp: what a decision starts from: the motion just before, and what happened.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "contact/law.hpp"
+#include "contact/mode.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// A guard that an integrator found at zero.
+struct Fired {
+  std::size_t contact = 0;
+  Guard guard = Guard::none;
+};
+
+struct Instant {
+  double t = 0.0;
+  double resolution = 0.0;  ///< events closer than this in time are one instant
+  Vector u, v;
+  Mode mode;  ///< just before
+  std::vector<Fired> fired;
+  bool jump = false;   ///< the forcing is not smooth here
+  double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
+  bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
+
+  [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const {
+    return std::any_of(fired.begin(), fired.end(),
+                       [&](const Fired& f) { return f.contact == contact && f.guard == guard; });
+  }
+};
+
+/// "'first' (compression), 'second' (gap)": of anything with a contact and a guard.
+template <class Guarded>
+[[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
+  std::string text;
+  for (const Guarded& g : list)
+    text += (text.empty() ? "'" : ", '") + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")";
+  return text;
+}
+
+}  // namespace signorini

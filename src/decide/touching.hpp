@@ -1,0 +1,71 @@
+// touching.hpp: rigid contacts that touch, from velocities to states.
+//
+//   hit:     g = 0, g' < 0        impact (decide/impact.hpp), then
+//   leaves:  g' > 0               open
+//   stays:   g' = 0               decided with all others that stay (decide/levels.hpp)
+//
+// What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration is
+// known only once a state has been tried, so what is zero is found out in the course of a decision.
+#pragma once
+
+#include "decide/decision.hpp"
+#include "decide/guard_signs.hpp"
+#include "decide/levels.hpp"
+
+namespace signorini {
+
+/// What is known at an instant of the contacts whose forces may jump; lists: one entry a contact.
+struct Block {
+  explicit Block(std::size_t n)
+      : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), known(n) {}
+  bool hit = false;                       ///< the last decision began with an impact
+  bool sliders = false;                   ///< sliders that stick rigidly take part
+  std::vector<bool> decided;              ///< took part
+  std::vector<bool> kinetic;              ///< its slip has begun: the static coefficient is gone
+  std::vector<bool> stays, rests;         ///< vn, vt count as zero
+  std::vector<KnownGuards> known;         ///< of those that touch
+  std::vector<Participant> participants;  ///< of the last decision
+};
+
+class Touching {
+ public:
+  /// capture_velocity: of contacts that have none of their own.
+  Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity);
+
+  /// Impacts where there are any, then the states. failed: the guards that led here.
+  [[nodiscard]] Refusal decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
+                               const std::vector<Failure>& failed, Block& block, Decision& decision,
+                               Mode& mode);
+
+ private:
+  /// Rigid contacts with g = 0.
+  struct Met {
+    std::vector<std::size_t> contacts;
+    bool hit = false, apart = false;  // one closes; a gap is not exactly zero
+  };
+  [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
+                         const std::vector<Failure>& failed, const Mode& mode) const;
+  [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, Block& block,
+                               Decision& decision, Mode& mode);
+  [[nodiscard]] std::vector<Participant> staying(const Instant& instant, const Forcing& forcing,
+                                                 const Met& met, const std::vector<MotionJet>& free,
+                                                 const Decision& decision, Block& block) const;
+  void add_sliders(const Decision& decision, Block& block) const;
+  void follow_velocity(const Instant& instant, const Forcing& forcing,
+                       const std::vector<ContactMotion>& before, Mode& mode) const;
+  void settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free, const Met& met,
+                      Block& block) const;
+  [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
+                                         const Instant& instant) const;
+  [[nodiscard]] double leaving_velocity(std::size_t contact, const MotionJet& free,
+                                        const Instant& instant) const;
+
+  const Model& model_;
+  ModeSystems& systems_;
+  JetMaker& jets_;
+  double capture_velocity_;
+  Impacts impacts_;
+  Levels levels_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,119 @@
+// Decisions that must not depend on angle, size or luck: scenes that were once refused or decided wrongly.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "behaviour/engines.hpp"
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+Result run_scene(const std::string& name, const std::string& engine, const char* rtol = "1e-10") {
+  const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/" + name + ".toml",
+                                 {{"run.engine", engine}, {"run.rtol", rtol}});
+  return simulate(build_model(scene), scene.run);
+}
+
+/// The frame of models/rigid-frame.toml, turned about A; the mesh is the coarsest.
+std::string turned_frame(double degrees) {
+  const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+  const auto turned = [&](double x, double y) {
+    return fmt::format("[{}, {}]", c * x - s * y, s * x + c * y);
+  };
+  std::string text = fmt::format(
+      "schema = 1\nunits = {{ force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }}\n"
+      "gravity = {}\n[run]\nt_end = 0.5\ninitial = \"static\"\noutput_dt = 0.5\n[damping]\n"
+      "alpha = 7.328956257220504\n[sections.pipe]\nEA = 9.0e6\nEI = 2.0e6\nmass_per_length = 0.4\n"
+      "[nodes]\nA = {}\nB = {}\nC = {}\nD = {}\n[[members]]\nnodes = [\"A\", \"B\", \"C\", \"D\"]\n"
+      "section = \"pipe\"\nelements = [1, 1, 1]\n[[supports]]\nnode = \"D\"\nfix = [\"ux\", \"uy\"]\n"
+      "[[loads]]\nnode = \"A\"\ndirection = {}\namplitude = 100.0\n"
+      "history = {{ type = \"half_sine\", start = 0.0, duration = 0.1 }}\n",
+      turned(0.0, -9.81), turned(0.0, 0.0), turned(19.0, 0.0), turned(19.0, -6.0), turned(38.0, -6.0),
+      turned(0.5, 0.8660254037844386));
+  for (const char* node : {"A", "B"})
+    text += fmt::format(
+        "[[contacts]]\nname = \"{0}\"\nnode = \"{0}\"\nnormal = {1}\nlaw = \"rigid\"\n"
+        "friction = 0.3\nrestitution = 0.0\n",
+        node, turned(0.0, 1.0));
+  return text;
+}
+
+Result run_frame(double degrees, const std::string& engine) {
+  const Scene scene = parse_scene(turned_frame(degrees), "frame.toml",
+                                  {{"run.engine", engine}, {"run.rtol", "1e-10"}, {"run.dt", "1e-4"}});
+  return simulate(build_model(scene), scene.run);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/decisions");
+
+TEST_CASE("a frame on rigid supports has the same events at every angle") {
+  const Result along = run_frame(0.0, "exact");
+  REQUIRE(along.report.outcome.kind == Outcome::Kind::done);
+  REQUIRE(along.events.size() == 53);
+  for (const double degrees : {7.0, 23.0, 30.0, 45.0, 51.0, 63.0, 90.0, 111.0, 135.0, 180.0 - 1e-9, 211.0}) {
+    CAPTURE(degrees);
+    const Result turned = run_frame(degrees, "exact");
+    INFO(turned.report.outcome.reason);
+    CHECK(turned.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(turned.events.size() == along.events.size());
+    for (std::size_t i = 0; i < along.events.size(); ++i) {
+      CHECK(turned.events[i].contact == along.events[i].contact);
+      CHECK(turned.events[i].to == along.events[i].to);
+      CHECK(std::abs(turned.events[i].t - along.events[i].t) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("two rigid contacts at rest with one regular solution go on") {
+  // All degrees of freedom are held, so velocities are the rounding of an equilibrium.
+  for (const char* t_end : {"1.5", "1.7", "2.0", "6.0"}) {
+    CAPTURE(t_end);
+    const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/regular-four-dof.toml",
+                                   {{"run.engine", "exact"}, {"run.t_end", t_end}});
+    const Result r = simulate(build_model(scene), scene.run);
+    INFO(r.report.outcome.reason);
+    CHECK(r.report.outcome.kind == Outcome::Kind::done);
+    CHECK(r.report.audit.energy.value < 1e-9 * r.report.audit.energy_scale);
+  }
+}
+
+TEST_CASE("a jump of the surface beside a tangential dashpot below the static limit is no slip") {
+  // T jumps to ct * 0.1 = 3.3 < 4. Times of an independent integrator.
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Result r = run_scene("jump-below-static-limit", engine);
+    REQUIRE(r.report.outcome.kind == Outcome::Kind::done);
+    std::vector<Event> changes;
+    for (const Event& e : r.events)
+      if (e.from != e.to) changes.push_back(e);
+    REQUIRE(changes.size() == 3);
+    const double times[] = {0.3010533778570808, 0.33666330347324047, 0.3977429028708775};
+    const State states[] = {State::slip_minus, State::stick, State::slip_minus};
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(std::abs(changes[i].t - times[i]) < 1e-8);
+      CHECK(changes[i].to == states[i]);
+    }
+    // The spring beside the dashpot is the contact's own.
+    CHECK(r.report.audit.energy.value < 1e-7 * r.report.audit.energy_scale);
+    CHECK(r.report.audit.final.contact > 0.1 * r.report.audit.final.elastic);
+  }
+}
+
+TEST_CASE("a contact with a tangential dashpot on a node without mass") {
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Result r = run_scene("massless-node-dashpot", engine);
+    INFO(r.report.outcome.reason);
+    CHECK(r.report.outcome.kind == Outcome::Kind::done);
+    CHECK(r.events.size() > 10);
+    CHECK(r.report.audit.energy.value < 1e-6 * r.report.audit.energy_scale);
+  }
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,58 @@
+#include "decide/guard_signs.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace signorini;
+
+namespace {
+
+/// A gap with the given derivatives, each known to `noise`.
+MotionJet gap_of(std::array<double, MotionJet::orders> derivatives, double noise) {
+  MotionJet jet;
+  for (std::size_t k = 0; k < derivatives.size(); ++k) {
+    jet.motion[k].gap = derivatives[k];
+    jet.noise[k].gap = noise;
+  }
+  return jet;
+}
+
+Form gap() {
+  Form form;
+  form.gap = 1.0;
+  return form;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/decide/guard_signs");
+
+TEST_CASE("the first derivative that is not zero decides, and says how clearly") {
+  const Instant instant;
+  const Sign falls = sign_after(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);
+  CHECK(falls.sign == -1);
+  CHECK(falls.order == 1);
+  CHECK(falls.excess == doctest::Approx(30.0));
+  CHECK(sign_after(gap(), gap_of({0.5, -0.3, 9.0, 0.0, 0.0}, 1.0), instant, 0).sign == 1);
+  CHECK(sign_after(gap(), gap_of({0.5, -0.3, 0.1, 0.0, 0.0}, 1.0), instant, 0).sign == 0);
+}
+
+TEST_CASE("what was set to zero is not asked; what was found to rise only whether it clearly falls") {
+  const Instant instant;
+  const MotionJet jet = gap_of({-7.0, -5.0, 0.4, -50.0, 0.0}, 1.0);
+  CHECK(sign_of_guard(gap(), jet, instant, {}).sign == -1);
+  CHECK(sign_of_guard(gap(), jet, instant, {1, false}).order == 1);
+  // g'' was found positive with a sharper noise; g''' says nothing then
+  CHECK(sign_of_guard(gap(), jet, instant, {2, false}).sign == -1);
+  CHECK(sign_of_guard(gap(), jet, instant, {2, true}).sign == 1);
+  CHECK(sign_of_guard(gap(), jet, instant, {3, true}).sign == -1);
+}
+
+TEST_CASE("forgiveness is the greatest negative derivative before a positive one, in roundings") {
+  const Instant instant;
+  CHECK(forgiveness(gap(), gap_of({3.0, -9.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == 0.0);
+  CHECK(forgiveness(gap(), gap_of({-4.0, 0.0, 8.0, -100.0, 0.0}, 1.0), instant, 0) == doctest::Approx(4.0));
+  CHECK(forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 0) == doctest::Approx(6.0));
+  CHECK(forgiveness(gap(), gap_of({-4.0, -6.0, 0.0, 0.0, 0.0}, 1.0), instant, 2) == 0.0);
+}
+
+TEST_SUITE_END();

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/null_motions.hpp"
@@ -65,7 +65,7 @@ void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const Sourc
   if (heavy == 0) throw SceneError(place, "", "nothing in the scene has mass");
   // Scaled to a unit diagonal, the pivots are pure numbers.
   const SymmetricSolver solver(block(assembly.mass, position, heavy, s));
-  if (!solver.ok() || solver.smallest_pivot() <= 64.0 * heavy * std::numeric_limits<double>::epsilon())
+  if (!solver.ok() || solver.smallest_pivot() <= rounding::of_many * heavy)
     throw SceneError(
         place, "matrices.mass",
         "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "

@@ -3,17 +3,15 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double roundings = 64.0;   // of the terms of a gap, up to which it counts as zero
 constexpr double dependent = 1e-12;  // what is left of a unit normal when all others are taken out of it
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
@@ -40,7 +38,7 @@ void close_gap(const Scene& scene, Model& model, std::size_t k) {
   const double terms = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
-  if (carries || std::abs(gap) <= roundings * epsilon * terms) {
+  if (carries || std::abs(gap) <= rounding::of_many * terms) {
     double square = 0.0;
     for (const auto& term : contact.normal.terms) square += term.second * term.second;
     for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;

@@ -62,7 +62,7 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
   return std::max(force, model.omega_max * (momentum.size() ? momentum.cwiseAbs().maxCoeff() : 0.0));
 }
 
-/// Greatest static displacements under the amplitude of any one load; 0 when the matrix is singular.
+/// Greatest static displacements under any one of some forces; 0 when the matrix is singular.
 struct Answer {
   double held = 0.0;
   /// All that is fixed only gripped, by springs of the structure's own size: the measure of displacements
@@ -70,15 +70,16 @@ struct Answer {
   double gripped = 0.0;
 };
 
-Answer answer_to_loads(const Model& model, const DofMap& map, const Holding& holding, double t_end) {
+Answer answer_to(const std::vector<Vector>& forces, const Model& model, const DofMap& map,
+                 const Holding& holding) {
+  if (forces.empty()) return {};
   const SparseMatrix k = with_springs(model.stiffness, holding.springs);
   const SparseMatrix gripped = with_grips(k, holding.fixed);
   if (null_motions(gripped).cols() > 0) return {};
   const HeldStructure structure(k, holding.fixed);
   const SymmetricSolver loose(gripped);
   Answer result;
-  for (const Load& load : model.loads) {
-    const Vector p = full(load.direction, model.size()) * magnitude(load.history, t_end);
+  for (const Vector& p : forces) {
     const double answer = greatest_translation(structure.solve(p), map);
     const double free = greatest_translation(loose.solve(p), map);
     // Where all that could move is fixed, only roundoff answers.
@@ -86,6 +87,23 @@ Answer answer_to_loads(const Model& model, const DofMap& map, const Holding& hol
     result.gripped = std::max(result.gripped, free);
   }
   return result;
+}
+
+std::vector<Vector> amplitudes_of_loads(const Model& model, double t_end) {
+  std::vector<Vector> forces;
+  for (const Load& load : model.loads)
+    forces.emplace_back(full(load.direction, model.size()) * magnitude(load.history, t_end));
+  return forces;
+}
+
+/// f N along the tangents of sliders, whose compressions are given.
+std::vector<Vector> limits_of_friction(const Model& model, double t_end) {
+  std::vector<Vector> forces;
+  for (const Contact& c : model.contacts)
+    if (const double limit = c.static_friction * magnitude(c.normal_force, t_end);
+        c.law == Law::slider && limit > 0.0)
+      forces.emplace_back(full(c.tangent, model.size()) * limit);
+  return forces;
 }
 
 /// How far the loads could throw the structure in the time of the run if nothing held it.
@@ -145,14 +163,18 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
       model.omega1 > 0.0 ? model.omega1 : lowest_frequency(model.mass, model.stiffness, rested);
 
   double displacement = greatest_translation(model.u0, map);
-  const auto [held, gripped] = answer_to_loads(model, map, holding, t_end);
-  displacement = std::max(displacement, held > 0.0 ? held : answer_to_loads(model, map, rested, t_end).held);
+  const std::vector<Vector> loads = amplitudes_of_loads(model, t_end);
+  const auto [held, gripped] = answer_to(loads, model, map, holding);
+  displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
   if (displacement < 1e-10 * gripped) displacement = gripped;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
   // What starts with a velocity moves at least as far as the fastest oscillation would take it.
   if (model.omega_max > 0.0) displacement = std::max(displacement, v0 / model.omega_max);
+  // What only friction moves goes as far as its limit bends the structure.
+  if (!usable(displacement))
+    displacement = answer_to(limits_of_friction(model, t_end), model, map, rested).held;
   if (!usable(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))

@@ -1,7 +1,8 @@
 // scales.hpp: typical magnitudes of a scene, on which default absolute tolerances stand.
 //
 //   force         greatest static reaction, compression, load amplitude
-//   displacement  greatest static deflection, initial displacement, static answer to a load amplitude
+//   displacement  greatest static deflection, initial displacement, static answer to a load amplitude; where
+//                 there is none, static answer to a slider's friction limit
 //   velocity      omega * displacement, at least the initial velocity
 //   rotation = displacement / L,  angular velocity = velocity / L      L: diagonal of the structure
 //

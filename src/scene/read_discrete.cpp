@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
@@ -31,7 +31,7 @@ void read_ratios(Table& table, DampingSpec& damping) {
   const double w1 = 2.0 * std::numbers::pi * f1, w2 = 2.0 * std::numbers::pi * f2;
   // A difference of roundoff is zero: damping by mass or by stiffness alone.
   const auto difference = [](double a, double b) {
-    return std::abs(a - b) <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(a, b) ? 0.0 : a - b;
+    return std::abs(a - b) <= rounding::of_few * std::max(a, b) ? 0.0 : a - b;
   };
   const double bottom = (w2 - w1) * (w2 + w1);
   damping.alpha = 2.0 * w1 * w2 * difference(z1 * w2, z2 * w1) / bottom;

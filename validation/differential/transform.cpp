@@ -71,6 +71,11 @@ void shuffle(std::vector<T>& list, Random& draw) {
     std::swap(list[i - 1], list[static_cast<std::size_t>(draw.integer(0, static_cast<int>(i) - 1))]);
 }
 
+/// Not for a scene that is refused.
+bool has_free_start(const Scene& scene) {
+  return scene.initial.is_static && !build_model(scene).statics.free_motions.empty();
+}
+
 double size_of(const Scene& scene) {
   double size = 0.0;
   for (const Node& node : scene.nodes) size = std::max({size, std::abs(node.x), std::abs(node.y)});
@@ -131,7 +136,7 @@ Transformed permuted(const Scene& scene, std::uint64_t seed) {
   shuffle(result.scene.masses, draw);
   shuffle(result.scene.springs, draw);
   shuffle(result.scene.supports, draw);
-  shuffle(result.scene.contacts, draw);
+  if (!has_free_start(scene)) shuffle(result.scene.contacts, draw);
   shuffle(result.scene.loads, draw);
   return result;
 }

@@ -31,6 +31,7 @@ struct Transformed {
 [[nodiscard]] std::optional<Transformed> turned(const Scene& scene, double angle);
 /// Nothing for [matrices].
 [[nodiscard]] std::optional<Transformed> mirrored(const Scene& scene);
+/// Contacts stay in order where the static start leaves a motion free: the first one that can holds it.
 [[nodiscard]] Transformed permuted(const Scene& scene, std::uint64_t seed);
 /// Nothing where there is no member.
 [[nodiscard]] std::optional<Transformed> reversed(const Scene& scene);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "base/history/history_internal.hpp"
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -97,8 +97,7 @@ double roundoff(const Piece& piece, double t) {
   const double a = std::abs(piece.amplitude);
   size += a * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
   slope += a * std::abs(piece.omega);
-  return 64.0 * std::numeric_limits<double>::epsilon() *
-         (size + (std::abs(t) + std::abs(piece.origin)) * slope);
+  return rounding::of_many * (size + (std::abs(t) + std::abs(piece.origin)) * slope);
 }
 
 double roundoff_of_rate(const Piece& piece, double t) {
@@ -107,7 +106,7 @@ double roundoff_of_rate(const Piece& piece, double t) {
   for (std::size_t j = 1; j < piece.coefficients.size(); ++j, power *= s)
     size += static_cast<double>(j) * std::abs(piece.coefficients[j]) * power;
   size += std::abs(piece.amplitude * piece.omega) * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
-  return 64.0 * std::numeric_limits<double>::epsilon() * size;
+  return rounding::of_many * size;
 }
 
 History::History(std::vector<double> starts, std::vector<Piece> pieces)

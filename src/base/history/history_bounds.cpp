@@ -6,9 +6,10 @@
 // others are halved. Nothing is sampled.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/history/history_internal.hpp"
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -64,7 +65,7 @@ double search(const Piece& p, double from, double to) {
   const double r = std::max(m - from, to - m);
   if (lower_bound(p, m, r) >= -roundoff(p, m)) return -1.0;
   // Between neighbouring numbers there is nothing left to find.
-  if (r <= 4.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to))) return -1.0;
+  if (r <= rounding::of_few * std::max(std::abs(from), std::abs(to))) return -1.0;
   const double left = search(p, from, m);
   return left >= 0.0 ? left : search(p, m, to);
 }

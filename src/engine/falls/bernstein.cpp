@@ -53,6 +53,14 @@ double Bernstein::integral(double x) const {
   return x * sum / (degree + 1);
 }
 
+Bernstein Bernstein::derivative() const {
+  Bernstein slope;
+  slope.degree = degree > 0 ? degree - 1 : 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(degree); ++i)
+    slope.b[i] = static_cast<double>(degree) * (b[i + 1] - b[i]);
+  return slope;
+}
+
 bool Bernstein::positive() const {
   return std::all_of(b.begin(), b.begin() + degree + 1, [](double c) { return c > 0.0; });
 }

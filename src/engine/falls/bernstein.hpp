@@ -22,7 +22,8 @@ struct Bernstein {
   [[nodiscard]] static Bernstein from_powers(int degree, const std::array<double, max_degree + 1>& a);
   [[nodiscard]] double value(double x) const;
   [[nodiscard]] double integral(double x) const;  ///< from 0 to x
-  [[nodiscard]] bool positive() const;            ///< all coefficients are > 0
+  [[nodiscard]] Bernstein derivative() const;
+  [[nodiscard]] bool positive() const;  ///< all coefficients are > 0
   /// The same polynomial on [0, x] and on [x, 1].
   void split(double x, Bernstein& left, Bernstein& right) const;
 };

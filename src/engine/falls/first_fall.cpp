@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t size = most_fall_degree + 1;
-constexpr double finest = 64.0 * std::numeric_limits<double>::epsilon();  // width, of the whole step
+constexpr double finest = rounding::of_many;  // width, of the whole step
 using Coefficients = std::array<double, size>;
 
 /// conversion[n][k][i] = C(i,k)/C(n,k): what a_k adds to b_i in degree n.
@@ -41,8 +42,7 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
     }
     const double newton = value / slope, step = std::abs(newton);
     // Newton's steps shrink quadratically until rounding makes them wander.
-    if (step <= std::numeric_limits<double>::epsilon() * x || (last < 1e-6 * x && step > 0.25 * last))
-      return x;
+    if (step <= rounding::eps * x || (last < 1e-6 * x && step > 0.25 * last)) return x;
     (value > 0.0 ? lo : hi) = x;
     if (x - newton > lo && x - newton < hi) {
       x -= newton;

@@ -1,7 +1,10 @@
 #include "engine/ida/ida_engine.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/ida/locate.hpp"
 #include "motion/clock.hpp"
@@ -45,6 +48,7 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
 
 void IdaEngine::start(const Segment& segment) {
   segment_ = segment;
+  steps_ = 0;
   const Decision& decision = *segment.decision;
   flight_ =
       flights_.take(segment, [&](const Contact& contact) { return lowest_flight(contact, decision.u); });
@@ -99,6 +103,7 @@ Step IdaEngine::advance() {
   if (accelerations_) consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
   fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
+  ++steps_;
   step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
   if (const auto event = first_event(bdf, step.resolution)) {
     step.kind = Step::Kind::event;
@@ -123,6 +128,15 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
                                      [&](const Located& c) { return c.slot == slot; });
       if (same == candidates.end()) candidates.push_back({slot, step.root});
     }
+  std::erase_if(candidates, [&](const Located& c) {
+    if (!only_touches(c.slot, (c.time - step.begin) / h)) return false;
+    if (!std::exchange(touched_, true))
+      warnings.push_back(fmt::format(
+          "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than the tolerances of "
+          "its steps; it was taken not to fall there, nor where it does so again",
+          model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind), c.time));
+    return true;
+  });
   if (candidates.empty()) return std::nullopt;
   std::optional<Located> first;
   for (const Located& c : candidates) {
@@ -132,6 +146,20 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   }
   if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;
   return first;
+}
+
+/// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
+/// at its limit, on its own spring). How deep it sinks then is what the steps were off: each by one tolerance
+/// at most.
+bool IdaEngine::only_touches(std::size_t slot, double x) const {
+  const GuardStart& guard = segment_.decision->guards[slot];
+  if (!guard.at_zero || !watch_.armed(slot)) return false;
+  const Bernstein p = history_.polynomial(slot), slope = p.derivative();
+  const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
+  if (!(bend > 0.0)) return false;
+  const double depth = (rate < 0.0 ? rate * rate / (2.0 * bend) : 0.0) - value;
+  const ContactMotion& motion = segment_.decision->after[contact_of_guard(slot)];
+  return depth <= static_cast<double>(steps_) * tolerance(guard.form, motion, tolerance_);
 }
 
 void IdaEngine::integrate(double from, double to, Works& works) {

@@ -38,6 +38,7 @@ class IdaEngine final : public Stepper {
   void fill(double t, const Point& point, double* out);
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
+  [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
 
   const Model& model_;
   ConsistentMotion consistent_;
@@ -52,6 +53,8 @@ class IdaEngine final : public Stepper {
   Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;  // a guard needs them
+  long steps_ = 0;              // of the segment
+  bool touched_ = false;        // has been said
 };
 
 }  // namespace signorini

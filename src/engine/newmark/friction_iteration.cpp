@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/transition.hpp"
 #include "motion/clock.hpp"
@@ -13,9 +13,7 @@
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double unchanged = 1e-12;   // of the greatest contact force: a bound has stopped changing
-constexpr double rounding = 64.0;     // units of epsilon of the terms of a difference
 constexpr double same_length = 1e-9;  // of dt
 constexpr int slips = 100;            // key: T is given, whatever its direction
 constexpr int stops = 101;            // key: comes to rest within the step, without tangential stiffness
@@ -94,7 +92,7 @@ State FrictionIteration::state_of(std::size_t k) const {
   if (const int s = slip_sign(side.state); s != 0) {
     if (!kt) return s * m.vt < 0.0 ? State::stick : side.state;
     const double terms = std::abs(m.ut) + std::abs(m.T / *kt) + std::abs(side.anchor);
-    return s * (slip_of(contact, m) - side.anchor) < -rounding * epsilon * terms ? State::stick : side.state;
+    return s * (slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick : side.state;
   }
   // What slips goes on slipping; what does not is held by static friction.
   const double friction = slip_sign(mode_[k].state) != 0 ? contact.kinetic_friction : contact.static_friction;
@@ -140,7 +138,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
         worst = k;
       }
       const double terms = std::abs(contact.gap) + contact.normal.magnitude(end_.u);
-      noise = std::max(noise, rounding * epsilon * contact.normal_stiffness * terms);
+      noise = std::max(noise, rounding::of_many * contact.normal_stiffness * terms);
       // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
       // once.
       side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;

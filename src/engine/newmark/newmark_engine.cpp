@@ -7,16 +7,15 @@
 #include <limits>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "engine/falls/root.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_length = 1e-9;  // a rest longer than the step by this part is taken in one step
-constexpr double rounding = 64.0;     // units of epsilon of the terms of a guard that count as zero
 constexpr int most_halvings = 60;
 constexpr double spare = 1.0 / 16.0;  // doubling: of the tolerance, below which steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
@@ -108,7 +107,7 @@ void NewmarkEngine::weigh(const Point& point, double t) {
       const GuardStart& guard = decision.guards[slot];
       Watched& w = watched_[slot];
       w.g1 = guard.form.value(m);
-      w.level = guard.noise + rounding * epsilon * guard.form.magnitude(m);
+      w.level = guard.noise + rounding::of_many * guard.form.magnitude(m);
       if (w.has_rate) w.rate1 = guard.form.rate(d);
     }
   }

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -68,7 +69,7 @@ void add_columns(DofMap& map) {
 }  // namespace
 
 std::array<double, 2> clean_direction(const std::array<double, 2>& v) {
-  const double bound = 4.0 * std::numeric_limits<double>::epsilon() * std::hypot(v[0], v[1]);
+  const double bound = rounding::of_few * std::hypot(v[0], v[1]);
   return {std::abs(v[0]) > bound ? v[0] : 0.0, std::abs(v[1]) > bound ? v[1] : 0.0};
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "model/assembly/selection.hpp"
 #include "model/modes/growth.hpp"
 #include "model/modes/held.hpp"
@@ -137,7 +137,7 @@ class Subspace {
   /// Rounding of omega^2 of the lowest motion.
   [[nodiscard]] double noise() const {
     const Vector lowest = x_.col(x_.cols() - 1);
-    return std::numeric_limits<double>::epsilon() * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
+    return rounding::eps * term_size(k_, lowest) / lowest.dot(mass_ * lowest);
   }
   /// Moves the shift to just below the lowest omega^2, by about what the wanted ones lie apart.
   void approach(Eigen::Index wanted) {

@@ -4,13 +4,14 @@
 #include <limits>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/null_motions.hpp"
 
 namespace signorini {
 
 bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
-  return motion.dot(k * motion) < -32.0 * std::numeric_limits<double>::epsilon() * term_size(k, motion);
+  return motion.dot(k * motion) < -rounding::of_many * term_size(k, motion);
 }
 
 std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass) {

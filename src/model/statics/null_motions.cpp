@@ -1,16 +1,15 @@
 #include "model/statics/null_motions.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <random>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int dense_up_to = 300;
 
 /// D^-1/2; a row of zeros (no stiffness at all) keeps the factor 1.
@@ -21,7 +20,7 @@ Vector scaling(const SparseMatrix& k) {
 }
 
 bool is_null(const SparseMatrix& k, const Vector& x) {
-  return x.dot(k * x) <= 32.0 * epsilon * term_size(k, x);
+  return x.dot(k * x) <= rounding::of_many * term_size(k, x);
 }
 
 /// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is
@@ -30,7 +29,7 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   const auto n = static_cast<int>(a.rows());
   SparseMatrix shift(n, n);
   shift.setIdentity();
-  const SymmetricSolver solver(SparseMatrix(a + 64.0 * epsilon * shift));
+  const SymmetricSolver solver(SparseMatrix(a + rounding::of_many * shift));
   std::mt19937 random(1);  // fixed seed: the same scene gives the same answer
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXd x(n, count);

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/simple_motions.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
 /// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
@@ -161,7 +159,8 @@ double driving_work(const StaticProblem& problem, const std::vector<bool>& close
   const SparseMatrix k = problem.matrix(closed);
   const Vector p = problem.right_side(closed);
   const double work = motion.dot(p - k * u);
-  const double roundoff = 64.0 * epsilon * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
+  const double roundoff =
+      rounding::of_many * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());
   double motion_size[2]{0.0, 0.0}, load_size[2]{0.0, 0.0};  // translations, rotations
   for (int i = 0; i < problem.size(); ++i) {
     const std::size_t kind = problem.map.dofs[static_cast<std::size_t>(i)].rotation ? 1 : 0;

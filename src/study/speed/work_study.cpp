@@ -10,6 +10,7 @@
 #include "base/file_name.hpp"
 #include "base/fingerprint.hpp"
 #include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
 #include "study/speed/decades.hpp"
@@ -224,7 +225,7 @@ void WorkStudy::take_ranges() {
   }
   // Roundoff of the time itself.
   double& floor = report_.range["event_time"].floor;
-  floor = std::max(floor, std::numeric_limits<double>::epsilon() * report_.compared_until);
+  floor = std::max(floor, rounding::eps * report_.compared_until);
   const auto events = static_cast<double>(changes_until(reference_.events, report_.compared_until));
   report_.range["event_time"].most = report_.compared_until / (1.0 + events);
   report_.range["displacement"].most = greatest_motion(reference_.figures.directory);

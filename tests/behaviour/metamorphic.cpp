@@ -1,0 +1,97 @@
+// One problem, written in many ways: turned, mirrored, permuted, reversed, in other units. Its answer stays.
+// The rest of them: signorini_differential --transformed.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "differential/generator.hpp"
+#include "differential/metamorphic.hpp"
+
+using namespace signorini;
+using namespace signorini::differential;
+
+namespace {
+
+bool is_far(const Factors& factors) {
+  return std::max({std::abs(std::log10(factors.force)), std::abs(std::log10(factors.length)),
+                   std::abs(std::log10(factors.time))}) > 6.0;
+}
+
+struct Sums {
+  int scenes = 0, ways = 0;
+  std::size_t events = 0;
+};
+
+void check_ways(const Scene& scene, std::uint64_t seed, Engine engine, Sums& sums) {
+  MetamorphicSettings settings;
+  settings.engine = engine;
+  settings.bounds.seconds = 1e6;  // no clock: a slow machine is no other verdict
+  const Metamorphic judge(scene, settings);
+  if (!judge.hindrance().empty()) return;
+  ++sums.scenes;
+  for (const Transformed& other : transformations(scene, seed)) {
+    if (is_far(other.factors)) continue;
+    const Sameness found = judge.compare(other);
+    CAPTURE(scene.title);
+    CAPTURE(other.name);
+    CAPTURE(found.what);
+    CHECK(found.verdict == Sameness::Verdict::same);
+    ++sums.ways;
+    sums.events += found.events;
+  }
+}
+
+Scene model(const std::string& name) {
+  return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", {{"run.output_dt", "0.1"}});
+}
+
+}  // namespace
+
+TEST_SUITE("behaviour/metamorphic") {
+  TEST_CASE("models, exact: the same events however they are written") {
+    Sums sums;
+    for (const char* name :
+         {"belt", "coulomb-pad", "den-hartog", "lift-off", "matrices", "oscillator", "pipeline"})
+      check_ways(model(name), 1, Engine::exact, sums);
+    CHECK(sums.scenes == 7);
+    CHECK(sums.ways > 150);
+    CHECK(sums.events > 3000);
+  }
+
+  TEST_CASE("models, ida: within its tolerance") {
+    Sums sums;
+    for (const char* name : {"belt", "den-hartog", "oscillator"})
+      check_ways(model(name), 2, Engine::ida, sums);
+    CHECK(sums.scenes == 3);
+  }
+
+  TEST_CASE("random scenes of all laws, exact") {
+    Sums sums;
+    for (std::uint64_t seed = 101; seed <= 112; ++seed)
+      check_ways(parse_scene(draw_scene(seed), "drawn.toml"), seed, Engine::exact, sums);
+    CHECK(sums.scenes >= 10);
+    CHECK(sums.events > 1000);
+  }
+
+  TEST_CASE("the judge sees what is not the same") {
+    const Scene scene = model("oscillator");
+    const Metamorphic judge(scene, {});
+    Transformed other = permuted(scene, 1);
+    CHECK(judge.compare(other).verdict == Sameness::Verdict::same);
+    other.scene.springs[0].stiffness *= 1.0 + 1e-10;
+    CHECK(judge.compare(other).verdict == Sameness::Verdict::unlike);
+    other.scene.springs[0].stiffness = -1.0;
+    other.scene.masses[0].mass = -1.0;
+    CHECK(judge.compare(other).verdict == Sameness::Verdict::refused);
+  }
+
+  TEST_CASE("what cannot be turned is left out") {
+    CHECK_FALSE(turned(model("oscillator"), 0.5));  // a support holds one translation
+    CHECK_FALSE(turned(model("matrices"), 0.5));
+    CHECK_FALSE(in_units(model("matrices"), {1.0, 2.0, 1.0}));
+    CHECK_FALSE(reversed(model("oscillator")));
+    CHECK(turned(model("rigid-frame"), 0.5));
+  }
+}

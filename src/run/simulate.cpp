@@ -18,6 +18,8 @@
 namespace signorini {
 namespace {
 
+// A stretch h in which nothing moves: engines divide by h^2, which must not overflow. In any unit of time.
+constexpr double shortest_stretch = 1e-100;
 constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
 class Loop {
@@ -79,6 +81,10 @@ class Loop {
   bool segment() {
     const bool at_breakpoint = next_breakpoint_ < breakpoints_.size();
     const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
+    if (end - t_ < shortest_stretch) {
+      t_ = end;
+      return instant({});
+    }
     engine_->start({end, &decision_, &forcing_});
     for (;;) {
       Step step = engine_->advance();

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
@@ -61,7 +62,8 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
       jets_(systems),
       max_rounds_(max_rounds),
       capture_velocity_(capture_velocity),
-      impacts_(systems, capture_velocity) {}
+      impacts_(systems, capture_velocity),
+      groups_(coupled_contacts(systems.model())) {}
 
 std::vector<Decider::Failure> Decider::failures(const std::vector<MotionJet>& jets, const Mode& mode,
                                                 const Instant& instant, bool first,
@@ -166,14 +168,14 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
                       max_rounds_, names_of(model_, failed));
       return decision;
     }
-    bool jointly = joint.sliders || open;
+    std::vector<bool> jointly(count, false);
     for (const Failure& f : failed) {
       const Contact& contact = model_.contacts[f.contact];
       if (!decision.visited[f.contact]) decision.crossings[f.contact] = crossing(f.form, jets[f.contact]);
       decision.visited[f.contact] = true;
       const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
       if (contact.takes_impulses() || (joint.sliders && contact.sticks_rigidly())) {
-        jointly = true;
+        jointly[f.contact] = true;
         // It was left at its static limit, and that falls.
         if (slips && joint.decided[f.contact]) joint.kinetic[f.contact] = true;
         if (f.guard == Guard::sliding && joint.decided[f.contact] &&
@@ -183,8 +185,12 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
         mode[f.contact] = next_state(contact, mode[f.contact], f.guard, jets[f.contact]);
       }
     }
-    if (jointly) {
-      if (std::string why = decide_jointly(instant, after, joint, decision, jets, failed, mode);
+    for (const std::vector<std::size_t>& group : groups_) {
+      const bool concerned =
+          joint.sliders || (open && has_rigid(group)) ||
+          std::any_of(group.begin(), group.end(), [&](std::size_t c) { return jointly[c]; });
+      if (!concerned) continue;
+      if (std::string why = decide_jointly(instant, after, joint, decision, jets, failed, group, mode);
           !why.empty()) {
         decision.reason = failed.empty() ? why : fmt::format("{} (after {})", why, names_of(model_, failed));
         return decision;
@@ -208,9 +214,12 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
     }
     seen.push_back(std::move(now));
     if (!evaluate(instant, after, mode, decision, jets)) {
+      const bool rigid = std::any_of(failed.begin(), failed.end(), [&](const Failure& f) {
+        return model_.contacts[f.contact].takes_impulses();
+      });
       decision.reason =
-          fmt::format("{} (after {}); law = \"compliant\" or a tangential_stiffness makes them so",
-                      dependent_rows, names_of(model_, failed));
+          fmt::format("{} (after {}); {} makes them so", dependent_rows, names_of(model_, failed),
+                      rigid ? "law = \"compliant\"" : "a tangential_stiffness");
       return decision;
     }
   }

@@ -133,7 +133,9 @@ class Decider {
   };
   [[nodiscard]] std::string decide_jointly(Instant& instant, const Forcing& after, Joint& joint,
                                            Decision& decision, const std::vector<MotionJet>& jets,
-                                           const std::vector<Failure>& failed, Mode& mode);
+                                           const std::vector<Failure>& failed,
+                                           const std::vector<std::size_t>& group, Mode& mode);
+  [[nodiscard]] bool has_rigid(const std::vector<std::size_t>& group) const;
   void follow_velocity(const Instant& instant, const Forcing& after, const std::vector<ContactMotion>& before,
                        Mode& mode) const;
   void settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
@@ -152,6 +154,7 @@ class Decider {
   int max_rounds_;
   double capture_velocity_;
   Impacts impacts_;
+  std::vector<std::vector<std::size_t>> groups_;  // of contacts that move each other: decided each on its own
 };
 
 }  // namespace signorini

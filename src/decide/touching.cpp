@@ -72,17 +72,23 @@ void Decider::settle_resting(Instant& instant, const Forcing& forcing, const Mod
   if (!settled(fixed, instant.v)) settle(delassus(model_, free, touching), fixed, instant.v);
 }
 
-/// Impacts where there are any, then the states. Returns why it cannot, or nothing.
+bool Decider::has_rigid(const std::vector<std::size_t>& group) const {
+  return std::any_of(group.begin(), group.end(),
+                     [&](std::size_t c) { return model_.contacts[c].takes_impulses(); });
+}
+
+/// Of contacts that move each other: impacts where there are any, then the states. Returns why it cannot, or
+/// nothing.
 std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Joint& joint, Decision& decision,
                                     const std::vector<MotionJet>& jets, const std::vector<Failure>& failed,
-                                    Mode& mode) {
+                                    const std::vector<std::size_t>& group, Mode& mode) {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
   const Mode old = mode;
   std::vector<std::size_t> touching;
   bool impact = false, apart = false;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (const std::size_t c : group) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
     // One whose gap has become negative touches, too: it fell with others, within the resolution of the
@@ -103,8 +109,7 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
     if (!result.solved) return result.reason;
     instant.u = result.u;
     instant.v = result.v;
-    joint.stays.assign(mode.size(), false);
-    joint.rests.assign(mode.size(), false);
+    for (const std::size_t c : group) joint.stays[c] = joint.rests[c] = false;
     decision.impact_loss += result.loss;
     decision.impact_surface_work += result.surface_work;
     decision.impact_gains = decision.impact_gains || result.gains;
@@ -146,7 +151,8 @@ std::string Decider::decide_jointly(Instant& instant, const Forcing& after, Join
   settle_resting(instant, after, *free_jet.system, touching, participants);
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
   decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
-  for (std::size_t c = 0; joint.sliders && c < mode.size(); ++c) {
+  for (const std::size_t c : group) {
+    if (!joint.sliders) break;
     const Contact& contact = model_.contacts[c];
     if (contact.has_gap() || !contact.sticks_rigidly() || !decision.visited[c]) continue;
     Participant who{c};

@@ -59,4 +59,7 @@ class Parts {
 /// of the first of each group. Forms without terms are alone.
 [[nodiscard]] std::vector<std::vector<std::size_t>> coupled_forms(const std::vector<Combination>& forms);
 
+/// Contacts whose forces reach each other through M, C, K and other contacts, in the same way.
+[[nodiscard]] std::vector<std::vector<std::size_t>> coupled_contacts(const Model& model);
+
 }  // namespace signorini

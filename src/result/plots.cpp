@@ -51,6 +51,30 @@ std::size_t read_times(const fs::path& directory, const PlotWindow& window, Plot
   return shown;
 }
 
+/// Where motion.csv has the rows of which contact, and the greatest forces; nothing where it is missing.
+void read_motion(const fs::path& directory, const std::map<std::string, std::size_t>& index,
+                 PlottedRun& run) {
+  std::error_code error;
+  run.motion.clear();
+  if (!fs::is_regular_file(directory / "motion.csv", error)) return;
+  run.motion.resize(index.size());
+  CsvReader motion(directory / "motion.csv");
+  const std::size_t name = motion.column("contact"), n = motion.column("N"), t = motion.column("T");
+  for (std::size_t row = 0; motion.next(); ++row) {
+    const auto found = index.find(motion.cell(name));
+    if (found == index.end())
+      throw FileError((directory / "motion.csv").string(), "has a contact that summary.json has not");
+    PlottedRun::Rows& rows = run.motion[found->second];
+    if (rows.count == 0) rows.first = row;
+    if (row != rows.first + rows.count)
+      throw FileError((directory / "motion.csv").string(), "has rows of contacts that are not in order");
+    ++rows.count;
+    const double force = motion.number(n);
+    run.greatest_compression[found->second] = std::max(run.greatest_compression[found->second], -force);
+    run.greatest_force = std::max(run.greatest_force, std::hypot(force, motion.number(t)));
+  }
+}
+
 // States at the first output time, then the events: the bands are exact, not sampled.
 void read_bands(const fs::path& directory, PlottedRun& run) {
   std::map<std::string, std::size_t> index;
@@ -69,6 +93,8 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     if (row < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
     compressed(k, -contacts.number(force));
   }
+
+  read_motion(directory, index, run);
 
   CsvReader events(directory / "events.csv");
   const std::size_t who = events.column("contact"), to = events.column("to");

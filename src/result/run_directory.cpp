@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 8> run_files = {"events.csv",   "history.csv", "contacts.csv",
-                                                       "energy.csv",   "frames.csv",  "frame_contacts.csv",
-                                                       "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 9> run_files = {"events.csv",         "history.csv",  "contacts.csv",
+                                                       "motion.csv",         "energy.csv",   "frames.csv",
+                                                       "frame_contacts.csv", "summary.json", "run.toml"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -100,6 +100,7 @@ struct RunDirectory::Writers {
   ContactWriter contacts;
   EnergyWriter energy;
   std::unique_ptr<FrameWriter> frames;
+  std::unique_ptr<ContactWriter> motion;
 };
 
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
@@ -142,6 +143,12 @@ void RunDirectory::frame(const Sample& sample) {
   Writers& w = writers();
   if (!w.frames) w.frames = std::make_unique<FrameWriter>(path_, model_);
   w.frames->write(sample);
+}
+
+void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
+  Writers& w = writers();
+  if (!w.motion) w.motion = std::make_unique<ContactWriter>(path_ / "motion.csv", model_);
+  w.motion->write(contact, rows);
 }
 
 bool RunDirectory::progress(double /*t*/) {

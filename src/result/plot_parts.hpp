@@ -97,6 +97,8 @@ inline constexpr std::array event_looks = {
 [[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
 /// Colour of an event, "#rrggbb".
 [[nodiscard]] std::string states_script(const PlottedRun& run);
+/// Loads over time, and the base's acceleration; `columns`: of loads.csv. Empty when there are none.
+[[nodiscard]] std::string loads_script(const PlottedRun& run, const std::vector<std::string>& columns);
 /// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
 [[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);
 

@@ -176,8 +176,9 @@ void check_window(const PlotWindow& window, const PlottedRun& run) {
 
 bool is_picture_of_run(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named = stem == "displacement" || stem == "energy" || stem == "states" || stem == "cone" ||
-                     stem.starts_with("raster") || stem.starts_with("contact-") || stem.starts_with("frame-");
+  const bool named = stem == "displacement" || stem == "energy" || stem == "loads" || stem == "states" ||
+                     stem == "cone" || stem.starts_with("raster") || stem.starts_with("contact-") ||
+                     stem.starts_with("frame-");
   const bool table =
       stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" || stem == "marks-events";
   return (is_picture(file) && named) || (file.extension() == ".csv" && table);
@@ -231,6 +232,9 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   }
   for (const FramePicture& picture : frame_pictures(directory, run)) add(picture.name, picture.script);
   add("energy", energy_script_of(directory, run));
+  std::error_code error;
+  if (fs::is_regular_file(directory / "loads.csv", error))
+    add("loads", loads_script(run, CsvReader(directory / "loads.csv").header()));
   return scripts;
 }
 

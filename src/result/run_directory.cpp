@@ -6,6 +6,7 @@
 
 #include "result/csv.hpp"
 #include "result/frames.hpp"
+#include "result/load_table.hpp"
 #include "result/plots.hpp"
 #include "result/summary.hpp"
 #include "result/writers.hpp"
@@ -17,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 9> run_files = {"events.csv",         "history.csv",  "contacts.csv",
-                                                       "motion.csv",         "energy.csv",   "frames.csv",
-                                                       "frame_contacts.csv", "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 10> run_files = {
+    "events.csv", "history.csv", "contacts.csv",       "motion.csv",   "loads.csv",
+    "energy.csv", "frames.csv",  "frame_contacts.csv", "summary.json", "run.toml"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -166,6 +167,8 @@ void RunDirectory::abandon(double t, const std::string& reason) {
 
 std::string RunDirectory::finish(const Report& report) {
   writers();
+  if (const std::string loads = load_table(model_, scene_.run.t_end); !loads.empty())
+    write_file(path_ / "loads.csv", loads);
   std::string text = summary_json(scene_, model_, report, options_.command_line);
   write_file(path_ / "summary.json", text);
   return text;

@@ -25,7 +25,11 @@ std::vector<std::string> limit_elements(const std::string& data, double friction
 class ContactScript {
  public:
   ContactScript(const PlottedRun& run, std::size_t k)
-      : run_(run), k_(k), contact_(run.facts.contacts[k]), units_(run.facts.units), data_(contact_rows(run, k)) {}
+      : run_(run),
+        k_(k),
+        contact_(run.facts.contacts[k]),
+        units_(run.facts.units),
+        data_(contact_rows(run, k)) {}
 
   [[nodiscard]] std::string text() const {
     // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.

@@ -51,6 +51,16 @@ std::size_t read_times(const fs::path& directory, const PlotWindow& window, Plot
   return shown;
 }
 
+/// Errors: FileError for a name that summary.json has not.
+std::size_t number_of(const std::map<std::string, std::size_t>& index, const std::string& contact,
+                      const fs::path& file) {
+  const auto found = index.find(contact);
+  if (found == index.end())
+    throw FileError(file.string(),
+                    "has a contact that summary.json has not: '" + contact.substr(0, 80) + "'");
+  return found->second;
+}
+
 /// Where motion.csv has the rows of which contact, and the greatest forces; nothing where it is missing.
 void read_motion(const fs::path& directory, const std::map<std::string, std::size_t>& index,
                  PlottedRun& run) {
@@ -61,16 +71,14 @@ void read_motion(const fs::path& directory, const std::map<std::string, std::siz
   CsvReader motion(directory / "motion.csv");
   const std::size_t name = motion.column("contact"), n = motion.column("N"), t = motion.column("T");
   for (std::size_t row = 0; motion.next(); ++row) {
-    const auto found = index.find(motion.cell(name));
-    if (found == index.end())
-      throw FileError((directory / "motion.csv").string(), "has a contact that summary.json has not");
-    PlottedRun::Rows& rows = run.motion[found->second];
+    const std::size_t k = number_of(index, motion.cell(name), directory / "motion.csv");
+    PlottedRun::Rows& rows = run.motion[k];
     if (rows.count == 0) rows.first = row;
     if (row != rows.first + rows.count)
       throw FileError((directory / "motion.csv").string(), "has rows of contacts that are not in order");
     ++rows.count;
     const double force = motion.number(n);
-    run.greatest_compression[found->second] = std::max(run.greatest_compression[found->second], -force);
+    run.greatest_compression[k] = std::max(run.greatest_compression[k], -force);
     run.greatest_force = std::max(run.greatest_force, std::hypot(force, motion.number(t)));
   }
 }
@@ -89,7 +97,7 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     run.greatest_compression[k] = std::max(run.greatest_compression[k], by);
   };
   for (std::size_t row = 0; contacts.next(); ++row) {
-    const std::size_t k = index.at(contacts.cell(name));
+    const std::size_t k = number_of(index, contacts.cell(name), directory / "contacts.csv");
     if (row < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
     compressed(k, -contacts.number(force));
   }
@@ -105,7 +113,7 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
       run.event_types.push_back(events.cell(type));
     if (events.cell(who).empty() || t <= run.t_first || t > run.t_last) continue;
-    const std::size_t k = index.at(events.cell(who));
+    const std::size_t k = number_of(index, events.cell(who), directory / "events.csv");
     compressed(k, -events.number(events.column("N")));
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;

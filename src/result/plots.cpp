@@ -112,8 +112,9 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     const double t = events.number(0);
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
       run.event_types.push_back(events.cell(type));
-    if (events.cell(who).empty() || t <= run.t_first || t > run.t_last) continue;
+    if (events.cell(who).empty()) continue;
     const std::size_t k = number_of(index, events.cell(who), directory / "events.csv");
+    if (t <= run.t_first || t > run.t_last) continue;
     compressed(k, -events.number(events.column("N")));
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;

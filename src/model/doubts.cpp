@@ -69,8 +69,8 @@ class Doubts {
       const Contact& c = model_.contacts[k];
       for (const auto& term : c.normal.terms.empty() ? c.tangent.terms : c.normal.terms) {
         const std::size_t part = parts.part_of(term.first);
-        if (c.law == Law::slider) gripped[part] = true;
-        if (c.law != Law::slider && (supports[part].empty() || supports[part].back() != k))
+        if (!c.has_gap()) gripped[part] = true;
+        if (c.has_gap() && (supports[part].empty() || supports[part].back() != k))
           supports[part].push_back(k);
       }
     }
@@ -111,9 +111,9 @@ class Doubts {
     std::vector<std::size_t> touching;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
       const Contact& c = model_.contacts[k];
-      if (c.law == Law::slider || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
+      if (!c.has_gap() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
       // A rigid body on rigid ground has its reaction at once.
-      const bool gives = c.law == Law::compliant ||
+      const bool gives = !c.takes_impulses() ||
                          std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
                            return model_.stiffness.coeff(term.first, term.first) != 0.0;
                          });

@@ -131,6 +131,8 @@ struct Model {
   double omega1 = 0.0;             ///< lowest circular frequency, initially closed contacts held; 0: none
   double omega_max = 0.0;          ///< highest circular frequency, all contacts held by their springs
   std::optional<Reduction> reduction;
+  /// What the scene may say and hardly means, one sentence each; the first warnings of every run.
+  std::vector<std::string> warnings;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   /// To which columns and drawing refer.

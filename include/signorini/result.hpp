@@ -41,6 +41,12 @@ struct Sample {
   Energy energy;
 };
 
+/// A row of motion.csv.
+struct MotionRow {
+  double t = 0.0;
+  ContactSample sample;
+};
+
 class Recorder {
  public:
   virtual ~Recorder() = default;
@@ -48,6 +54,10 @@ class Recorder {
   virtual void sample(const Sample& sample) = 0;
   /// At the times of RunSpec::frames: a deformed shape.
   virtual void frame(const Sample& /*sample*/) {}
+  /// Whether `motion` is of use: it costs a little.
+  [[nodiscard]] virtual bool wants_motion() const { return false; }
+  /// At the end of a run, once a contact: its motion as a picture needs it (run/motion_record.hpp).
+  virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
   /// Called often with the time reached; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };

@@ -67,6 +67,10 @@ Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a) {
   return q.rightCols(a.rows() - qr.rank());
 }
 
+int rank(const Eigen::MatrixXd& a) {
+  return a.size() == 0 ? 0 : static_cast<int>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a).rank());
+}
+
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.fullPivLu().solve(b);
 }

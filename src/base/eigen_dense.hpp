@@ -29,6 +29,9 @@ struct EigenPairs {
 /// Orthonormal basis (n x (n - rank)) of the vectors x with A^T x = 0; a: n x m.
 [[nodiscard]] Eigen::MatrixXd orthogonal_complement(const Eigen::MatrixXd& a);
 
+/// Of a, n x m, m >= 0.
+[[nodiscard]] int rank(const Eigen::MatrixXd& a);
+
 /// A^-1 b by full pivoting; A square, not necessarily symmetric, regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 

@@ -12,13 +12,15 @@ namespace signorini::cli {
 namespace {
 
 struct CheckOptions {
-  std::string scene;
+  std::string scene, engine;
   std::vector<std::string> settings;
   bool json = false, columns = false;
 };
 
 ExitCode check_scene(const CheckOptions& options) {
-  const Scene scene = read_scene(options.scene, overrides_of(options.settings));
+  std::vector<Override> changes = overrides_of(options.settings);
+  if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
+  const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
   const CheckReport report = check(scene, model);
   if (options.json) {
@@ -37,6 +39,8 @@ void add_check(Program& program) {
   CLI::App* command = program.app.add_subcommand(
       "check", "read a scene and start it: masses, supports, frequencies, cost; computes no motion");
   command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
+      ->option_text("NAME");
   add_settings(*command, options->settings);
   command->add_flag("--columns", options->columns, "list the columns of history.csv too");
   command->add_flag("--json", options->json, "print JSON instead of text");

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -169,15 +170,33 @@ std::string stiffness_rows(const Model& model, const CheckReport& report) {
          table.str() + more(report.stiffness.size()) + "\n";
 }
 
+/// Of one load, compression or velocity: its breakpoints one by one, or how many where they are many.
+void add_breakpoints(Table& table, const std::vector<Discontinuity>& all, const std::string& what) {
+  constexpr std::size_t most_listed = 12;
+  std::vector<const Discontinuity*> own;
+  for (const Discontinuity& d : all)
+    if (d.what == what) own.push_back(&d);
+  if (own.size() <= most_listed) {
+    for (const Discontinuity* d : own) table.row({number(d->t), d->jump ? "jump" : "kink", what});
+    return;
+  }
+  const long jumps = std::count_if(own.begin(), own.end(), [](const Discontinuity* d) { return d->jump; });
+  const long kinks = static_cast<long>(own.size()) - jumps;
+  std::string kinds = jumps > 0 ? count(jumps, "jump", "jumps") : "";
+  if (kinks > 0) kinds += (kinds.empty() ? "" : ", ") + count(kinks, "kink", "kinks");
+  table.row({number(own.front()->t) + " to " + number(own.back()->t), kinds, what});
+}
+
 std::string load_rows(const Model& model, const CheckReport& report) {
   if (report.discontinuities.empty()) return "loads: smooth, no breakpoints\n\n";
   Table table({"t" + unit(model.units.time), "", "of"}, {true, false, false});
-  for (std::size_t i = 0; i < report.discontinuities.size() && i < most_rows; ++i) {
-    const Discontinuity& d = report.discontinuities[i];
-    table.row({number(d.t), d.jump ? "jump" : "kink", d.what});
+  std::vector<std::string> shown;
+  for (const Discontinuity& d : report.discontinuities) {
+    if (std::find(shown.begin(), shown.end(), d.what) != shown.end()) continue;
+    shown.push_back(d.what);
+    if (shown.size() <= most_rows) add_breakpoints(table, report.discontinuities, d.what);
   }
-  return "breakpoints, where the integration stops and restarts:\n" + table.str() +
-         more(report.discontinuities.size()) + "\n";
+  return "breakpoints, where the integration stops and restarts:\n" + table.str() + more(shown.size()) + "\n";
 }
 
 std::string reduction_lines(const Model& model) {

@@ -1,31 +1,45 @@
 #include "cli/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "signorini/error.hpp"
 
 namespace signorini::cli {
 
 namespace {
 
-constexpr int stops[] = {SIGINT, SIGTERM};
+volatile std::sig_atomic_t noting = 0, noted = 0;
 
-volatile std::sig_atomic_t interrupted = 0;
-
-void note_interrupt(int) { interrupted = 1; }
+// Only what a signal handler may do: POSIX's async-signal-safe calls.
+void end_or_note(int signal) {
+  if (signal != SIGALRM && noting != 0 && noted == 0) {
+    noted = 1;
+    alarm(Interrupt::patience);
+    return;
+  }
+  constexpr char text[] = "error: interrupted\n";
+  [[maybe_unused]] const ssize_t told = write(STDERR_FILENO, text, sizeof text - 1);
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
 
 }  // namespace
 
-Interrupt::Interrupt() {
+void end_on_interrupt() {
   struct sigaction action {};
-  action.sa_handler = note_interrupt;
+  action.sa_handler = end_or_note;
   action.sa_flags = SA_RESTART;
-  action.sa_flags |= static_cast<int>(SA_RESETHAND);  // the second one is not ours
-  for (const int signal : stops) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaction(signal, &action, nullptr);
 }
+
+Interrupt::Interrupt() { noting = 1; }
 
 Interrupt::~Interrupt() {
-  for (const int signal : stops) std::signal(signal, SIG_DFL);
+  noting = 0;
+  alarm(0);
 }
 
-bool Interrupt::asked() { return interrupted != 0; }
+bool Interrupt::asked() { return noted != 0; }
 
 }  // namespace signorini::cli

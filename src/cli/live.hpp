@@ -29,6 +29,8 @@ class Live : public Recorder {
     reached_ = sample.t;  // a file that fails within a step leaves rows beyond the step before
   }
   void frame(const Sample& sample) override { next_.frame(sample); }
+  [[nodiscard]] bool wants_motion() const override { return next_.wants_motion(); }
+  void motion(int contact, const std::vector<MotionRow>& rows) override { next_.motion(contact, rows); }
   bool progress(double t) override;
 
   /// At most this many are shown in full; of more, the first and the last ones.

@@ -11,6 +11,7 @@
 #include "base/suggest.hpp"
 #include "base/version.hpp"
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/terminal.hpp"
 
 namespace signorini::cli {
@@ -31,6 +32,15 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   return code(ExitCode::usage);
 }
 
+/// What follows the program's name; "help NAME" is "NAME --help".
+std::vector<std::string> arguments(int argc, char** argv) {
+  std::vector<std::string> list(argv + std::min(argc, 1), argv + argc);
+  if (list.empty() || list[0] != "help") return list;
+  list.erase(list.begin());
+  list.push_back("--help");
+  return list;
+}
+
 int main_program(int argc, char** argv) {
   CLI::App app{"Motion of structures on unilateral frictional contacts, event by event", "signorini"};
   app.set_version_flag("--version", std::string("signorini ") + version + ", SUNDIALS " + sundials_version);
@@ -48,12 +58,15 @@ int main_program(int argc, char** argv) {
   add_keys(program);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (argc > 1 && argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-    throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", argv[1], suggestion(argv[1], names),
+  std::vector<std::string> line = arguments(argc, argv);
+  if (!line.empty() && !line[0].starts_with('-') &&
+      std::find(names.begin(), names.end(), line[0]) == names.end()) {
+    throw UsageError(fmt::format("no command \"{}\"{}\nsee {} --help", line[0], suggestion(line[0], names),
                                  app.get_name()));
   }
+  std::reverse(line.begin(), line.end());  // CLI11 takes them from the back
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(line));
   } catch (const CLI::ParseError& error) {
     return parse_failure(app, error);
   }
@@ -67,6 +80,7 @@ int main_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace signorini;
   cli::open_closed_streams();
+  cli::end_on_interrupt();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no more is a failed write, and said so
   try {
     return cli::main_program(argc, argv);

@@ -48,13 +48,17 @@ std::string events_by_type(const Report& report) {
   return text.empty() ? "none" : text;
 }
 
+// An exchange below this, of the greatest force on the greatest displacement, is rounding: what the balance
+// is relative to it says nothing.
+constexpr double moved = 1e-9;
+
 void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
-                 const std::string& unit) {
+                 const std::string& unit, bool comparable = true) {
   const double relative = scale > 0.0 ? extreme.value / scale : 0.0;
   const std::string contact = name_of(model, extreme.contact);
   const std::string where = fmt::format("t = {:.6g}{}", extreme.t, contact.empty() ? "" : ", " + contact);
-  table.row({what, fmt::format("{:.2g}", relative), fmt::format("{:.2g} {}", extreme.value, unit),
-             extreme.value == 0.0 ? "" : where});
+  table.row({what, comparable ? fmt::format("{:.2g}", relative) : "-",
+             fmt::format("{:.2g} {}", extreme.value, unit), extreme.value == 0.0 ? "" : where});
 }
 
 std::string audit_table(const Model& model, const Audit& a) {
@@ -72,7 +76,8 @@ std::string audit_table(const Model& model, const Audit& a) {
   add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
               energy + "/" + model.units.time);
   add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
-  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy);
+  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
+              a.energy_scale > moved * a.force_scale * a.length_scale);
   return table.str();
 }
 

@@ -1,13 +1,14 @@
 // build_model: the scene as matrices, in the order in which one thing needs the other:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
-//   -> reduction -> shear elements
+//   -> doubts -> reduction -> shear elements
 #include <fmt/core.h>
 
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
+#include "model/doubts.hpp"
 #include "model/initial_state.hpp"
 #include "model/massless.hpp"
 #include "model/modes/modes.hpp"
@@ -101,6 +102,7 @@ Model build_model(const Scene& scene) {
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   check_rigid_contacts(scene, model);
+  model.warnings = doubts(scene, map, model);
   if (scene.reduction) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit

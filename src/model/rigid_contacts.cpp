@@ -7,6 +7,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini {
@@ -96,6 +97,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
 
 void check_rigid_contacts(const Scene& scene, Model& model) {
   std::vector<std::size_t> rigid;
+  std::vector<Combination> normals;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
     if (friction_varies(contact))
@@ -109,8 +111,14 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
     check_mass(scene, model, k);
     close_gap(scene, model, k);
     rigid.push_back(k);
+    normals.push_back(contact.normal);
   }
-  for (const std::size_t first : rigid) check_redundance(scene, model, rigid, first);
+  // Normals without a common degree of freedom are independent.
+  for (const std::vector<std::size_t>& group : coupled_forms(normals)) {
+    std::vector<std::size_t> members;
+    for (const std::size_t i : group) members.push_back(rigid[i]);
+    for (const std::size_t first : members) check_redundance(scene, model, members, first);
+  }
 }
 
 }  // namespace signorini

@@ -143,9 +143,10 @@ void take_out_slides(std::vector<Frame>& frames) {
   }
 }
 
-FrameScales scales_of(const std::vector<Frame>& frames) {
+FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force) {
   constexpr double largest_displacement = 0.125, arrow = 0.16;
   FrameScales scales;
+  scales.greatest_force = greatest_force;
   Box rest;
   double greatest = 0.0;
   for (const Frame& frame : frames) {
@@ -181,6 +182,12 @@ FrameScales scales_of(const std::vector<Frame>& frames) {
     drawn.add(drawn.x0 - 0.5 * size, drawn.y0), drawn.add(drawn.x1 + 0.5 * size, drawn.y1);
   scales.x0 = drawn.x0, scales.x1 = drawn.x1, scales.y0 = drawn.y0, scales.y1 = drawn.y1;
   return scales;
+}
+
+FrameScales scales_of(const Frame& frame, const FrameScales& shared) {
+  constexpr double worth_it = 5.0;
+  const FrameScales own = scales_of(std::vector<Frame>{frame}, shared.greatest_force);
+  return own.magnification >= worth_it * shared.magnification ? own : shared;
 }
 
 }  // namespace signorini

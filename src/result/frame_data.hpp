@@ -3,7 +3,9 @@
 //   X = x + magnification u,   arrow = force_scale (-N n - T t)
 //
 // magnification: 1, 2 or 5 times a power of ten, so that the greatest displacement is drawn at most an
-// eighth of the structure's size; 1 when it is that large by itself.
+// eighth of the structure's size; 1 when it is that large by itself. Frames share one, but for those that
+// would show less than a fifth of what they could. Arrows have one scale: the longest is that of the greatest
+// force of the run.
 #pragma once
 
 #include <filesystem>
@@ -51,7 +53,10 @@ struct FrameScales {
 /// A structure that slides far shows nothing of its deformation: where the shapes differ from a translation
 /// by less than half of their greatest displacement, each frame's mean translation is drawn in true scale.
 void take_out_slides(std::vector<Frame>& frames);
-[[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames);
+/// greatest_force: of the run, at least that of the frames.
+[[nodiscard]] FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force = 0.0);
+/// Those of a frame beside others whose scales are `shared`.
+[[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
 
 /// Displacement at the fraction s of an element: along it linear, across cubic (beams).
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);

@@ -47,7 +47,7 @@ std::string colour_functions() {
 
 std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
   const RunFacts::Contact& contact = run.facts.contacts[k];
-  const std::string data = "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
+  const std::string data = contact_rows(run, k);
   const std::string inside = "($1 >= from && $1 <= to ? -$8 : NaN)";
   std::vector<std::string> elements;
   const std::string red = " with lines linecolor '#c0182b' linewidth 1.2";

@@ -14,11 +14,6 @@ std::string friction_text(const RunFacts::Contact& contact) {
   return fmt::format("friction {} static, {} kinetic", contact.static_friction, contact.kinetic_friction);
 }
 
-// A column of this contact's rows of contacts.csv.
-std::string rows(const PlottedRun& run, std::size_t k) {
-  return "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
-}
-
 std::vector<std::string> limit_elements(const std::string& data, double friction, const std::string& name,
                                         const std::string& look) {
   const std::string limit = fmt::format("{}*abs($8)", friction);
@@ -30,7 +25,11 @@ std::vector<std::string> limit_elements(const std::string& data, double friction
 class ContactScript {
  public:
   ContactScript(const PlottedRun& run, std::size_t k)
-      : run_(run), k_(k), contact_(run.facts.contacts[k]), units_(run.facts.units), data_(rows(run, k)) {}
+      : run_(run),
+        k_(k),
+        contact_(run.facts.contacts[k]),
+        units_(run.facts.units),
+        data_(contact_rows(run, k)) {}
 
   [[nodiscard]] std::string text() const {
     // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.
@@ -96,7 +95,7 @@ class ContactScript {
   }
 
   [[nodiscard]] std::vector<std::string> bands() const { return band_elements(run_, k_, 0.28); }
-  /// Of a column of contacts.csv, counted from 1.
+  /// Of a column of the contact's table, counted from 1.
   [[nodiscard]] std::string curve(int column, const char* colour, const char* title,
                                   const char* look = "") const {
     return fmt::format("{} using 1:{} with lines linewidth 1.4 linecolor '{}'{} title {}", data_, column,

@@ -204,10 +204,11 @@ std::vector<FramePicture> frame_pictures(const fs::path& directory, const Plotte
   std::vector<FramePicture> pictures;
   if (frames.empty()) return pictures;
   take_out_slides(frames);
-  const FrameScales scales = scales_of(frames);
+  const FrameScales shared = scales_of(frames, run.greatest_force);
   const std::size_t count = std::min(frames.size(), most_pictures);
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = frames[count == 1 ? 0 : i * (frames.size() - 1) / (count - 1)];
+    const FrameScales scales = scales_of(frame, shared);
     const std::string name = fmt::format("frame-{}", i + 1);
     const fs::path folder = directory / "plots";
     write_file(folder / (name + "-shape.csv"), shape_table(frame, scales.magnification));

@@ -39,6 +39,13 @@ std::string every(const PlottedRun& run, std::size_t group, std::size_t index) {
   return fmt::format(" every {}::{}", std::max<std::size_t>(stride, 1) * group, index);
 }
 
+std::string contact_rows(const PlottedRun& run, std::size_t k) {
+  if (k < run.motion.size() && run.motion[k].count > 1)
+    return fmt::format("'../motion.csv' skip 1 every ::{}::{}", run.motion[k].first,
+                       run.motion[k].first + run.motion[k].count - 1);
+  return "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
+}
+
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
   const std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
@@ -75,7 +82,7 @@ std::string panel(const PlottedRun& run, double bottom, double top, const std::s
   std::string s = fmt::format("\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", bottom, top);
   s += fmt::format(
       "set ylabel {} offset character 0.5,0\nset yrange [*:*] noextend\nset ytics nomirror out scale 0.6 "
-      "autofreq\n",
+      "autofreq\nset format y '%g'\n",
       quoted(label));
   s += fmt::format(
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "

@@ -30,7 +30,13 @@ struct PlottedRun {
   };
   std::vector<std::vector<Band>> bands;
   std::vector<std::string> event_types;      ///< those that occur
-  std::vector<double> greatest_compression;  ///< -N at output times and events, one a contact
+  std::vector<double> greatest_compression;  ///< -N in the tables, one a contact
+  double greatest_force = 0.0;               ///< |(N, T)| of any contact
+  /// Rows of a contact in motion.csv; none in runs that have no such table.
+  struct Rows {
+    std::size_t first = 0, count = 0;
+  };
+  std::vector<Rows> motion;
 };
 
 /// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
@@ -43,6 +49,9 @@ inline constexpr int picture_width = 1120;
 [[nodiscard]] std::string quoted_tick(const std::string& text);
 /// " every ..." for rows of a table with `group` rows a time: thins out what no picture could show.
 [[nodiscard]] std::string every(const PlottedRun& run, std::size_t group, std::size_t index);
+
+/// The rows of a contact: of motion.csv, else of contacts.csv; both have the same columns.
+[[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k);
 
 /// Size and headings of a picture.
 struct Picture {
@@ -88,6 +97,8 @@ inline constexpr std::array event_looks = {
 [[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
 /// Colour of an event, "#rrggbb".
 [[nodiscard]] std::string states_script(const PlottedRun& run);
+/// Loads over time, and the base's acceleration; `columns`: of loads.csv. Empty when there are none.
+[[nodiscard]] std::string loads_script(const PlottedRun& run, const std::vector<std::string>& columns);
 /// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
 [[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);
 

@@ -51,6 +51,38 @@ std::size_t read_times(const fs::path& directory, const PlotWindow& window, Plot
   return shown;
 }
 
+/// Errors: FileError for a name that summary.json has not.
+std::size_t number_of(const std::map<std::string, std::size_t>& index, const std::string& contact,
+                      const fs::path& file) {
+  const auto found = index.find(contact);
+  if (found == index.end())
+    throw FileError(file.string(),
+                    "has a contact that summary.json has not: '" + contact.substr(0, 80) + "'");
+  return found->second;
+}
+
+/// Where motion.csv has the rows of which contact, and the greatest forces; nothing where it is missing.
+void read_motion(const fs::path& directory, const std::map<std::string, std::size_t>& index,
+                 PlottedRun& run) {
+  std::error_code error;
+  run.motion.clear();
+  if (!fs::is_regular_file(directory / "motion.csv", error)) return;
+  run.motion.resize(index.size());
+  CsvReader motion(directory / "motion.csv");
+  const std::size_t name = motion.column("contact"), n = motion.column("N"), t = motion.column("T");
+  for (std::size_t row = 0; motion.next(); ++row) {
+    const std::size_t k = number_of(index, motion.cell(name), directory / "motion.csv");
+    PlottedRun::Rows& rows = run.motion[k];
+    if (rows.count == 0) rows.first = row;
+    if (row != rows.first + rows.count)
+      throw FileError((directory / "motion.csv").string(), "has rows of contacts that are not in order");
+    ++rows.count;
+    const double force = motion.number(n);
+    run.greatest_compression[k] = std::max(run.greatest_compression[k], -force);
+    run.greatest_force = std::max(run.greatest_force, std::hypot(force, motion.number(t)));
+  }
+}
+
 // States at the first output time, then the events: the bands are exact, not sampled.
 void read_bands(const fs::path& directory, PlottedRun& run) {
   std::map<std::string, std::size_t> index;
@@ -65,10 +97,12 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     run.greatest_compression[k] = std::max(run.greatest_compression[k], by);
   };
   for (std::size_t row = 0; contacts.next(); ++row) {
-    const std::size_t k = index.at(contacts.cell(name));
+    const std::size_t k = number_of(index, contacts.cell(name), directory / "contacts.csv");
     if (row < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
     compressed(k, -contacts.number(force));
   }
+
+  read_motion(directory, index, run);
 
   CsvReader events(directory / "events.csv");
   const std::size_t who = events.column("contact"), to = events.column("to");
@@ -78,8 +112,9 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     const double t = events.number(0);
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
       run.event_types.push_back(events.cell(type));
-    if (events.cell(who).empty() || t <= run.t_first || t > run.t_last) continue;
-    const std::size_t k = index.at(events.cell(who));
+    if (events.cell(who).empty()) continue;
+    const std::size_t k = number_of(index, events.cell(who), directory / "events.csv");
+    if (t <= run.t_first || t > run.t_last) continue;
     compressed(k, -events.number(events.column("N")));
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;
@@ -150,8 +185,9 @@ void check_window(const PlotWindow& window, const PlottedRun& run) {
 
 bool is_picture_of_run(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named = stem == "displacement" || stem == "energy" || stem == "states" || stem == "cone" ||
-                     stem.starts_with("raster") || stem.starts_with("contact-") || stem.starts_with("frame-");
+  const bool named = stem == "displacement" || stem == "energy" || stem == "loads" || stem == "states" ||
+                     stem == "cone" || stem.starts_with("raster") || stem.starts_with("contact-") ||
+                     stem.starts_with("frame-");
   const bool table =
       stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" || stem == "marks-events";
   return (is_picture(file) && named) || (file.extension() == ".csv" && table);
@@ -205,6 +241,9 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   }
   for (const FramePicture& picture : frame_pictures(directory, run)) add(picture.name, picture.script);
   add("energy", energy_script_of(directory, run));
+  std::error_code error;
+  if (fs::is_regular_file(directory / "loads.csv", error))
+    add("loads", loads_script(run, CsvReader(directory / "loads.csv").header()));
   return scripts;
 }
 

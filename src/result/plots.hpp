@@ -7,6 +7,7 @@
 //   DIR/plots/raster.gp               the events of all contacts, a row a contact; raster-events.gp as above
 //   DIR/plots/cone.gp                 paths of (-N, T) with the friction cones
 //   DIR/plots/frame-1.gp              deformed shapes at the times of run.frames (plot_frames.hpp)
+//   DIR/plots/loads.gp               loads and the base's acceleration over time
 //   DIR/plots/energy.gp               where the energy is and went, and what the balance is off by
 //   DIR/plots/states-NAME.csv         from,to,state: the bands, exact to the event
 //   DIR/plots/marks.csv               row,t,event,N,T: the events of raster and cone

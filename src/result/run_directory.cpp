@@ -6,6 +6,7 @@
 
 #include "result/csv.hpp"
 #include "result/frames.hpp"
+#include "result/load_table.hpp"
 #include "result/plots.hpp"
 #include "result/summary.hpp"
 #include "result/writers.hpp"
@@ -17,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 8> run_files = {"events.csv",   "history.csv", "contacts.csv",
-                                                       "energy.csv",   "frames.csv",  "frame_contacts.csv",
-                                                       "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 10> run_files = {
+    "events.csv", "history.csv", "contacts.csv",       "motion.csv",   "loads.csv",
+    "energy.csv", "frames.csv",  "frame_contacts.csv", "summary.json", "run.toml"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -100,6 +101,7 @@ struct RunDirectory::Writers {
   ContactWriter contacts;
   EnergyWriter energy;
   std::unique_ptr<FrameWriter> frames;
+  std::unique_ptr<ContactWriter> motion;
 };
 
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
@@ -144,6 +146,12 @@ void RunDirectory::frame(const Sample& sample) {
   w.frames->write(sample);
 }
 
+void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
+  Writers& w = writers();
+  if (!w.motion) w.motion = std::make_unique<ContactWriter>(path_ / "motion.csv", model_);
+  w.motion->write(contact, rows);
+}
+
 bool RunDirectory::progress(double /*t*/) {
   writers();
   return true;
@@ -159,6 +167,8 @@ void RunDirectory::abandon(double t, const std::string& reason) {
 
 std::string RunDirectory::finish(const Report& report) {
   writers();
+  if (const std::string loads = load_table(model_, scene_.run.t_end); !loads.empty())
+    write_file(path_ / "loads.csv", loads);
   std::string text = summary_json(scene_, model_, report, options_.command_line);
   write_file(path_ / "summary.json", text);
   return text;

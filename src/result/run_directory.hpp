@@ -36,6 +36,8 @@ class RunDirectory : public Recorder {
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
   void frame(const Sample& sample) override;
+  [[nodiscard]] bool wants_motion() const override { return true; }
+  void motion(int contact, const std::vector<MotionRow>& rows) override;
   bool progress(double t) override;
   /// Writes the final summary.json and returns its text.
   std::string finish(const Report& report);

@@ -36,19 +36,25 @@ ContactWriter::ContactWriter(const std::filesystem::path& path, const Model& mod
   file_.write(block_);
 }
 
-void ContactWriter::write(const Sample& sample) {
-  for (std::size_t k = 0; k < sample.contacts.size(); ++k) {
-    const Contact& contact = model_.contacts[k];
-    const ContactSample& row = sample.contacts[k];
-    block_.number(sample.t).text(contact.name).text(to_string(row.state));
-    if (contact.has_gap()) {
-      block_.number(row.gap);
-    } else {
-      block_.empty();
-    }
-    block_.number(row.ut).number(row.vt).number(row.slip).number(row.N).number(row.T);
-    block_.end_row();
+void ContactWriter::row(double t, std::size_t k, const ContactSample& sample) {
+  const Contact& contact = model_.contacts[k];
+  block_.number(t).text(contact.name).text(to_string(sample.state));
+  if (contact.has_gap()) {
+    block_.number(sample.gap);
+  } else {
+    block_.empty();
   }
+  block_.number(sample.ut).number(sample.vt).number(sample.slip).number(sample.N).number(sample.T);
+  block_.end_row();
+}
+
+void ContactWriter::write(const Sample& sample) {
+  for (std::size_t k = 0; k < sample.contacts.size(); ++k) row(sample.t, k, sample.contacts[k]);
+  file_.write(block_);
+}
+
+void ContactWriter::write(int contact, const std::vector<MotionRow>& rows) {
+  for (const MotionRow& r : rows) row(r.t, static_cast<std::size_t>(contact), r.sample);
   file_.write(block_);
 }
 

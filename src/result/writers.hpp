@@ -2,6 +2,7 @@
 //
 //   events.csv    the columns of signorini/event.hpp
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
+//   motion.csv    the same, contact by contact
 //   history.csv   t, then the model's columns
 //   energy.csv    t, the columns of result/energy_columns.hpp, balance
 //
@@ -32,12 +33,16 @@ class EventWriter {
   CsvFile file_;
 };
 
+/// contacts.csv and motion.csv.
 class ContactWriter {
  public:
   ContactWriter(const std::filesystem::path& path, const Model& model);
   void write(const Sample& sample);
+  void write(int contact, const std::vector<MotionRow>& rows);
 
  private:
+  void row(double t, std::size_t contact, const ContactSample& sample);
+
   const Model& model_;
   CsvBlock block_;
   CsvFile file_;

@@ -13,6 +13,7 @@
 #include "run/choose_engine.hpp"
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
+#include "run/motion_record.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
 #include "run/warnings.hpp"
@@ -20,6 +21,8 @@
 namespace signorini {
 namespace {
 
+// A stretch h in which nothing moves: engines divide by h^2, which must not overflow. In any unit of time.
+constexpr double shortest_stretch = 1e-100;
 constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
 class Loop {
@@ -37,11 +40,13 @@ class Loop {
         auditor_(model, structure_),
         log_(model, recorder, report_),
         samples_(model, spec, auditor_, recorder),
+        motion_(model, spec.t_end, recorder),
         standstill_(spec.t_end, spec.max_events_at_once),
         breakpoints_(breakpoints(model, spec.t_end)),
         forcing_(model, 0.0, Side::after) {
     report_.method = std::move(method);
     decider_.trace(listener);
+    report_.warnings = model.warnings;
   }
 
   Report run() {
@@ -71,7 +76,8 @@ class Loop {
     const Mode guessed = now.mode;
     decision_ = decider_.decide(std::move(now), forcing_, forcing_);
     if (!decision_.consistent) return stop(decision_.refusal.reason);
-    report_.warnings = cut_shears(model_, decision_);
+    const std::vector<std::string> cut = cut_shears(model_, decision_);
+    report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
     warn_of_gain();
     auditor_.begin(decision_, guessed, forcing_);
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
@@ -83,6 +89,10 @@ class Loop {
   bool segment() {
     const bool at_breakpoint = next_breakpoint_ < breakpoints_.size();
     const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
+    if (end - t_ < shortest_stretch) {
+      t_ = end;
+      return instant({});
+    }
     engine_->start({end, &decision_, &forcing_});
     for (;;) {
       Step step = engine_->advance();
@@ -118,8 +128,18 @@ class Loop {
       engine_->evaluate(t, point_);
       auditor_.observe(forcing_, t, decision_.mode, point_);
     }
+    draw(step);
     t_ = step.end;
     engine_->evaluate(t_, point_);
+    motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
+  }
+
+  /// For pictures: turning points, and between them as many rows as a line needs.
+  void draw(const Step& step) {
+    for (const double t : motion_.times(step.begin, step.end, engine_->turning_points())) {
+      engine_->evaluate(t, point_);
+      motion_.add(t, auditor_, forcing_, decision_.mode, point_);
+    }
   }
 
   /// Decides the states at t_, applies and records them.
@@ -171,6 +191,7 @@ class Loop {
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     if (const double next = samples_.next(); next <= t_) emit(next, point_);
+    motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
   }
 
   void emit(double t, const Point& point) {
@@ -188,6 +209,7 @@ class Loop {
     engine_->count();
     report_.counters = engine_->counters;
     log_.finish();
+    motion_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
     if (const auto sentence = energy_lost(report_.audit, report_.method))
@@ -206,6 +228,7 @@ class Loop {
   Auditor auditor_;
   EventLog log_;
   Samples samples_;
+  MotionRecord motion_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;
   Forcing forcing_;  // after t_

@@ -113,12 +113,38 @@ TEST_CASE("cli check: warnings of the run's start, and where the static start pu
       shell.run({"run", shear[0], shear[1], shear[2], "--set", "run.t_end=1e-3", "--no-plots", "-o", "out"});
   CHECK(contains(ran.err, "warning: " + words));
   const Ending plain = shell.run({"check", pipeline});
-  CHECK_FALSE(contains(plain.out, "warning"));
+  CHECK(contains(plain.out, "warning: damping alpha = "));
+  CHECK(plain.out.find("warning") == plain.out.rfind("warning"));
   CHECK(contains(plain.out, "ut [m]"));
   CHECK(contains(plain.out, "0.00284228"));
   const json facts = json::parse(shell.run({"check", pipeline, "--json"}).out);
   CHECK(facts["contacts"][0]["ut"].get<double>() == doctest::Approx(0.0).epsilon(1e-12));
   CHECK(facts["contacts"][1]["ut"].get<double>() == doctest::Approx(0.00284228).epsilon(1e-5));
+}
+
+TEST_CASE("cli check: breakpoints in hundreds are a count") {
+  const Shell shell;
+  std::string table = "times = [", values = "values = [";
+  for (int i = 0; i < 500; ++i) {
+    table += (i > 0 ? ", " : "") + std::to_string(0.01 * i);
+    values += (i > 0 ? ", " : "") + std::to_string(i % 3) + ".0";
+  }
+  shell.write("many.toml", belt(10) +
+                               "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\namplitude = 0.1\n" +
+                               "history = { type = \"table\", " + table + "], " + values + "] }\n");
+  const Ending ending = shell.run({"check", "many.toml"});
+  CHECK(ending.code == 0);
+  CHECK(contains(ending.out, "0 to 4.99  1 jump, 499 kinks  load 1"));
+  const json facts = json::parse(shell.run({"check", "many.toml", "--json"}).out);
+  CHECK(facts["discontinuities"].size() == 500);
+}
+
+TEST_CASE("cli check: --engine, as run has it") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  CHECK(contains(shell.run({"check", "belt.toml", "--engine", "ida"}).out, "engine ida"));
+  CHECK(contains(shell.run({"check", "belt.toml", "--engine", "exact"}).out, "engine exact"));
+  CHECK(shell.run({"check", "belt.toml", "--engine", "idea"}).code != 0);
 }
 
 TEST_CASE("cli check: command line and files") {

@@ -126,4 +126,38 @@ TEST_CASE("cli: a full disk behind stdout is 6") {
   CHECK(ending.err.find("No space left") != std::string::npos);
 }
 
+TEST_CASE("cli: help, asked for as a command") {
+  const Shell shell;
+  CHECK(shell.run({"help"}).out == shell.run({"--help"}).out);
+  CHECK(shell.run({"help"}).code == 0);
+  CHECK(shell.run({"help", "run"}).out == shell.run({"run", "--help"}).out);
+  CHECK(shell.run({"help", "rum"}).code == 2);
+}
+
+TEST_CASE("cli: INT and TERM end a set-up that has nothing to keep, with 130") {
+  const Shell shell;
+  std::string text = belt(1);
+  for (int i = 0; i < 4000; ++i) {  // some seconds of building and checking
+    const std::string n = std::to_string(i);
+    text += "[[masses]]\nnode = \"n" + n + "\"\nmass = 1.0\n[[contacts]]\nname = \"c" + n + "\"\nnode = \"n" +
+            n + "\"\nlaw = \"rigid\"\nnormal = [0.0, 1.0]\nfriction = 0.3\ngap = 1.0\n";
+  }
+  std::string nodes = "[nodes]\n";
+  for (int i = 0; i < 4000; ++i) nodes += "n" + std::to_string(i) + " = [0.0, " + std::to_string(i) + ".0]\n";
+  text.replace(text.find("[nodes]\n"), 8, nodes);
+  shell.write("many.toml", text);
+  for (const int signal : {SIGINT, SIGTERM})
+    for (const char* command : {"check", "run"}) {
+      CAPTURE(signal);
+      CAPTURE(command);
+      const pid_t child = shell.start({command, "many.toml"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      kill(child, signal);
+      const Ending ending = shell.wait(child);
+      CHECK(ending.code == 130);
+      CHECK(ending.err == "error: interrupted\n");
+      CHECK_FALSE(exists(shell, "many-run"));
+    }
+}
+
 TEST_SUITE_END();

@@ -60,4 +60,19 @@ TEST_CASE("cli plot: a folder that holds no run is refused") {
   CHECK(ending.err.find("is not the summary of a run") != std::string::npos);
 }
 
+TEST_CASE("cli plot: small gaps have ticks that differ, and loads have a picture") {
+  const Shell shell;
+  const std::string pump = SIGNORINI_TEST_DATA "/scenes/robust/pump.toml";
+  REQUIRE(shell.run({"run", pump, "-o", "out", "--set", "run.t_end=0.5", "--set", "run.engine=exact"}).code ==
+          0);
+  const std::string svg = shell.read("out/plots/contact-left.svg");
+  if (!svg.empty()) {
+    CHECK(svg.find("-0.00002<") == std::string::npos);
+    CHECK(svg.find("e-05") != std::string::npos);
+    CHECK(shell.read("out/plots/loads.svg").find("load 1") != std::string::npos);
+  }
+  CHECK(shell.read("out/plots/contact-left.gp").find("motion.csv") != std::string::npos);
+  CHECK(shell.read("out/loads.csv").find("\n0.1,0\n") != std::string::npos);
+}
+
 TEST_SUITE_END();

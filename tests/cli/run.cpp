@@ -133,6 +133,15 @@ TEST_CASE("cli run: an interrupt keeps what was computed, says so, and ends with
   CHECK(shell.read("belt-run/history.csv").back() == '\n');
 }
 
+TEST_CASE("cli run: an energy balance relative to nothing is not a number") {
+  const Shell shell;
+  const Ending ending =
+      shell.run({"run", SIGNORINI_TEST_DATA "/scenes/robust/pump.toml", "--set", "loads.1.amplitude=0.0",
+                 "--set", "run.t_end=0.2", "--no-plots", "-o", "out"});
+  CHECK(ending.code == 0);
+  CHECK(ending.out.find("energy balance                    -  ") != std::string::npos);
+}
+
 TEST_CASE("cli run: a killed run leaves whole rows") {
   const Shell shell;
   shell.write("belt.toml", belt(5e6));

@@ -261,4 +261,18 @@ TEST_CASE("cli sweep: what is wrong is told before anything is written") {
   CHECK(shell.read("mine/sweep.csv") == "mine");
 }
 
+TEST_CASE("cli sweep: over two keys of numbers it is drawn as maps") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  REQUIRE(shell
+              .run({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=1.2,1.5,2.0", "--vary",
+                    "contacts.belt.surface_velocity=0.1:0.3:0.1"})
+              .code == 0);
+  const std::string cells = shell.read("belt-sweep/plots/map.csv");
+  CHECK(std::count(cells.begin(), cells.end(), '\n') == 10);
+  CHECK(has(cells, "\n1.05,1.35,"));
+  CHECK(has(shell.read("belt-sweep/plots/motion.gp"), "fillcolor palette"));
+  if (on_path("gnuplot")) CHECK(shell.read("belt-sweep/plots/forces.png").size() > 2000);
+}
+
 TEST_SUITE_END();

@@ -25,6 +25,7 @@ constexpr double flights_a_step = 3.0;
 constexpr double most_cancelled = 0.9;            // greatest later term over the greatest first one
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr int most_touches = 5;                   // warnings about one and the same thing
+constexpr char overflow[] = "the motion leaves the range of numbers";
 
 }  // namespace
 
@@ -225,7 +226,7 @@ Step ExactEngine::advance() {
     step_.kind = Step::Kind::failed;
     step_.begin = step_.end = t_;
     step_.reason = "the step has fallen below the resolution of time";
-    if (!end_.u.allFinite()) step_.reason = "the motion overflows";
+    if (!end_.u.allFinite()) step_.reason = overflow;
     if (too_fast)
       step_.reason = fmt::format(
           "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this "
@@ -256,6 +257,12 @@ Step ExactEngine::advance() {
   for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
     if (arming_.idle(slot)) continue;
     const FirstFall fall = fall_of(slot, x, rest);
+    if (fall.kind == FirstFall::Kind::lost) {
+      step_.kind = Step::Kind::failed;
+      step_.end = t_;
+      step_.reason = overflow;
+      return step_;
+    }
     if (fall.kind == FirstFall::Kind::fall && (!first || fall.x < at)) {
       first = slot;
       at = fall.x;

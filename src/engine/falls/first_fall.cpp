@@ -91,6 +91,8 @@ void halve(std::size_t n, Interval& left, Interval& right) {
 FirstFall first_fall(const double* a, std::size_t degree, double slack) {
   double rest = 0.0;
   for (std::size_t k = 1; k <= degree; ++k) rest += std::abs(a[k]);
+  if (!std::isfinite(a[0]) || !std::isfinite(rest) || !std::isfinite(slack))
+    return {FirstFall::Kind::lost};  // a NaN would be halved for ever
   if (a[0] - rest > slack) return {};
 
   // Intervals still to be settled, the leftmost on top; each halving leaves one behind.

@@ -19,6 +19,7 @@ struct FirstFall {
     none,   ///< p > 0 on [0, 1], as far as slack lets one say
     fall,   ///< p > 0 before x, p < 0 after it
     touch,  ///< as none, but |p| <= slack around x: whether it falls there cannot be decided
+    lost,   ///< coefficients or slack are not finite: nothing can be said
   } kind = Kind::none;
   double x = 0.0;
 };

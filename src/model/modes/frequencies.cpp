@@ -6,6 +6,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/selection.hpp"
 #include "model/modes/growth.hpp"
 #include "model/modes/held.hpp"
@@ -49,6 +50,18 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
 
+/// How many motions with mass are left when forms are fixed: n - rank F, of them without mass those massless
+/// motions that F lets pass.
+int motions_with_mass(const SparseMatrix& mass, const std::vector<Combination>& fixed) {
+  const int heavy = degrees_with_mass(mass);
+  if (fixed.empty()) return heavy;
+  const auto n = static_cast<int>(mass.rows());
+  Eigen::MatrixXd all = form_columns(fixed, n), light = all;
+  for (int i = 0; i < n; ++i)
+    if (mass.coeff(i, i) > 0.0) light.row(i).setZero();
+  return heavy - rank(all) + rank(light);
+}
+
 Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& k,
                   const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(k.rows());
@@ -79,8 +92,11 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (rest.cols() == 0) return result;
   const EigenPairs pairs =
       generalized_eigen(rest.transpose() * (m * rest), rest.transpose() * (stiff * rest));
+  // The others have none, whatever rounding makes of it.
+  const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
+  count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
-    if (!(pairs.values[j] > 1e-13 * pairs.values[pairs.values.size() - 1])) break;  // massless
+    if (!(pairs.values[j] > 1e-13 * pairs.values[pairs.values.size() - 1])) break;  // hardly any
     result.modes.push_back(
         mode_of(1.0 / std::sqrt(pairs.values[j]), q * (rest * pairs.vectors.col(j)), mass, damping));
   }
@@ -170,8 +186,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
   Frequencies result;
   result.free_motions = static_cast<int>(free.heavy.cols());
   result.unstable = free.unstable;
-  const int size =
-      std::min(result.free_motions + count + 11, degrees_with_mass(mass) - static_cast<int>(fixed.size()));
+  const int size = std::min(result.free_motions + count + 11, motions_with_mass(mass, fixed));
   if (size <= 0) return result;
 
   // (K + shift M) x = (omega^2 + shift) M x: regular also with free motions.
@@ -211,8 +226,21 @@ Frequencies lowest_frequencies(const SparseMatrix& mass, const SparseMatrix& dam
                                const SparseMatrix& stiffness, const Holding& holding, int count) {
   if (mass.rows() == 0) return {};
   const SparseMatrix k = with_springs(stiffness, holding.springs);
-  return mass.rows() <= dense_up_to ? dense(mass, damping, k, holding.fixed, count)
-                                    : sparse(mass, damping, k, holding.fixed, count);
+  if (mass.rows() <= dense_up_to) return dense(mass, damping, k, holding.fixed, count);
+  Frequencies all;
+  for (const Part& part : Parts({&mass, &k}, holding.fixed)) {
+    const SparseMatrix m = part.matrix(mass), c = part.matrix(damping), own = part.matrix(k);
+    const std::vector<Combination> fixed = part.forms(holding.fixed);
+    const Frequencies found =
+        part.size() <= dense_up_to ? dense(m, c, own, fixed, count) : sparse(m, c, own, fixed, count);
+    all.free_motions += found.free_motions;
+    all.unstable += found.unstable;
+    all.modes.insert(all.modes.end(), found.modes.begin(), found.modes.end());
+  }
+  std::stable_sort(all.modes.begin(), all.modes.end(),
+                   [](const NaturalMode& a, const NaturalMode& b) { return a.omega < b.omega; });
+  if (static_cast<int>(all.modes.size()) > count) all.modes.resize(static_cast<std::size_t>(count));
+  return all;
 }
 
 Holding close_contacts(const std::vector<Contact>& contacts) {

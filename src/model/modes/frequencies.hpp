@@ -5,8 +5,9 @@
 //
 // M and K may be singular. Motions with mass but without stiffness are the free motions, omega = 0; the
 // others are M-orthogonal to them. Motions with neither mass nor stiffness (a massless node whose only
-// hold is an open contact) are no modes and stay at rest. Dense up to 200 degrees of freedom; above, by
-// inverse subspace iteration (Bathe, Finite Element Procedures, section 11.6).
+// hold is an open contact) are no modes and stay at rest. Dense up to 200 degrees of freedom; above, part by
+// part (parts.hpp), large parts by inverse subspace iteration (Bathe, Finite Element Procedures,
+// section 11.6).
 #pragma once
 
 #include <vector>

@@ -5,6 +5,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/null_motions.hpp"
 
@@ -14,7 +15,9 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
   return motion.dot(k * motion) < -rounding::of_many * term_size(k, motion);
 }
 
-std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass) {
+namespace {
+
+std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = null_motions(k);  // those of negative energy are among them
   if (null.cols() == 0) return std::nullopt;
   for (Eigen::Index j = 0; j < null.cols(); ++j) null.col(j).normalize();
@@ -40,6 +43,21 @@ std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& 
     x = solver.solve(mass * x).normalized();
   }
   return growth;
+}
+
+}  // namespace
+
+std::optional<Growth> fastest_growth(const SparseMatrix& k, const SparseMatrix& mass) {
+  const Parts parts({&k, &mass});
+  if (parts.count() == 1) return growth_of_whole(k, mass);
+  std::optional<Growth> fastest;
+  for (const Part& part : parts) {
+    const std::optional<Growth> own = growth_of_whole(part.matrix(k), part.matrix(mass));
+    if (!own || (fastest && own->rate <= fastest->rate)) continue;
+    fastest = Growth{own->rate, Vector::Zero(k.rows())};
+    fastest->motion(part.dofs()) = own->motion;
+  }
+  return fastest;
 }
 
 }  // namespace signorini

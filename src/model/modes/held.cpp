@@ -1,6 +1,7 @@
 #include "model/modes/held.hpp"
 
 #include "base/eigen_dense.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini {
@@ -18,21 +19,34 @@ SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& f
 }
 
 HeldStructure::HeldStructure(const SparseMatrix& k, const std::vector<Combination>& fixed)
-    : solver_(with_grips(k, fixed)), t_(form_columns(fixed, static_cast<int>(k.rows()))) {
-  if (t_.cols() == 0) return;
-  Eigen::MatrixXd kt(t_.rows(), t_.cols());
-  for (Eigen::Index j = 0; j < t_.cols(); ++j) kt.col(j) = solver_.solve(t_.col(j));
-  // Two contacts may fix the same motion: the pseudo-inverse counts it once.
-  const EigenPairs g = symmetric_eigen(t_.transpose() * kt);
-  Eigen::VectorXd inverse = g.values;
-  const double greatest = inverse[inverse.size() - 1];
-  for (double& value : inverse) value = value > 1e-12 * greatest ? 1.0 / value : 0.0;
-  correction_ = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
+    : solver_(with_grips(k, fixed)) {
+  if (fixed.empty()) return;
+  for (const Part& part : Parts({&k}, fixed)) {
+    const std::vector<Combination> own = part.forms(fixed);
+    if (own.empty()) continue;
+    Grip grip{part.dofs(), form_columns(own, part.size()), {}};
+    Eigen::MatrixXd kt(grip.t.rows(), grip.t.cols());
+    for (Eigen::Index j = 0; j < kt.cols(); ++j) {
+      Vector force = Vector::Zero(k.rows());
+      force(grip.dofs) = grip.t.col(j);
+      kt.col(j) = solver_.solve(force)(grip.dofs);
+    }
+    // Two contacts may fix the same motion: the pseudo-inverse counts it once.
+    const EigenPairs g = symmetric_eigen(grip.t.transpose() * kt);
+    Eigen::VectorXd inverse = g.values;
+    const double greatest = inverse[inverse.size() - 1];
+    for (double& value : inverse) value = value > 1e-12 * greatest ? 1.0 / value : 0.0;
+    grip.correction = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
+    grips_.push_back(std::move(grip));
+  }
 }
 
 Vector HeldStructure::solve(const Vector& b) const {
   Vector u = solver_.solve(b);
-  if (t_.cols() > 0) u -= correction_ * (t_.transpose() * u);
+  for (const Grip& grip : grips_) {
+    const Vector own = u(grip.dofs);
+    u(grip.dofs) = own - grip.correction * (grip.t.transpose() * own);
+  }
   return u;
 }
 

@@ -22,8 +22,13 @@ class HeldStructure {
   [[nodiscard]] bool definite() const { return solver_.ok() && solver_.smallest_pivot() > 0.0; }
 
  private:
+  /// The forms that act on one part of the structure: T on it, and K^-1 T (T^T K^-1 T)^-1.
+  struct Grip {
+    std::vector<int> dofs;
+    Eigen::MatrixXd t, correction;
+  };
   SymmetricSolver solver_;
-  Eigen::MatrixXd t_, correction_;
+  std::vector<Grip> grips_;
 };
 
 /// K with springs of the structure's own size along the forms.

@@ -5,6 +5,7 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 
 #include <algorithm>
+#include <exception>
 
 namespace signorini {
 namespace {
@@ -31,12 +32,17 @@ class Products {
 
 double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
   if (n == 1) return apply(Eigen::VectorXd::Ones(1))[0];
-  Products op(n, apply);
-  Spectra::SymEigsSolver<Products> solver(op, 1, std::min(n, 40));
-  solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
-  solver.compute(Spectra::SortRule::LargestAlge, 1000, tolerance);
-  if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvalues()[0];
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0).normalized();
+  if (!(apply(x).norm() > 0.0)) return 0.0;
+  try {
+    Products op(n, apply);
+    Spectra::SymEigsSolver<Products> solver(op, 1, std::min(n, 40));
+    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.compute(Spectra::SortRule::LargestAlge, 1000, tolerance);
+    if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvalues()[0];
+  } catch (const std::exception&) {
+    // Few different eigenvalues end its iteration early, and its small matrix may then not be one to solve.
+  }
   double value = 0.0;
   for (int i = 0; i < 200; ++i) {
     const Eigen::VectorXd y = apply(x);
@@ -50,14 +56,18 @@ double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
 EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
                              const Operator& inverse) {
   using Mass = Spectra::SparseSymMatProd<double>;
-  Products op(mass.rows(), inverse);
-  Mass product(mass);
-  Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
-                                                                                       width, -shift);
-  solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
-  solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
-  if (solver.info() != Spectra::CompInfo::Successful) return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  try {
+    Products op(mass.rows(), inverse);
+    Mass product(mass);
+    Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
+                                                                                         width, -shift);
+    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
+    if (solver.info() == Spectra::CompInfo::Successful) return {solver.eigenvalues(), solver.eigenvectors()};
+  } catch (const std::exception&) {
+    // Few different eigenvalues end its iteration early: the caller has other ways.
+  }
+  return {Vector(0), Eigen::MatrixXd(mass.rows(), 0)};
 }
 
 }  // namespace signorini

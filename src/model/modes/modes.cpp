@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/eigen_dense.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/selection.hpp"
 #include "model/modes/frequencies.hpp"
 #include "model/modes/held.hpp"
@@ -18,28 +20,35 @@ constexpr int dense_up_to = 200;
 
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
-double lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+/// omega; 0: a motion has no stiffness; nothing: nothing with mass can move.
+using Lowest = std::optional<double>;
+
+Lowest lowest_dense(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
   Eigen::MatrixXd m(mass), stiff(k);
   if (!fixed.empty()) {
     const Eigen::MatrixXd free = orthogonal_complement(form_columns(fixed, static_cast<int>(k.rows())));
     m = (free.transpose() * m * free).eval();
     stiff = (free.transpose() * stiff * free).eval();
-    if (free.cols() == 0) return 0.0;
+    if (free.cols() == 0) return std::nullopt;
   }
   if (null_motions(stiff.sparseView()).cols() > 0) return 0.0;
   const Eigen::VectorXd mu = generalized_eigenvalues(m, stiff);
-  if (mu.size() == 0 || !(mu[mu.size() - 1] > 0.0)) return 0.0;
+  if (mu.size() == 0 || !(mu[mu.size() - 1] > 0.0)) return std::nullopt;
   return 1.0 / std::sqrt(mu[mu.size() - 1]);
 }
 
-double lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+Lowest lowest_sparse(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
   if (null_motions(with_grips(k, fixed)).cols() > 0) return 0.0;
   const Frequencies lowest =
       lowest_frequencies(mass, SparseMatrix(k.rows(), k.cols()), k, Holding{{}, fixed}, 1);
-  return lowest.modes.empty() ? 0.0 : lowest.modes[0].omega;
+  return lowest.modes.empty() ? Lowest() : lowest.modes[0].omega;
 }
 
-double highest(const SparseMatrix& mass, const SparseMatrix& k) {
+Lowest lowest_of(const SparseMatrix& mass, const SparseMatrix& k, const std::vector<Combination>& fixed) {
+  return mass.rows() <= dense_up_to ? lowest_dense(mass, k, fixed) : lowest_sparse(mass, k, fixed);
+}
+
+double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   const SparseMatrix heavy = select_by_mass(mass, true), light = select_by_mass(mass, false);
   const auto h = static_cast<int>(heavy.cols()), l = static_cast<int>(light.cols());
   if (h == 0) return 0.0;
@@ -69,6 +78,14 @@ double highest(const SparseMatrix& mass, const SparseMatrix& k) {
   return frequency(greatest_eigenvalue(h, apply, 1e-4));
 }
 
+double highest(const SparseMatrix& mass, const SparseMatrix& k) {
+  if (mass.rows() <= dense_up_to) return highest_of(mass, k);
+  double omega = 0.0;
+  for (const Part& part : Parts({&mass, &k}))
+    omega = std::max(omega, highest_of(part.matrix(mass), part.matrix(k)));
+  return omega;
+}
+
 }  // namespace
 
 Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bool>& closed) {
@@ -89,8 +106,13 @@ Holding hold_contacts(const std::vector<Contact>& contacts, const std::vector<bo
 double lowest_frequency(const SparseMatrix& mass, const SparseMatrix& stiffness, const Holding& holding) {
   if (mass.rows() == 0) return 0.0;
   const SparseMatrix k = with_springs(stiffness, holding.springs);
-  return mass.rows() <= dense_up_to ? lowest_dense(mass, k, holding.fixed)
-                                    : lowest_sparse(mass, k, holding.fixed);
+  if (mass.rows() <= dense_up_to) return lowest_of(mass, k, holding.fixed).value_or(0.0);
+  Lowest lowest;
+  for (const Part& part : Parts({&mass, &k}, holding.fixed)) {
+    const Lowest own = lowest_of(part.matrix(mass), part.matrix(k), part.forms(holding.fixed));
+    if (own) lowest = std::min(*own, lowest.value_or(*own));
+  }
+  return lowest.value_or(0.0);
 }
 
 double highest_frequency(const Model& model) {

@@ -5,7 +5,7 @@
 // M may be singular. Lowest: M x = mu K x with K positive definite, omega = 1 / sqrt(mu_max); motions
 // that are prescribed to be zero are eliminated. Highest: massless degrees of freedom condensed,
 // K_c = K_dd - K_dm K_mm^-1 K_md, omega^2 the greatest eigenvalue of (K_c, M_dd).
-// Dense up to 200 degrees of freedom, above that by Lanczos iteration (Spectra).
+// Dense up to 200 degrees of freedom; above that part by part (parts.hpp), large parts by iteration.
 #pragma once
 
 #include <vector>

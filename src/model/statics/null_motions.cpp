@@ -5,6 +5,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 
 namespace signorini {
@@ -43,11 +44,8 @@ Eigen::MatrixXd lowest(const SparseMatrix& a, int count) {
   return x * symmetric_eigen(0.5 * (projected + projected.transpose())).vectors;
 }
 
-}  // namespace
-
-Eigen::MatrixXd null_motions(const SparseMatrix& k) {
+Eigen::MatrixXd of_whole(const SparseMatrix& k) {
   const auto n = static_cast<int>(k.rows());
-  if (n == 0) return Eigen::MatrixXd(0, 0);
   const Vector s = scaling(k);
   const SparseMatrix a = s.asDiagonal() * k * s.asDiagonal();
   for (int count = std::min(n, 8);; count = std::min(n, 4 * count)) {
@@ -57,6 +55,34 @@ Eigen::MatrixXd null_motions(const SparseMatrix& k) {
     while (found < candidates.cols() && is_null(a, candidates.col(found))) ++found;
     if (all || found < candidates.cols()) return s.asDiagonal() * candidates.leftCols(found);
   }
+}
+
+Eigen::MatrixXd of_parts(const SparseMatrix& k) {
+  const Parts parts({&k});
+  if (parts.count() == 1) return of_whole(k);
+  std::vector<Eigen::MatrixXd> own;
+  Eigen::Index found = 0;
+  for (const Part& part : parts) {
+    own.push_back(of_whole(part.matrix(k)));
+    found += own.back().cols();
+  }
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(k.rows(), found);
+  Eigen::Index at = 0;
+  auto motion = own.begin();
+  for (const Part& part : parts) {
+    for (Eigen::Index j = 0; j < motion->cols(); ++j, ++at)
+      for (Eigen::Index i = 0; i < motion->rows(); ++i)
+        motions(part.dofs()[static_cast<std::size_t>(i)], at) = (*motion)(i, j);
+    ++motion;
+  }
+  return motions;
+}
+
+}  // namespace
+
+Eigen::MatrixXd null_motions(const SparseMatrix& k) {
+  if (k.rows() == 0) return Eigen::MatrixXd(0, 0);
+  return k.rows() <= dense_up_to ? of_whole(k) : of_parts(k);
 }
 
 }  // namespace signorini

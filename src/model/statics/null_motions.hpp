@@ -4,7 +4,8 @@
 //
 // that is, no strain energy beyond the roundoff of evaluating it; this needs no stiffness to compare
 // with, and holds for translations and rotations in one matrix. Found as the lowest eigenvectors of
-// D^-1/2 K D^-1/2, D = diag K: by a dense decomposition for small n, else by inverse subspace iteration.
+// D^-1/2 K D^-1/2, D = diag K: by a dense decomposition for small n, else part by part (parts.hpp), large
+// parts by inverse subspace iteration.
 #pragma once
 
 #include "signorini/model.hpp"

@@ -1,6 +1,7 @@
 #include "model/statics/simple_motions.hpp"
 
 #include <array>
+#include <numeric>
 
 #include "base/eigen_dense.hpp"
 
@@ -9,17 +10,18 @@ namespace {
 
 constexpr double belongs = 1e-3;  // a null motion of a fine mesh has few digits
 
-/// Translations along x and y, and the rotation about the centre, on all that is not fixed.
-std::array<Vector, 3> rigid_motions(const DofMap& map) {
+/// Translations along x and y, and the rotation about the centre, of the degrees of freedom that are given.
+std::array<Vector, 3> rigid_motions(const DofMap& map, const std::vector<int>& dofs) {
   std::array<Vector, 3> rigid;
   rigid.fill(Vector::Zero(map.size()));
   double x = 0.0, y = 0.0, count = 0.0;
-  for (const auto& [node, component] : map.where) {
-    x += map.mesh.nodes[static_cast<std::size_t>(node)].x;
-    y += map.mesh.nodes[static_cast<std::size_t>(node)].y;
+  for (const int i : dofs) {
+    const auto node = static_cast<std::size_t>(map.where[static_cast<std::size_t>(i)].first);
+    x += map.mesh.nodes[node].x;
+    y += map.mesh.nodes[node].y;
     count += 1.0;
   }
-  for (int i = 0; i < map.size(); ++i) {
+  for (const int i : dofs) {
     const auto [number, component] = map.where[static_cast<std::size_t>(i)];
     const MeshNode& node = map.mesh.nodes[static_cast<std::size_t>(number)];
     if (component < 2) rigid[static_cast<std::size_t>(component)][i] = 1.0;
@@ -31,10 +33,17 @@ std::array<Vector, 3> rigid_motions(const DofMap& map) {
 }  // namespace
 
 Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map) {
+  std::vector<int> all(static_cast<std::size_t>(map.size()));
+  std::iota(all.begin(), all.end(), 0);
+  return simple_motions(motions, map, all);
+}
+
+Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map,
+                               const std::vector<int>& dofs) {
   if (map.matrices() || motions.cols() < 2) return motions;
   const Eigen::MatrixXd q = orthonormal(motions);
   Eigen::MatrixXd found(q.cols(), 0), basis(q.cols(), 0);  // coordinates in q; the same, orthonormal
-  for (const Vector& rigid : rigid_motions(map)) {
+  for (const Vector& rigid : rigid_motions(map, dofs)) {
     const Eigen::VectorXd c = q.transpose() * rigid;
     if (!((rigid - q * c).norm() <= belongs * rigid.norm()) || rigid.norm() == 0.0) continue;
     const Eigen::VectorXd rest = c - basis * (basis.transpose() * c);

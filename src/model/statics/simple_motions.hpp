@@ -6,6 +6,8 @@
 // who read the name of a motion expect "vertical motion" where that is one of them.
 #pragma once
 
+#include <vector>
+
 #include "model/assembly/dofs.hpp"
 
 namespace signorini {
@@ -14,5 +16,9 @@ namespace signorini {
 /// rotation about the centre of the nodes where they belong to the space, then a complement. Unchanged
 /// when it holds none of them, and in matrix scenes.
 [[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map);
+
+/// The same for motions that only move these degrees of freedom.
+[[nodiscard]] Eigen::MatrixXd simple_motions(const Eigen::MatrixXd& motions, const DofMap& map,
+                                             const std::vector<int>& dofs);
 
 }  // namespace signorini

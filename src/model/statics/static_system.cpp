@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "model/assembly/motion_names.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/simple_motions.hpp"
 
 namespace signorini {
 namespace {
+
+constexpr int together_up_to = 300;  // degrees of freedom; above, part by part
 
 /// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
 /// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
@@ -58,9 +64,13 @@ Vector StaticProblem::right_side(const std::vector<bool>& closed) const {
   return p;
 }
 
-std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
-                                     const std::vector<bool>& closed, bool pressed_only) {
-  Eigen::MatrixXd null = simple_motions(motions, problem.map);
+namespace {
+
+/// Motions of one part of the structure, and the contacts that may hold them.
+std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                  const std::vector<int>& dofs, const std::vector<std::size_t>& contacts,
+                                  const std::vector<bool>& closed, bool pressed_only) {
+  Eigen::MatrixXd null = simple_motions(motions, problem.map, dofs);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
     const double size = greatest_translation(null.col(j), problem.map);
     null.col(j) /= size > 0.0 ? size : null.col(j).cwiseAbs().maxCoeff();
@@ -86,7 +96,7 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
     holders.push_back(static_cast<int>(k));
   };
   for (bool pressed : {true, false})
-    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+    for (const std::size_t k : contacts)
       if ((!problem.is_support(k) || closed[k]) == pressed && (pressed || !pressed_only)) consider(k);
   std::vector<FreeMotion> result;
   if (m == 0) return result;
@@ -95,6 +105,41 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   const Eigen::MatrixXd separate = null * solve_dense(complete, Eigen::MatrixXd::Identity(m, m));
   for (Eigen::Index j = 0; j < m; ++j)
     result.push_back({separate.col(j), j < rows.rows() ? holders[static_cast<std::size_t>(j)] : -1});
+  return result;
+}
+
+}  // namespace
+
+std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::MatrixXd& motions,
+                                     const std::vector<bool>& closed, bool pressed_only) {
+  std::vector<std::size_t> all(problem.contacts.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (problem.size() <= together_up_to) {
+    std::vector<int> dofs(static_cast<std::size_t>(problem.size()));
+    std::iota(dofs.begin(), dofs.end(), 0);
+    return hold_part(problem, motions, dofs, all, closed, pressed_only);
+  }
+  std::vector<Combination> tangents;
+  for (const Contact& c : problem.contacts) tangents.push_back(c.tangent);
+  const SparseMatrix k = problem.matrix(closed);
+  const Parts parts({&k}, tangents);
+  std::vector<std::vector<Eigen::Index>> own_motions(parts.count());
+  std::vector<std::vector<std::size_t>> own_contacts(parts.count());
+  for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+    Eigen::Index dof = 0;  // a motion that nothing resists lies in one part
+    motions.col(j).cwiseAbs().maxCoeff(&dof);
+    own_motions[parts.part_of(static_cast<int>(dof))].push_back(j);
+  }
+  for (const std::size_t c : all)
+    if (!tangents[c].terms.empty()) own_contacts[parts.part_of(tangents[c].terms.front().first)].push_back(c);
+  std::vector<FreeMotion> result;
+  std::size_t number = 0;
+  for (const Part& part : parts) {
+    const Eigen::MatrixXd own = motions(Eigen::all, own_motions[number]);
+    std::vector<FreeMotion> held =
+        hold_part(problem, own, part.dofs(), own_contacts[number++], closed, pressed_only);
+    std::move(held.begin(), held.end(), std::back_inserter(result));
+  }
   return result;
 }
 
@@ -154,10 +199,8 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
   return state;
 }
 
-double driving_work(const StaticProblem& problem, const std::vector<bool>& closed, const Vector& motion,
-                    const Vector& u) {
-  const SparseMatrix k = problem.matrix(closed);
-  const Vector p = problem.right_side(closed);
+double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
+                    const Vector& motion, const Vector& u) {
   const double work = motion.dot(p - k * u);
   const double roundoff =
       rounding::of_many * motion.cwiseAbs().dot(k.cwiseAbs() * u.cwiseAbs() + p.cwiseAbs());

@@ -56,9 +56,10 @@ struct HeldState {
 [[nodiscard]] HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
                                    const std::vector<FreeMotion>& held);
 
-/// Work of the loads on a free motion, at the displacement u that solve_held gave: zero in equilibrium.
+/// Work of the loads on a free motion, at the displacement u that solve_held gave: zero in equilibrium. k and
+/// p: matrix() and right_side() of the problem.
 /// What is below roundoff, or below 1e-9 of the greatest load on the greatest displacement, counts as zero.
-[[nodiscard]] double driving_work(const StaticProblem& problem, const std::vector<bool>& closed,
+[[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
                                   const Vector& motion, const Vector& u);
 
 }  // namespace signorini

@@ -38,10 +38,12 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(), [&](std::size_t j) { return trial.held[j].holder < 0; });
+  const SparseMatrix k = problem.matrix(closed);
+  const Vector p = problem.right_side(closed);
   for (const std::size_t j : order) {
     if (trial.driven >= 0) break;
     const Vector& motion = trial.held[j].motion;
-    const double work = driving_work(problem, closed, motion, trial.u);
+    const double work = driving_work(problem, k, p, motion, trial.u);
     if (work == 0.0) continue;
     const double size = greatest_translation(motion, problem.map);
     trial.driven = static_cast<int>(j);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/simulate.hpp"
 #include "study/check/check_parts.hpp"
@@ -39,14 +40,12 @@ std::string list(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace
-
-std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
+/// The same for contacts whose tangents lie on common degrees of freedom.
+std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> names;  // of the columns of `held`
   Eigen::MatrixXd held(model.size(), 0);
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+  for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
-    if (c.has_gap() || c.tangential_stiffness || c.shear || !c.has_friction()) continue;
     const Vector t = heavy_part(model, c.tangent);
     if (t.norm() == 0.0)
       return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "
@@ -69,6 +68,25 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
     held.rightCols(1) = t;
     names.push_back(c.name);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
+  std::vector<std::size_t> contacts;
+  std::vector<Combination> tangents;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.has_gap() || !c.sticks_rigidly()) continue;
+    contacts.push_back(k);
+    tangents.push_back(c.tangent);
+  }
+  for (const std::vector<std::size_t>& group : coupled_forms(tangents)) {
+    std::vector<std::size_t> members;
+    for (const std::size_t i : group) members.push_back(contacts[i]);
+    if (auto found = ambiguity_among(model, members)) return found;
   }
   return std::nullopt;
 }

@@ -11,6 +11,7 @@
 #include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "study/sweep/sweep_map.hpp"
 
 namespace signorini {
 
@@ -198,7 +199,8 @@ class Script {
 bool is_picture_of_sweep(const fs::path& file) {
   const std::string stem = file.stem().string();
   const bool named = stem == "motion" || stem == "forces" || stem == "losses";
-  return (is_picture(file) && named) || (file.extension() == ".csv" && stem.starts_with("curve-"));
+  return (is_picture(file) && named) ||
+         (file.extension() == ".csv" && (stem.starts_with("curve-") || stem == "map"));
 }
 
 }  // namespace
@@ -214,6 +216,8 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
     write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(list[i], axis, contacts));
 
+  const std::optional<MapAxes> axes = map_axes(spec);
+  if (axes) write_file(folder / "map.csv", map_table(spec, *axes, rows));
   const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   const Script script(spec, axis, list, contacts);
@@ -222,7 +226,14 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   const auto add = [&](const std::string& name, const std::string& subtitle,
                        const std::vector<Panel>& panels) {
     scripts.push_back(folder / (name + ".gp"));
-    write_file(scripts.back(), script.str(name, subtitle + others, panels));
+    if (!axes) {
+      write_file(scripts.back(), script.str(name, subtitle + others, panels));
+      return;
+    }
+    std::vector<MapPanel> maps;
+    for (const Panel& p : panels) maps.push_back({p.label, 5 + p.figure});
+    const char* of = contacts.size() > 1 ? ", greatest of all contacts" : "";
+    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of, maps));
   };
   if (!contacts.empty()) {
     add("motion", "Greatest motion of the contacts from the start",

@@ -5,7 +5,8 @@
 //   DIR/plots/losses.gp   friction work, and events
 //   DIR/plots/curve-1.csv x, events, then the figures of every contact: one file a combination
 //
-// The first key with more than one value is the axis; where its values are no numbers, they stand evenly.
+// The first key with more than one value is the axis; where its values are no numbers, they stand evenly. Two
+// keys with three numbers or more each are the axes of maps instead (sweep_map.hpp).
 #pragma once
 
 #include <filesystem>

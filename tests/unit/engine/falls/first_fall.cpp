@@ -40,6 +40,15 @@ FirstFall fall(const std::vector<double>& a) { return first_fall(a.data(), a.siz
 
 TEST_SUITE_BEGIN("unit/engine/falls/first_fall");
 
+TEST_CASE("what is not a number is said to be so, not halved for ever") {
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  CHECK(fall({nan, 1.0, -3.0}).kind == FirstFall::Kind::lost);
+  CHECK(fall({1.0, nan, -3.0}).kind == FirstFall::Kind::lost);
+  CHECK(fall({1.0, -inf, inf}).kind == FirstFall::Kind::lost);
+  const double a[] = {1.0, -3.0};
+  CHECK(first_fall(a, 1, inf).kind == FirstFall::Kind::lost);
+}
+
 TEST_CASE("simple falls, rises and none") {
   CHECK(fall({1.0, -2.0}).kind == FirstFall::Kind::fall);
   CHECK(fall({1.0, -2.0}).x == doctest::Approx(0.5).epsilon(1e-15));

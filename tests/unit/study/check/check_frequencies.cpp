@@ -144,4 +144,18 @@ TEST_SUITE("unit/study/check/check_frequencies") {
     for (std::size_t i = 0; i < 4; ++i)
       CHECK(large.modes[i].omega == doctest::Approx(small.modes[i].omega).epsilon(1e-3));
   }
+
+  TEST_CASE("members without mass have no frequencies, whatever rounding makes of their mass") {
+    const std::string folder = SIGNORINI_TEST_DATA "/scenes/robust/";
+    for (const char* name : {"massless-frame.toml", "massless-node-dashpot.toml"}) {
+      CAPTURE(name);
+      const Model model = build_model(read_scene(folder + name));
+      const Frequencies free = open(model, 5), resting = closed(model, 5), held = stuck(model, 5);
+      // One point mass of two components: what is free has no frequency.
+      CHECK(free.modes.size() + static_cast<std::size_t>(free.free_motions) <= 2);
+      CHECK(resting.modes.size() + static_cast<std::size_t>(resting.free_motions) <= 2);
+      for (const Frequencies& found : {free, resting, held})
+        for (const NaturalMode& mode : found.modes) CHECK(mode.omega < 1e4);
+    }
+  }
 }

@@ -1,0 +1,184 @@
+#include "model/doubts.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/history/history_internal.hpp"
+#include "model/assembly/contacts.hpp"
+#include "model/assembly/parts.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/null_motions.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double greatest_friction = 2.0;
+constexpr double least_drag = 0.01;  // of a velocity, in the time of the run
+constexpr double along = 1e-9;       // of a motion, that a contact must see of it
+constexpr std::size_t most_named = 3;
+
+/// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
+std::string names(const Model& model, const std::vector<std::size_t>& contacts) {
+  std::string text = contacts.size() == 1 ? "contact" : "contacts";
+  const std::size_t shown = std::min(contacts.size(), most_named);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == contacts.size();
+    text += fmt::format("{}'{}'", i == 0 ? " " : last ? " and " : ", ", model.contacts[contacts[i]].name);
+  }
+  return shown < contacts.size() ? fmt::format("{} and {} more", text, contacts.size() - shown) : text;
+}
+
+class Doubts {
+ public:
+  Doubts(const Scene& scene, const DofMap& map, const Model& model)
+      : scene_(scene), map_(map), model_(model), weight_(static_load(model.loads, model.size())) {}
+
+  std::vector<std::string> all() {
+    idle_loads();
+    falls();
+    sudden_weight();
+    drag();
+    friction();
+    shear();
+    return std::move(found_);
+  }
+
+ private:
+  void idle_loads() {
+    for (const Load& load : model_.loads) {
+      if (load.name == "gravity" || load.name == "base motion") continue;
+      const auto& terms = load.direction.terms;
+      const bool idle =
+          std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
+      if (idle && magnitude(load.history, scene_.run.t_end) > 0.0)
+        found_.push_back(load.name + " acts only along what supports hold: it moves nothing");
+    }
+  }
+
+  /// The contacts that act on one part only, part by part; sliders have no normal and may hold by friction.
+  void falls() {
+    if (weight_.isZero(0.0)) return;
+    const Parts parts({&model_.mass, &model_.stiffness});
+    std::vector<std::vector<std::size_t>> supports(parts.count());
+    std::vector<bool> gripped(parts.count(), false);
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      for (const auto& term : c.normal.terms.empty() ? c.tangent.terms : c.normal.terms) {
+        const std::size_t part = parts.part_of(term.first);
+        if (!c.has_gap()) gripped[part] = true;
+        if (c.has_gap() && (supports[part].empty() || supports[part].back() != k))
+          supports[part].push_back(k);
+      }
+    }
+    std::size_t number = 0;
+    for (const Part& part : parts) {
+      const std::vector<std::size_t>& own = supports[number];
+      if (!own.empty() && !gripped[number] && flees(part, own))
+        falling_.insert(falling_.end(), own.begin(), own.end());
+      ++number;
+    }
+    if (falling_.empty()) return;
+    found_.push_back(
+        fmt::format("nothing stops the fall from {}: the static loads drive what touches there "
+                    "along the normal, which points out of the ground",
+                    names(model_, falling_)));
+  }
+
+  [[nodiscard]] bool flees(const Part& part, const std::vector<std::size_t>& contacts) const {
+    const Eigen::MatrixXd z = null_motions(part.matrix(model_.stiffness));
+    if (z.cols() == 0) return false;
+    const SparseMatrix mass = part.matrix(model_.mass);
+    const Vector force = z.transpose() * Vector(weight_(part.dofs()));
+    Vector fall = Vector::Zero(model_.size());
+    fall(part.dofs()) = z * solve_dense(z.transpose() * (mass * z), force);
+    const double size = fall.cwiseAbs().maxCoeff();
+    bool away = false;
+    for (const std::size_t k : contacts) {
+      const double rate = model_.contacts[k].normal.dot(fall);
+      if (!(rate >= -along * size)) return false;
+      away = away || rate > along * size;
+    }
+    return away;
+  }
+
+  void sudden_weight() {
+    if (model_.static_start || weight_.isZero(0.0) || !model_.u0.isZero(0.0)) return;
+    if (scene_.gravity[0] == 0.0 && scene_.gravity[1] == 0.0) return;
+    std::vector<std::size_t> touching;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      if (!c.has_gap() || c.gap != 0.0 || c.normal.dot(model_.v0) > 0.0) continue;
+      // A rigid body on rigid ground has its reaction at once.
+      const bool gives = !c.takes_impulses() ||
+                         std::any_of(c.normal.terms.begin(), c.normal.terms.end(), [&](const auto& term) {
+                           return model_.stiffness.coeff(term.first, term.first) != 0.0;
+                         });
+      if (gives && std::find(falling_.begin(), falling_.end(), k) == falling_.end()) touching.push_back(k);
+    }
+    if (touching.empty()) return;
+    found_.push_back(
+        fmt::format("the weight comes suddenly at t = 0 on {}, closed without force: that rings, "
+                    "with up to twice the static force; initial = \"static\" starts at rest",
+                    names(model_, touching)));
+  }
+
+  void drag() {
+    if (!(model_.alpha * scene_.run.t_end > least_drag)) return;
+    std::vector<bool> closed(model_.contacts.size(), true);
+    const StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
+    const Eigen::MatrixXd free = null_motions(problem.matrix(closed));
+    if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
+    found_.push_back(
+        fmt::format("damping alpha = {:.4g} 1/{} drags free motions, too: what slides or flies "
+                    "loses its velocity with the time constant 1/alpha = {:.4g} {}; beta alone "
+                    "leaves it",
+                    model_.alpha, model_.units.time, 1.0 / model_.alpha, model_.units.time));
+  }
+
+  void friction() {
+    std::vector<std::size_t> high;
+    double greatest = 0.0;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const double f = std::max(model_.contacts[k].static_friction, model_.contacts[k].kinetic_friction);
+      if (f > greatest_friction) high.push_back(k);
+      greatest = std::max(greatest, f);
+    }
+    if (high.empty()) return;
+    found_.push_back(
+        fmt::format("friction {:.6g} at {}: a ratio of forces is rarely above 2; was an angle "
+                    "or a percentage meant?",
+                    greatest, names(model_, high)));
+  }
+
+  void shear() {
+    if (!model_.static_start) return;
+    std::vector<std::size_t> loose;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+      if (model_.contacts[k].initial_shear != 0.0) loose.push_back(k);
+    if (loose.empty()) return;
+    found_.push_back(
+        fmt::format("initial_shear at {} does not fit the displacements: a static start has no "
+                    "friction, so that nothing carries it and it is gone with the first "
+                    "oscillation; give displacements that hold it",
+                    names(model_, loose)));
+  }
+
+  const Scene& scene_;
+  const DofMap& map_;
+  const Model& model_;
+  Vector weight_;
+  std::vector<std::size_t> falling_;  // contacts
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model) {
+  return Doubts(scene, map, model).all();
+}
+
+}  // namespace signorini

@@ -1,0 +1,17 @@
+// load_table.hpp: what acts on a structure over time, as a table for pictures (docs/output.md).
+//
+//   loads.csv  t,NAME,...    f_i(t) of every load that is not constant, amplitude included, and the
+//   acceleration
+//                            of the base; both sides of breakpoints
+#pragma once
+
+#include <string>
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// From 0 to t_end; empty where nothing varies.
+[[nodiscard]] std::string load_table(const Model& model, double t_end);
+
+}  // namespace signorini

@@ -1,0 +1,72 @@
+#include "run/motion_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t most_in_all = 200000, most_of_one = 8000, fewest_of_one = 400;
+constexpr double pieces_of_step = 8.0;   // a step is some three radians of the fastest motion
+constexpr double pieces_of_run = 600.0;  // about a pixel or two
+constexpr double most_pieces = 1000.0;
+
+}  // namespace
+
+MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder) : t_end_(t_end) {
+  if (!recorder.wants_motion() || model.contacts.empty()) return;
+  tracks_.resize(model.contacts.size());
+  most_rows_ = std::clamp(most_in_all / tracks_.size(), fewest_of_one, most_of_one);
+}
+
+std::vector<double> MotionRecord::times(double begin, double end, std::vector<double> turning_points) const {
+  if (tracks_.empty()) return {};
+  const double length = end - begin;
+  const double spacing = std::min(std::max(length / pieces_of_step, width_), t_end_ / pieces_of_run);
+  const int pieces = spacing > 0.0 ? static_cast<int>(std::min(length / spacing, most_pieces)) : 1;
+  for (int i = 1; i < pieces; ++i) turning_points.push_back(begin + length * i / pieces);
+  std::sort(turning_points.begin(), turning_points.end());
+  return turning_points;
+}
+
+void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
+                       const Point& point) {
+  if (tracks_.empty()) return;
+  for (std::size_t k = 0; k < tracks_.size(); ++k)
+    tracks_[k].push_back({t, auditor.sample(k, forcing, t, mode[k], point)});
+  while (tracks_[0].size() > most_rows_) {
+    width_ = std::max(2.0 * width_, t_end_ / static_cast<double>(most_rows_));
+    for (std::vector<MotionRow>& rows : tracks_) thin(rows);
+  }
+}
+
+void MotionRecord::thin(std::vector<MotionRow>& rows) const {
+  std::vector<MotionRow> kept;
+  for (std::size_t begin = 0; begin < rows.size();) {
+    const double bin = std::floor(rows[begin].t / width_);
+    std::size_t end = begin;
+    while (end < rows.size() && std::floor(rows[end].t / width_) == bin) ++end;
+    std::vector<std::size_t> chosen{begin, end - 1};
+    for (double ContactSample::*what :
+         {&ContactSample::N, &ContactSample::T, &ContactSample::gap, &ContactSample::ut}) {
+      std::size_t least = begin, greatest = begin;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (rows[i].sample.*what < rows[least].sample.*what) least = i;
+        if (rows[i].sample.*what > rows[greatest].sample.*what) greatest = i;
+      }
+      chosen.push_back(least);
+      chosen.push_back(greatest);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    for (const std::size_t i : chosen) kept.push_back(rows[i]);
+    begin = end;
+  }
+  rows = std::move(kept);
+}
+
+void MotionRecord::write(Recorder& recorder) const {
+  for (std::size_t k = 0; k < tracks_.size(); ++k) recorder.motion(static_cast<int>(k), tracks_[k]);
+}
+
+}  // namespace signorini

@@ -1,0 +1,37 @@
+// motion_record.hpp: the motion of the contacts for pictures, bounded, whatever output_dt is.
+//
+//   rows: both sides of every instant, turning points, ends of steps, and inside of steps as many as a line
+//   needs. Of each bin of width w they are thinned to the first, the last, and those with the least and the
+//   greatest N, T, gap and ut;   w = 0 at first, then doubled as often as there would be too many
+//
+// So a short run is drawn in full, and of a long one what a picture can show of it, every peak included.
+#pragma once
+
+#include <vector>
+
+#include "run/audit.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+class MotionRecord {
+ public:
+  /// Both must outlive the record. Nothing is kept where the recorder does not want it.
+  MotionRecord(const Model& model, double t_end, const Recorder& recorder);
+
+  /// Inside of a step: the turning points, and as many more as a line needs; ascending.
+  [[nodiscard]] std::vector<double> times(double begin, double end, std::vector<double> turning_points) const;
+  /// A row of every contact; times ascend, and may repeat.
+  void add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
+  /// Hands over all rows, contact by contact.
+  void write(Recorder& recorder) const;
+
+ private:
+  void thin(std::vector<MotionRow>& rows) const;
+
+  double t_end_, width_ = 0.0;  // of a bin
+  std::size_t most_rows_ = 0;   // of a contact
+  std::vector<std::vector<MotionRow>> tracks_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,71 @@
+// Motions and times at the ends of the range of numbers: every engine ends, and says why.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "engines.hpp"
+#include "signorini/simulate.hpp"
+#include "study/check/check.hpp"
+
+using namespace signorini;
+
+namespace {
+
+const std::string folder = SIGNORINI_TEST_DATA "/scenes/robust/";
+
+Result run(const std::string& name, const std::string& engine, const std::string& dt) {
+  const Scene scene = read_scene(folder + name + ".toml", {{"run.engine", engine}, {"run.dt", dt}});
+  return simulate(build_model(scene), scene.run);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/range");
+
+TEST_CASE("a motion that grows beyond the range of numbers ends the run where it does") {
+  for (const std::string& engine : tests::all_engines) {
+    CAPTURE(engine);
+    const Outcome outcome = run("growth", engine, "1e-2").report.outcome;
+    CHECK(outcome.kind == Outcome::Kind::stopped);
+    // 0.01 cosh(10 t) is the greatest double at t = 71.5.
+    CHECK(outcome.t > 70.5);
+    CHECK(outcome.t < 71.6);
+  }
+}
+
+TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
+  for (const std::string& engine : tests::all_engines) {
+    CAPTURE(engine);
+    CHECK(run("hang-slider", engine, "1e-2").report.outcome.kind == Outcome::Kind::done);
+  }
+}
+
+TEST_CASE("times below what engines can divide by: nothing moves in them") {
+  for (const std::string& engine : tests::all_engines) {
+    CAPTURE(engine);
+    const Result shortest = run("tiny-times", engine, "1e-157");
+    CHECK(shortest.report.outcome.kind == Outcome::Kind::done);
+    CHECK(shortest.report.outcome.t == 1e-155);
+    CHECK(shortest.events.empty());
+    CHECK(shortest.rows.back().u[0] == 0.0);
+    // The load that begins at the least positive number acts from then on.
+    const Result rocking = run("denormal-start", engine, "1e-4");
+    CHECK(rocking.report.outcome.kind == Outcome::Kind::done);
+    const Scene plain =
+        read_scene(folder + "denormal-start.toml",
+                   {{"run.engine", engine}, {"run.dt", "1e-4"}, {"loads.1.history.start", "0.0"}});
+    CHECK(rocking.rows.back().u[0] ==
+          doctest::Approx(simulate(build_model(plain), plain.run).rows.back().u[0]));
+  }
+}
+
+TEST_CASE("check ends on all of them") {
+  for (const char* name : {"growth", "hang-slider", "tiny-times", "denormal-start"}) {
+    CAPTURE(name);
+    const Scene scene = read_scene(folder + name + ".toml");
+    CHECK(check(scene, build_model(scene)).contacts.size() == scene.contacts.size());
+  }
+}
+
+TEST_SUITE_END();

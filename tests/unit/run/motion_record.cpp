@@ -1,0 +1,88 @@
+#include "run/motion_record.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// Keeps the rows for pictures.
+class Keeper : public Result {
+ public:
+  [[nodiscard]] bool wants_motion() const override { return true; }
+  void motion(int contact, const std::vector<MotionRow>& rows) override {
+    CHECK(contact == static_cast<int>(tracks.size()));
+    tracks.push_back(rows);
+  }
+  std::vector<std::vector<MotionRow>> tracks;
+};
+
+Keeper kept(const std::string& file, std::vector<Override> changes) {
+  const Scene scene = read_scene(file, changes);
+  const Model model = build_model(scene);
+  Keeper keeper;
+  keeper.report = simulate(model, scene.run, keeper);
+  return keeper;
+}
+
+const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/run/motion_record");
+
+TEST_CASE("no peak is lost, however coarse the output times") {
+  for (const char* engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    const Keeper run =
+        kept(pipeline,
+             {{"run.engine", engine}, {"run.rtol", "1e-6"}, {"run.t_end", "0.2"}, {"run.output_dt", "0.2"}});
+    REQUIRE(run.tracks.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      double N = 0.0, T = 0.0;
+      for (const MotionRow& row : run.tracks[k]) {
+        N = std::max(N, std::abs(row.sample.N));
+        T = std::max(T, std::abs(row.sample.T));
+      }
+      CHECK(N == doctest::Approx(run.report.peaks[k].N).epsilon(1e-3));
+      CHECK(T == doctest::Approx(run.report.peaks[k].T).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("both sides of every event are there, in the order of time") {
+  const Keeper run = kept(pipeline, {{"run.engine", "exact"}, {"run.t_end", "0.02"}});
+  for (const Event& event : run.events) {
+    if (event.contact < 0) continue;
+    const auto& rows = run.tracks[static_cast<std::size_t>(event.contact)];
+    const auto at =
+        std::count_if(rows.begin(), rows.end(), [&](const MotionRow& r) { return r.t == event.t; });
+    CHECK(at >= 2);
+  }
+  for (const auto& rows : run.tracks)
+    CHECK(std::is_sorted(rows.begin(), rows.end(),
+                         [](const MotionRow& a, const MotionRow& b) { return a.t < b.t; }));
+}
+
+TEST_CASE("the record does not depend on the output times, and is bounded") {
+  const Keeper coarse = kept(SIGNORINI_MODELS "/belt.toml", {{"run.output_dt", "5.0"}});
+  const Keeper fine = kept(SIGNORINI_MODELS "/belt.toml", {{"run.output_dt", "0.01"}});
+  REQUIRE(coarse.tracks[0].size() == fine.tracks[0].size());
+  for (std::size_t i = 0; i < coarse.tracks[0].size(); ++i) {
+    CHECK(coarse.tracks[0][i].t == fine.tracks[0][i].t);
+    CHECK(coarse.tracks[0][i].sample.T == fine.tracks[0][i].sample.T);
+  }
+  const Keeper longer =
+      kept(SIGNORINI_MODELS "/belt.toml", {{"run.t_end", "5000.0"}, {"run.output_dt", "5000.0"}});
+  CHECK(longer.tracks[0].size() <= 8000);
+  CHECK(longer.tracks[0].size() > 1000);
+  CHECK(longer.tracks[0].front().t == 0.0);
+  CHECK(longer.tracks[0].back().t == 5000.0);
+}
+
+TEST_SUITE_END();

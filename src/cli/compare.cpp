@@ -25,11 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct CompareOptions {
+struct CompareOptions : OutputOptions {
   std::vector<std::string> sources, engines, settings, limits;
   std::optional<std::string> directory;
   double instant = 0.0;
-  bool force = false, quiet = false, json = false, no_plots = false;
 };
 
 Scene scene_for(const CompareOptions& options, const std::string& engine) {
@@ -203,13 +202,13 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
       report.exceeded.push_back(name + ": refused the scene, so no limit is kept");
   write_comparison(path, report);
   if (options.json) print(comparison_json(report));
-  if (!options.quiet && !options.json) {
+  if (options.tables()) {
     print(compare_text(report));
     print("\nresults: " + path.string() +
           "/ (compare.json, runs.csv, differences.csv, columns.csv, events.csv)\n");
   }
   const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_comparison_plots(path, report));
-  if (!options.quiet && !options.json) print(drawn);
+  if (options.tables()) print(drawn);
   for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
   if (!report.exceeded.empty()) return ExitCode::limit;
   if (!outcomes.stopped) return ExitCode::done;
@@ -245,10 +244,7 @@ void add_compare(Program& program) {
       ->add_option("--instant", options->instant,
                    "events of different contacts that lie no further apart have no order")
       ->option_text("T");
-  command->add_flag("--force", options->force, "replace an earlier comparison in the directory");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print compare.json instead of tables");
-  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  add_output_options(*command, *options, "replace an earlier comparison in the directory", "compare.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return compare(*options, line); };
   });

@@ -22,11 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct RunOptions {
+struct RunOptions : OutputOptions {
   std::string scene, engine;
   std::optional<std::string> directory, trace;
   std::vector<std::string> settings;
-  bool force = false, quiet = false, json = false, no_plots = false;
 };
 
 fs::path directory_of(const RunOptions& options) {
@@ -62,7 +61,6 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   if (trace) listener = [&](const Round& round) { trace->write(round); };
   RunDirectory directory(path, scene, model, {options.force, command_line});
 
-  const bool tables = !options.quiet && !options.json;
   Report report;
   std::string events;
   {
@@ -77,13 +75,13 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
                               "is kept in {}",
                               error.what(), live.reached(), model.units.time, path.string()));
     }
-    if (tables) events = event_table(live, model);
+    if (options.tables()) events = event_table(live, model);
   }
   const std::string summary = directory.finish(report);
   for (const std::string& warning : report.warnings) print_warning(warning);
 
   if (options.json) print(summary);
-  if (tables) {
+  if (options.tables()) {
     if (!scene.title.empty()) print(scene.title + "\n\n");
     print(events + "\n");
     const std::string contacts = contact_table(model, report);
@@ -96,7 +94,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =
       pictures ? draw_pictures(path, write_plots(path), " (signorini plot draws them later)") : "";
-  if (tables) print(drawn);
+  if (options.tables()) print(drawn);
   return conclude(report.outcome, scene.units, path);
 }
 
@@ -115,11 +113,8 @@ void add_run(Program& program) {
   add_settings(*command, options->settings);
   command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
       ->option_text("FILE");
-  command->add_flag("--force", options->force,
-                    "replace an earlier run in the directory, unless the scene lies in it");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print summary.json instead of tables");
-  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  add_output_options(*command, *options,
+                     "replace an earlier run in the directory, unless the scene lies in it", "summary.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return run(*options, line); };
   });

@@ -25,6 +25,14 @@ std::optional<std::string> engine_of(const Override& change, const std::vector<s
 
 }  // namespace
 
+void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,
+                        const std::string& json) {
+  command.add_flag("--force", options.force, force);
+  command.add_flag("--quiet", options.quiet, "print errors only");
+  command.add_flag("--json", options.json, "print " + json + " instead of tables");
+  command.add_flag("--no-plots", options.no_plots, "no pictures, nor scripts for them");
+}
+
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {
   command
       .add_option("--set", settings,

@@ -1,4 +1,4 @@
-// settings.hpp: the option --set, which several subcommands share.
+// settings.hpp: the options that several subcommands share: --set, and what becomes of results.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -9,6 +9,16 @@
 #include "study/sweep/vary.hpp"
 
 namespace signorini::cli {
+
+/// What becomes of results.
+struct OutputOptions {
+  bool force = false, quiet = false, json = false, no_plots = false;
+  [[nodiscard]] bool tables() const { return !quiet && !json; }
+};
+
+/// Adds --force, --quiet, --json and --no-plots to a subcommand; `options` must outlive parsing.
+void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,
+                        const std::string& json);
 
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);

@@ -38,7 +38,7 @@ std::string engines_with(Accuracy accuracy) {
   return names;
 }
 
-struct StudyOptions {
+struct StudyOptions : OutputOptions {
   std::string scene;
   std::vector<std::string> engines = names_of_engines();
   std::string rtol = "1e-4:1e-12";
@@ -46,7 +46,6 @@ struct StudyOptions {
   std::vector<std::string> varied, settings;
   long repeats = 3;
   double time_limit = 60.0;
-  bool force = false, quiet = false, json = false, no_plots = false;
 };
 
 const OwnedFolder& own_folder() {
@@ -222,16 +221,15 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   const bool pictures = !options.no_plots && !report.interrupted;
   const std::string drawn = pictures ? draw_pictures(path, write_work_plots(path, report)) : "";
   if (!drawn.empty()) write_work(path, report);  // now with the picture
-  const bool tables = !options.quiet && !options.json;
   if (options.json) print(work_json(report));
-  if (tables)
+  if (options.tables())
     print(study_text(report) + "\nresults: " + path.string() +
           "/ (study.csv, study.json, study.md, runs/)\n");
   if (report.interrupted) {
     print_error("interrupted; what was measured is kept in " + path.string());
     return ExitCode::interrupted;
   }
-  if (tables) print(drawn);
+  if (options.tables()) print(drawn);
   return ExitCode::done;
 }
 
@@ -269,10 +267,7 @@ void add_study(Program& program) {
       ->option_text("N");
   command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
       ->option_text("S");
-  command->add_flag("--force", options->force, "replace an earlier study in the directory");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print study.json instead of tables");
-  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  add_output_options(*command, *options, "replace an earlier study in the directory", "study.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return study(*options, line); };
   });

@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SweepOptions {
+struct SweepOptions : OutputOptions {
   std::string scene;
   std::vector<std::string> varied, settings, merge;
   std::optional<std::string> directory;
   std::optional<std::string> share;
   std::optional<long> jobs;
-  bool keep = false, force = false, quiet = false, json = false, no_plots = false;
+  bool keep = false;
 };
 
 std::optional<std::string> environment(const char* name) {
@@ -166,8 +166,7 @@ bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std:
 void conclude(const SweepOptions& options, const SweepDirectory& directory) {
   directory.write_results();
   if (options.json) print(sweep_json(directory.spec(), directory.rows()));
-  const bool tables = !options.quiet && !options.json;
-  if (tables) {
+  if (options.tables()) {
     if (!directory.spec().title.empty()) print(directory.spec().title + "\n\n");
     print(sweep_text(directory.spec(), directory.rows()));
     print("\nresults: " + directory.path().string() + "/ (sweep.csv, results.json" +
@@ -177,7 +176,7 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
       options.no_plots ? ""
                        : draw_pictures(directory.path(), write_sweep_plots(directory.path(), directory.spec(),
                                                                            directory.rows()));
-  if (tables) print(drawn);
+  if (options.tables()) print(drawn);
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
   if (failed > 0 && !options.quiet)
@@ -273,10 +272,7 @@ void add_sweep(Program& program) {
   command->add_option("--merge", options->merge, "join the shares in these directories into the one of -o")
       ->option_text("DIR...");
   command->add_flag("--keep", options->keep, "keep the directory of every run, in DIR/runs");
-  command->add_flag("--force", options->force, "begin anew where there is an earlier sweep");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print results.json instead of a table");
-  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  add_output_options(*command, *options, "begin anew where there is an earlier sweep", "results.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return sweep_or_merge(*options, line); };
   });

@@ -277,8 +277,7 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
     facts.title = json.at("title");
     facts.outcome = json.at("outcome").at("kind");
     facts.t_end = json.at("outcome").at("t_end");
-    const Json& units = json.at("units");
-    facts.units = {units.at("force"), units.at("mass"), units.at("length"), units.at("time")};
+    facts.units = units_from(json.at("units"));
     std::set<std::string> names;
     for (const Json& contact : json.at("contacts")) {
       facts.contacts.push_back({contact.at("name"), contact.at("law") == "slider",

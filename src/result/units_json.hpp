@@ -9,5 +9,7 @@ namespace signorini {
 
 /// force, mass, length, time
 [[nodiscard]] nlohmann::ordered_json units_json(const Units& units);
+/// The same, read back. Errors: nlohmann::json::exception.
+[[nodiscard]] Units units_from(const nlohmann::ordered_json& json);
 
 }  // namespace signorini

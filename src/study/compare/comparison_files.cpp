@@ -6,23 +6,13 @@
 
 #include "result/csv.hpp"
 #include "result/units_json.hpp"
+#include "study/figures.hpp"
 
 namespace signorini {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class Value>
-std::optional<double> as_double(const std::optional<Value>& value) {
-  if (!value) return std::nullopt;
-  return static_cast<double>(*value);
-}
-
-template <class Value>
-Json optional_json(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
-}
 
 std::string runs_csv(const ComparisonReport& report) {
   CsvBlock block;
@@ -36,8 +26,8 @@ std::string runs_csv(const ComparisonReport& report) {
     const RunFigures& run = compared.figures;
     block.text(run.name).text(run.engine).text(run.directory.string()).text(run.facts.outcome);
     block.number(run.t).text(run.reason).number(static_cast<double>(changes_in(run.events_by_type)));
-    block.number(run.wall_time).number(as_double(run.steps)).number(as_double(run.factorisations));
-    block.number(as_double(run.solves)).number(as_double(run.restarts));
+    block.number(run.wall_time).number(number_of(run.steps)).number(number_of(run.factorisations));
+    block.number(number_of(run.solves)).number(number_of(run.restarts));
     block.number(run.friction).number(run.damping);
     for (const auto& [name, value] : audit) {
       const auto found = run.audit.find(name);
@@ -125,13 +115,13 @@ Json run_json(const RunFigures& run) {
           {"t", run.t},
           {"reason", run.reason},
           {"events", {{"total", changes_in(run.events_by_type)}, {"by_type", run.events_by_type}}},
-          {"wall_time", optional_json(run.wall_time)},
-          {"steps", optional_json(run.steps)},
-          {"factorisations", optional_json(run.factorisations)},
-          {"solves", optional_json(run.solves)},
-          {"restarts", optional_json(run.restarts)},
-          {"friction", optional_json(run.friction)},
-          {"damping", optional_json(run.damping)},
+          {"wall_time", json_of(run.wall_time)},
+          {"steps", json_of(run.steps)},
+          {"factorisations", json_of(run.factorisations)},
+          {"solves", json_of(run.solves)},
+          {"restarts", json_of(run.restarts)},
+          {"friction", json_of(run.friction)},
+          {"damping", json_of(run.damping)},
           {"friction_work", run.friction_work},
           {"audit", run.audit}};
 }

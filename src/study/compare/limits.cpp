@@ -12,25 +12,32 @@ namespace signorini {
 
 namespace {
 
-const std::vector<std::string>& limit_names() {
-  static const std::vector<std::string> names = {"event_time",       "displacement", "rotation",
-                                                 "velocity",         "force",        "force_away",
-                                                 "angular_velocity", "energy",       "sequence"};
+constexpr const char* sequence = "sequence";
+
+std::vector<std::string> limit_names() {
+  std::vector<std::string> names = quantity_names();
+  names.emplace_back(sequence);
   return names;
 }
 
 }  // namespace
 
+std::vector<std::string> quantity_names() {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : quantities({}, {})) names.push_back(quantity.name);
+  return names;
+}
+
 std::vector<Limit> parse_limits(const std::vector<std::string>& texts) {
+  const std::vector<std::string> names = limit_names();
   std::vector<Limit> limits;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
       throw UsageError("--limit " + text + ": expected NAME=NUMBER, such as event_time=1e-4");
     const std::string name = text.substr(0, equals);
-    if (std::find(limit_names().begin(), limit_names().end(), name) == limit_names().end())
-      throw UsageError(
-          fmt::format("--limit {}: no quantity \"{}\"{}", text, name, suggestion(name, limit_names())));
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError(fmt::format("--limit {}: no quantity \"{}\"{}", text, name, suggestion(name, names)));
     const std::optional<double> value = parse_number(text.substr(equals + 1));
     if (!value || !(*value >= 0.0))
       throw UsageError(
@@ -65,13 +72,13 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
   }
   const auto& split = comparison.alignment.split;
   const bool sequence_limited =
-      std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == "sequence"; });
+      std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == sequence; });
   for (const Limit& limit : limits) {
     if (limit.name == "event_time" && split && !sequence_limited)
       list.push_back(
           fmt::format("{}: {} from t = {:.9g} on have no partner whose time could keep event_time {}",
                       other.name, count_of(split->unaligned, "event"), split->t, shortest(limit.value)));
-    if (limit.name == "sequence") {
+    if (limit.name == sequence) {
       const std::size_t unaligned = split ? split->unaligned : 0;
       if (static_cast<double>(unaligned) <= limit.value) continue;
       list.push_back(fmt::format("{}: sequence parts at t = {:.9g}, {} from there on exceed {}", other.name,

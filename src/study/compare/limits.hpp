@@ -26,6 +26,9 @@ struct Quantity {
 };
 [[nodiscard]] std::vector<Quantity> quantities(const Comparison& comparison, const Units& units);
 
+/// Their names, in the same order.
+[[nodiscard]] std::vector<std::string> quantity_names();
+
 /// One sentence for each limit that is exceeded: "exact: displacement 3e-6 m at t = 0.1 (A.ux) exceeds ...".
 /// A run that ended early, or has nothing to compare, keeps no limit. Events without a partner break
 /// event_time, unless `sequence` has a limit of its own.

@@ -10,6 +10,8 @@
 #include "base/version.hpp"
 #include "result/csv.hpp"
 #include "result/units_json.hpp"
+#include "study/compare/limits.hpp"
+#include "study/figures.hpp"
 #include "study/speed/frontier.hpp"
 
 namespace signorini {
@@ -20,9 +22,6 @@ using Json = nlohmann::ordered_json;
 
 /// The quantities of tables for people; files have all.
 constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
-/// All, in the order of limits.hpp.
-constexpr const char* all[] = {"event_time",       "displacement", "rotation",   "velocity",
-                               "angular_velocity", "force",        "force_away", "energy"};
 
 std::string unit_of(const WorkReport& report, const std::string& quantity) {
   for (const WorkRow& row : report.rows)
@@ -58,23 +57,12 @@ ErrorRange range_of(const WorkReport& report, const std::string& quantity) {
   return found == report.range.end() ? ErrorRange() : found->second;
 }
 
-template <class Value>
-std::optional<double> as_number(const std::optional<Value>& value) {
-  if (!value) return std::nullopt;
-  return static_cast<double>(*value);
-}
-
-template <class Value>
-Json as_json(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json();
-}
-
 std::string study_csv(const WorkReport& report) {
   CsvBlock block;
   for (const char* name : {"run", "engine", "setting", "line", "reference", "outcome", "reason", "t",
                            "events", "events_of_reference", "alike", "complete", "t_split", "split"})
     block.text(name);
-  for (const char* name : all) block.text(name);
+  for (const std::string& name : quantity_names()) block.text(name);
   for (const char* name : {"displacement_whole_run", "wall_time", "wall_time_max", "repeats", "steps",
                            "factorisations", "solves", "restarts", "energy_balance"})
     block.text(name);
@@ -83,10 +71,10 @@ std::string study_csv(const WorkReport& report) {
     const bool ran = row.t.has_value();
     block.text(row.point.name()).text(row.point.engine).text(row.point.setting()).text(row.point.line());
     block.text(row.reference ? "true" : "false").text(row.outcome).text(row.reason).number(row.t);
-    block.number(as_number(row.events)).number(as_number(row.events_of_reference));
+    block.number(number_of(row.events)).number(number_of(row.events_of_reference));
     block.number(ran ? std::optional(static_cast<double>(row.alike)) : std::nullopt);
     block.text(row.complete() ? "true" : "false").number(row.t_split).text(row.split);
-    for (const char* name : all) {
+    for (const std::string& name : quantity_names()) {
       const WorkError* error = row.error(name);
       block.number(error ? std::optional(error->value) : std::nullopt);
     }
@@ -98,7 +86,7 @@ std::string study_csv(const WorkReport& report) {
                      : std::optional(*std::max_element(row.wall_times.begin(), row.wall_times.end())));
     block.number(static_cast<double>(row.wall_times.size()));
     for (const auto& count : {row.steps, row.factorisations, row.solves, row.restarts})
-      block.number(as_number(count));
+      block.number(number_of(count));
     block.number(row.balance).end_row();
   }
   return block.str();
@@ -118,19 +106,19 @@ Json row_json(const WorkRow& row) {
                {"directory", row.directory.string()},
                {"outcome", row.outcome},
                {"reason", row.reason},
-               {"t", as_json(row.t)},
+               {"t", json_of(row.t)},
                {"reference", row.reference},
-               {"events", as_json(row.events)},
+               {"events", json_of(row.events)},
                {"alike", row.alike},
                {"complete", row.complete()}};
   json["split"] = row.t_split ? Json{{"t", *row.t_split}, {"how", row.split}} : Json();
   json["errors"] = std::move(errors);
   json["wall_times"] = row.wall_times;
-  json["steps"] = as_json(row.steps);
-  json["factorisations"] = as_json(row.factorisations);
-  json["solves"] = as_json(row.solves);
-  json["restarts"] = as_json(row.restarts);
-  json["energy_balance"] = as_json(row.balance);
+  json["steps"] = json_of(row.steps);
+  json["factorisations"] = json_of(row.factorisations);
+  json["solves"] = json_of(row.solves);
+  json["restarts"] = json_of(row.restarts);
+  json["energy_balance"] = json_of(row.balance);
   return json;
 }
 

@@ -202,8 +202,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
     spec.scene = json.at("scene");
     spec.fingerprint = json.at("fingerprint");
     spec.title = json.at("title");
-    const Json& units = json.at("units");
-    spec.units = {units.at("force"), units.at("mass"), units.at("length"), units.at("time")};
+    spec.units = units_from(json.at("units"));
     spec.settings = json.at("settings").get<std::vector<std::string>>();
     for (const Json& vary : json.at("vary"))
       spec.vary.push_back(

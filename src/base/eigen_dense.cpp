@@ -56,6 +56,10 @@ EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return pairs;
 }
 
+Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+}
+
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
   return qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());

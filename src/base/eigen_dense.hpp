@@ -2,7 +2,7 @@
 //
 //   A x = mu x,    A x = mu B x,    A = Q R
 //
-// All matrices square and symmetric unless said otherwise; eigenvalues ascend.
+// All matrices square and symmetric unless said otherwise; their eigenvalues ascend.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +22,9 @@ struct EigenPairs {
 
 /// The same with eigenvectors, x^T B x = 1; both empty when B is not positive definite.
 [[nodiscard]] EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// Eigenvalues of a square matrix that need not be symmetric, in no order.
+[[nodiscard]] Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a);
 
 /// Orthonormal columns that span those of a (n x m, m <= n, full rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a);

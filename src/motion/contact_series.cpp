@@ -20,15 +20,15 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
     const auto e = static_cast<Eigen::Index>(k);
     const double rate = static_cast<double>(k + 1) / series.scale;
     const double second = rate * static_cast<double>(k + 2) / series.scale;
-    row(N)[k] = series.forces(static_cast<Eigen::Index>(normal_slot(index)), e);
-    row(T)[k] = series.forces(static_cast<Eigen::Index>(tangent_slot(index)), e);
-    row(gap)[k] = normal_[k];
-    row(ut)[k] = tangent_[k];
-    row(vn)[k] = rate * normal_[k + 1];
-    row(vt)[k] = rate * tangent_[k + 1];
-    row(an)[k] = second * normal_[k + 2];
-    row(pressing_rate)[k] = rate * pressing[k + 1];
-    row(slide)[k] =
+    place(N)[k] = series.forces(static_cast<Eigen::Index>(normal_slot(index)), e);
+    place(T)[k] = series.forces(static_cast<Eigen::Index>(tangent_slot(index)), e);
+    place(gap)[k] = normal_[k];
+    place(ut)[k] = tangent_[k];
+    place(vn)[k] = rate * normal_[k + 1];
+    place(vt)[k] = rate * tangent_[k + 1];
+    place(an)[k] = second * normal_[k + 2];
+    place(pressing_rate)[k] = rate * pressing[k + 1];
+    place(slide)[k] =
         contact.shear ? contact.shear->body.dot(series.u.col(e).data()) - surface[k] : tangent_[k];
   }
 }

@@ -22,6 +22,12 @@ class ContactSeries {
   enum Field : std::size_t { N, T, gap, ut, vn, vt, an, pressing_rate, slide, fields };
 
   void fill(const Contact& contact, std::size_t index, const Series& series, std::size_t degree);
+  /// Room for polynomials that are known otherwise; all are zero.
+  void reset(std::size_t degree) {
+    degree_ = degree;
+    values_.assign(fields * (degree + 1), 0.0);
+  }
+  [[nodiscard]] double* place(Field field) { return values_.data() + field * (degree_ + 1); }
   [[nodiscard]] std::size_t degree() const { return degree_; }
   [[nodiscard]] const double* of(Field field) const { return values_.data() + field * (degree_ + 1); }
   /// out[0 .. degree]: coefficients of the form.
@@ -36,7 +42,6 @@ class ContactSeries {
   }
 
  private:
-  [[nodiscard]] double* row(Field field) { return values_.data() + field * (degree_ + 1); }
   std::size_t degree_ = 0;
   std::vector<double> values_;
   std::vector<double> normal_, tangent_;

@@ -5,11 +5,12 @@
 #include <algorithm>
 
 #include "contact/friction.hpp"
-#include "engine/exact/exact_engine.hpp"
+#include "engine/exact/modal/modal_engine.hpp"
 #include "engine/ida/ida_engine.hpp"
 #include "engine/ida/order.hpp"
 #include "engine/newmark/friction_iteration.hpp"
 #include "engine/newmark/newmark_engine.hpp"
+#include "run/choose_flow.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -58,9 +59,11 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
   }
 }
 
-Method series(const Model& /*model*/, const RunSpec& run) {
+Method closed_flow(const Model& model, const RunSpec& run) {
+  const std::string why = objection_to_modes(model);
   return {run.engine, "", 0.0, most_levels,
-          "Taylor series as long as rounding needs; rtol has no part in it"};
+          why.empty() ? "flow in modes; where they cannot follow, Taylor series as long as rounding needs"
+                      : "Taylor series as long as rounding needs; rtol has no part in it"};
 }
 
 Method bdf(const Model& model, const RunSpec& run) {
@@ -76,6 +79,8 @@ Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
 }
 
 std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
+  if (objection_to_modes(p.model).empty())
+    return std::make_unique<ModalEngine>(p.model, p.structure, p.systems, p.run.t_end);
   return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end);
 }
 
@@ -92,7 +97,7 @@ std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
 }
 
 constexpr std::array rows_of_engines = {
-    EngineRow{Engine::exact, refuse_long_polynomials_too, series, make_exact, effort_of_series},
+    EngineRow{Engine::exact, refuse_long_polynomials_too, closed_flow, make_exact, effort_of_series},
     EngineRow{Engine::ida, refuse_nothing, bdf, make_ida, effort_of_bdf},
     EngineRow{Engine::newmark, refuse_laws_that_are_not_linear, fixed_steps, make_newmark,
               effort_of_fixed_steps},

@@ -3,6 +3,7 @@
 //   f'(x) = 0 for f = N, T, g and the body's ut, where f exceeds all that it was before
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "decide/decision.hpp"
@@ -16,18 +17,34 @@ class TurningPoints {
 
   /// After an instant, where the values may have jumped.
   void start(const Decision& decision);
+  /// observed: somebody looks at the values at the ends of a step.
+  enum class Ends : unsigned char { observed, searched };
   /// On [0, x_end] of a series.
-  void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end);
+  void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end,
+            Ends ends = Ends::observed);
+  struct Range {
+    double least = 0.0, greatest = 0.0;
+  };
+  /// So far, of a field that is watched.
+  [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {
+    const auto place = std::find(watched.begin(), watched.end(), field) - watched.begin();
+    return ranges_[watched.size() * contact + static_cast<std::size_t>(place)];
+  }
+  static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
+                                                               ContactSeries::gap, ContactSeries::slide};
+  /// Turns of the last step: of which quantity of which contact, upwards or downwards, and when. Those of one
+  /// kind exceed each other, so the last one counts.
+  struct Turn {
+    std::size_t kind = 0;
+    double time = 0.0;
+  };
+  [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
   /// Ascending, of the last step.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
-  static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
-                                                               ContactSeries::gap, ContactSeries::slide};
-  struct Range {
-    double least = 0.0, greatest = 0.0;
-  };
   std::vector<Range> ranges_;  // so far
+  std::vector<Turn> turns_;
   std::vector<double> times_;
   bool began_ = false;
 };

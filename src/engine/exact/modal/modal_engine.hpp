@@ -1,0 +1,73 @@
+// modal_engine.hpp: engine `exact` whose flow follows the motion, not the mesh.
+//
+//   start: q = Phi^T M u, z = Y q      advance: proof of a stretch, z in closed form      event: q = X z, u =
+//   Phi q
+//
+// What the modes cannot do, a state whose modes are not good enough or forces that change, is followed by the
+// Taylor series of ExactEngine for as long as it lasts, counted as a fallback and said once.
+#pragma once
+
+#include "engine/exact/exact_engine.hpp"
+#include "engine/exact/modal/modal_works.hpp"
+
+namespace signorini {
+
+class ModalEngine final : public Stepper {
+ public:
+  /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
+  ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
+
+  void start(const Segment& segment) override;
+  [[nodiscard]] Step advance() override;
+  void evaluate(double t, Point& point) override;
+  void integrate(double from, double to, Works& works) override;
+  [[nodiscard]] double residual() override;
+  [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
+                                   std::size_t contact) const override {
+    return modal_ ? 0.0 : taylor_.guard_error(form, motion, contact);
+  }
+  [[nodiscard]] const std::vector<double>& turning_points() const override {
+    return modal_ ? turns_ : taylor_.turning_points();
+  }
+  void count() override;
+
+ private:
+  struct Part {
+    double begin = 0.0, length = 0.0;
+    ModalPoint at;
+  };
+  [[nodiscard]] std::string obstacle(const Segment& segment);
+  void set_forces(const Segment& segment);
+  [[nodiscard]] ModalPoint at(double t) const;
+  void fill(const ModalPoint& z, Point& point);
+  void find_turns(const ModalPoint& from, double begin, double length);
+  void see_touches(const Passage& passage, double begin);
+
+  const Model& model_;
+  const Structure& structure_;
+  const double t_end_;
+  ModalSystem system_;
+  ExactEngine taylor_;
+  ModalProof proof_;
+  ModalWorks works_;
+  TurningPoints turning_;
+  bool modal_ = false;
+  long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
+  Segment segment_;
+  const StateModes* state_ = nullptr;
+  Oscillators oscillators_;
+  Amplitudes forces_;
+  std::vector<Part> parts_;  // of the last step
+  ModalPoint now_;           // at its end
+  double t_ = 0.0;
+  Vector q_, rate_;  // at the end of the last step, and the motion that they stand for
+  Point end_;
+  double worked_to_ = 0.0;  // the time up to which works were taken, and the motion there
+  ModalPoint worked_;
+  bool has_worked_ = false;
+  std::map<std::size_t, double> last_turns_;  // of the last step, by kind
+  std::vector<double> turns_;
+  int touches_ = 0;
+};
+
+}  // namespace signorini

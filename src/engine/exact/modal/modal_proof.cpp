@@ -1,0 +1,542 @@
+#include "engine/exact/modal/modal_proof.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "contact/law.hpp"
+#include "engine/falls/first_fall.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double quarter = 0.25;       // of a guard, that fast modes may take together
+constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
+constexpr double longest_decay = 2.0;  // alpha h
+constexpr std::size_t most_degree = 30;
+constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr double fine =
+    1e-4;  // of the range of what a peak is looked for in: ripple that is left aside where it turns
+constexpr double never = 1e300;
+
+double sum_of(const Amplitudes& weights, const Amplitudes& values) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < values.real.size(); ++k) sum += weights.real[k] * values.real[k];
+  for (std::size_t k = 0; k < values.pair.size(); ++k) sum += whole(weights.pair[k] * values.pair[k]);
+  return sum;
+}
+
+double size_of_sum(const Amplitudes& weights, const Amplitudes& values) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < values.real.size(); ++k) sum += std::abs(weights.real[k] * values.real[k]);
+  for (std::size_t k = 0; k < values.pair.size(); ++k) sum += 2.0 * size_of(weights.pair[k] * values.pair[k]);
+  return sum;
+}
+
+/// The guard's form as one on g, ut and their rates, with the constants of the forces.
+Shown reduced(const Form& form, const ForceLaw& law, double& constant) {
+  Shown result;
+  const double N = form.N;
+  result.gap = form.gap + N * law.N_gap + form.T * law.T_gap;
+  result.ut = form.ut + form.T * law.T_ut;
+  result.vn = form.vn;
+  result.vt = form.vt;
+  constant = form.constant + N * law.N_constant + form.T * law.T_constant;
+  return result;
+}
+
+}  // namespace
+
+ModalProof::ModalProof(const Model& model, double alpha)
+    : model_(model), alpha_(alpha), slow_(model.contacts.size()) {}
+
+void ModalProof::start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
+                       const Amplitudes& forces) {
+  state_ = &state;
+  oscillators_ = &oscillators;
+  forces_ = &forces;
+  decision_ = segment.decision;
+  full_ = false;
+  const std::size_t contacts = model_.contacts.size();
+  laws_.clear();
+  surface_.clear();
+  for (std::size_t c = 0; c < contacts; ++c) {
+    laws_.push_back(
+        force_law(model_.contacts[c], decision_->mode[c], segment.forcing->pressing(c, decision_->jet.t, 0)));
+    surface_.push_back(segment.forcing->surface(c, decision_->jet.t, 0));
+  }
+  const std::vector<double>& l = oscillators.real();
+  const auto still = [&](const std::vector<Amplitudes>& rows, std::vector<std::vector<double>>& out) {
+    out.assign(contacts, std::vector<double>(l.size() + 1, 0.0));
+    for (std::size_t c = 0; c < contacts; ++c)
+      for (std::size_t k = l.size(); k-- > 0;)
+        out[c][k] =
+            out[c][k + 1] + (oscillators.turning()[k] > 0.0 ? rows[c].real[k] * forces.real[k] / l[k] : 0.0);
+  };
+  still(state.normal, still_normal_);
+  still(state.tangent, still_tangent_);
+  watch(segment, state);
+}
+
+void ModalProof::watch(const Segment& segment, const StateModes& state) {
+  guards_.clear();
+  const std::vector<double>& l = oscillators_->real();
+  for (std::size_t slot = 0; slot < decision_->guards.size(); ++slot) {
+    const GuardStart& start = decision_->guards[slot];
+    if (start.kind == Guard::none) continue;
+    const std::size_t c = contact_of_guard(slot);
+    Watched guard;
+    guard.slot = slot;
+    guard.noise = start.noise;
+    if (start.at_zero) {
+      guard.arming = start.leading > 0 ? Arming::leaving : Arming::unknown;
+      guard.leading = std::max(start.leading, 0);
+    }
+    guard.form = reduced(start.form, laws_[c], guard.constant);
+    guard.constant += start.form.pressing * segment.forcing->pressing(c, decision_->jet.t, 0);
+    guard.constant += guard.form.gap * model_.contacts[c].gap - guard.form.ut * surface_[c];
+    const Amplitudes &n = state.normal[c], &t = state.tangent[c];
+    const auto mix = [&](double a, double b, Amplitudes& out) {
+      out.real.resize(n.real.size());
+      out.pair.resize(n.pair.size());
+      for (std::size_t k = 0; k < n.real.size(); ++k) out.real[k] = a * n.real[k] + b * t.real[k];
+      for (std::size_t k = 0; k < n.pair.size(); ++k) out.pair[k] = n.pair[k] * a + t.pair[k] * b;
+    };
+    mix(guard.form.gap, guard.form.ut, guard.place);
+    mix(guard.form.vn, guard.form.vt, guard.rate);
+    for (std::size_t k = 0; k < l.size(); ++k)
+      guard.size.push_back(std::abs(guard.place.real[k]) +
+                           std::abs(guard.rate.real[k]) * std::sqrt(std::abs(l[k])));
+    guards_.push_back(std::move(guard));
+  }
+}
+
+double ModalProof::value(const Watched& guard, const ModalPoint& at) const {
+  return guard.constant + sum_of(guard.place, at.z) + sum_of(guard.rate, at.rate);
+}
+
+/// Of the guard's leading order.
+double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
+  double sum = 0.0;
+  const auto add = [&](auto z, auto rate, auto p, auto l, auto place, auto slope) {
+    for (int j = 0; j < guard.leading; ++j) {
+      const auto next = (j == 0 ? p : decltype(p)(0.0)) - z * l - rate * alpha_;
+      z = rate;
+      rate = next;
+    }
+    sum += whole(place * z + slope * rate);
+  };
+  for (std::size_t k = 0; k < at.z.real.size(); ++k)
+    add(at.z.real[k], at.rate.real[k], forces_->real[k], oscillators_->real()[k], guard.place.real[k],
+        guard.rate.real[k]);
+  for (std::size_t k = 0; k < at.z.pair.size(); ++k)
+    add(at.z.pair[k], at.rate.pair[k], forces_->pair[k], oscillators_->pairs()[k], guard.place.pair[k],
+        guard.rate.pair[k]);
+  return sum;
+}
+
+void ModalProof::rearm(const ModalPoint& at) {
+  for (Watched& guard : guards_)
+    if (guard.arming != Arming::armed)
+      guard.arming = value(guard, at) > 4.0 * guard.noise ? Arming::armed : Arming::unknown;
+}
+
+Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
+  return {model_.contacts[c].gap + sum_of(state_->normal[c], at.z),
+          sum_of(state_->tangent[c], at.z) - surface_[c], sum_of(state_->normal[c], at.rate),
+          sum_of(state_->tangent[c], at.rate)};
+}
+
+void ModalProof::measure_amplitudes(const ModalPoint& at) {
+  const std::vector<double>&l = oscillators_->real(), &w = oscillators_->turning();
+  amplitude_.resize(l.size());
+  for (std::size_t k = 0; k < l.size(); ++k) {
+    if (!(w[k] > 0.0)) {
+      amplitude_[k] = never;
+      continue;
+    }
+    const double y = at.z.real[k] - forces_->real[k] / l[k], b = (at.rate.real[k] + 0.5 * alpha_ * y) / w[k];
+    amplitude_[k] = std::sqrt(y * y + b * b);
+  }
+  const std::vector<Complex>& pairs = oscillators_->pairs();
+  pair_amplitude_.resize(pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const Complex y = at.z.pair[k] - forces_->pair[k] * inverse(pairs[k]);
+    pair_amplitude_[k] =
+        size_of(y) + size_of(at.rate.pair[k] + y * (0.5 * alpha_)) / std::sqrt(size_of(pairs[k]));
+  }
+}
+
+void ModalProof::measure(const ModalPoint& at) {
+  measure_amplitudes(at);
+  for (Watched& guard : guards_)
+    guard.now = guard.arming == Arming::leaving ? derivative(guard, at) : value(guard, at);
+  const std::size_t contacts = model_.contacts.size();
+  normal_size_.resize(contacts);
+  tangent_size_.resize(contacts);
+  for (std::size_t c = 0; c < contacts; ++c) {
+    normal_size_[c] = {std::abs(model_.contacts[c].gap) + size_of_sum(state_->normal[c], at.z),
+                       size_of_sum(state_->normal[c], at.rate)};
+    tangent_size_[c] = {std::abs(surface_[c]) + size_of_sum(state_->tangent[c], at.z),
+                        size_of_sum(state_->tangent[c], at.rate)};
+  }
+}
+
+/// What the bound on mode k is multiplied with: |w_k|, times omega^m where the leading derivative is watched.
+double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
+  double weight = guard.size[k];
+  if (guard.arming == Arming::leaving)
+    weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * static_cast<double>(guard.leading));
+  return weight;
+}
+
+std::size_t ModalProof::first_fast() const {
+  const std::size_t n = amplitude_.size();
+  std::size_t first = full_ ? n : 0;
+  for (const Watched& guard : guards_) {
+    if (guard.arming == Arming::unknown || !(guard.now > 0.0)) return n;
+    double sum = 0.0;
+    std::size_t k = n;
+    for (; k > first; --k) {
+      sum += weight_of(guard, k - 1) * amplitude_[k - 1];
+      if (sum > quarter * guard.now) break;
+    }
+    first = std::max(first, k);
+  }
+  return first;
+}
+
+void ModalProof::choose_step(double remaining) {
+  const std::vector<double>& l = oscillators_->real();
+  const std::vector<Complex>& pairs = oscillators_->pairs();
+  const std::size_t first = first_fast();
+  h_ = std::min(remaining, longest_decay / alpha_);
+  if (!l.empty()) {
+    const double fastest = l[std::min(first, l.size() - 1)];
+    if (fastest > 0.0) h_ = std::min(h_, turn / std::sqrt(fastest));
+  }
+  // Pairs may grow: they are slow unless the step is long beside them and they hardly show.
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
+      const double root = std::sqrt(size_of(pairs[k]));
+      const double most =
+          2.0 * (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root) * pair_amplitude_[k];
+      const double order = guard.arming == Arming::leaving ? guard.leading : 0.0;
+      return !(4.0 * most * std::pow(root, order) <
+               0.5 * quarter * guard.now / static_cast<double>(pairs.size()));
+    });
+    if (shows || first == l.size()) h_ = std::min(h_, turn / std::sqrt(size_of(pairs[k])));
+  }
+  part_modes(first == l.size());
+}
+
+/// Which modes a step of length h_ follows as polynomials.
+void ModalProof::part_modes(bool all_slow) {
+  const std::vector<double>& l = oscillators_->real();
+  const std::vector<Complex>& pairs = oscillators_->pairs();
+  const double square = turn * turn * (1.0 + 1e-12);
+  fast_ = static_cast<std::size_t>(
+      std::partition_point(l.begin(), l.end(), [&](double value) { return value * h_ * h_ < square; }) -
+      l.begin());
+  if (all_slow) fast_ = l.size();
+  pair_slow_.assign(pairs.size(), true);
+  for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
+}
+
+void ModalProof::bound_ripples() {
+  const std::vector<double>& l = oscillators_->real();
+  const std::vector<Complex>& pairs = oscillators_->pairs();
+  for (Watched& guard : guards_) {
+    guard.ripple = guard.ripple_rate = 0.0;
+    for (std::size_t k = fast_; k < l.size(); ++k) {
+      const double ripple = weight_of(guard, k) * amplitude_[k];
+      guard.ripple += ripple;
+      guard.ripple_rate += ripple * std::sqrt(l[k]);
+    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (pair_slow_[k]) continue;
+      const double root = std::sqrt(size_of(pairs[k]));
+      // e^(gamma h) with gamma <= |Im w|, where cosh grows
+      const double growth = std::exp(std::abs(root_of(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
+      const double order = guard.arming == Arming::leaving ? guard.leading : 0.0;
+      const double ripple = 2.0 * growth * pair_amplitude_[k] * std::pow(root, order) *
+                            (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
+      guard.ripple += ripple;
+      guard.ripple_rate += ripple * root;
+    }
+  }
+}
+
+double ModalProof::within(const TurningPoints& known, double x_end) const {
+  if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
+  std::vector<double> p(degree_ + 1);
+  double safe = 1.0;  // of x_end
+  for (std::size_t c = 0; c < slow_.size(); ++c) {
+    const ForceLaw& law = laws_[c];
+    double normal = normal_rest_[c].place, tangent = tangent_rest_[c].place;
+    for (std::size_t k = fast_; k < amplitude_.size(); ++k) {
+      normal += std::abs(state_->normal[c].real[k]) * amplitude_[k];
+      tangent += std::abs(state_->tangent[c].real[k]) * amplitude_[k];
+    }
+    const std::array<double, 4> ripple{std::abs(law.N_gap) * normal,
+                                       std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
+                                       tangent};
+    for (std::size_t f = 0; f < ripple.size(); ++f) {
+      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      const double* a = slow_[c].of(TurningPoints::watched[f]);
+      for (const double sign : {1.0, -1.0}) {
+        double power = 1.0;
+        for (std::size_t j = 0; j <= degree_; ++j, power *= x_end) p[j] = -sign * a[j] * power;
+        p[0] += (sign > 0.0 ? range.greatest : -range.least) - ripple[f];
+        if (!(p[0] > 0.0)) return 0.0;
+        const FirstFall fall = first_fall(p.data(), degree_, 0.0);
+        if (fall.kind != FirstFall::Kind::none) safe = std::min(safe, fall.x);
+      }
+    }
+  }
+  return safe * x_end;
+}
+
+double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  measure_amplitudes(at);
+  const std::size_t n = amplitude_.size();
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < slow_.size(); ++c) {
+    const ForceLaw& law = laws_[c];
+    const auto allowed = [&](ContactSeries::Field field, double factor) {
+      const TurningPoints::Range& range = known.range(c, field);
+      return factor == 0.0 ? never : fine * (range.greatest - range.least) / std::abs(factor);
+    };
+    const double normal = std::min({allowed(ContactSeries::gap, 1.0), allowed(ContactSeries::N, law.N_gap),
+                                    allowed(ContactSeries::T, law.T_gap)});
+    const double tangent = std::min(allowed(ContactSeries::slide, 1.0), allowed(ContactSeries::T, law.T_ut));
+    double normal_sum = 0.0, tangent_sum = 0.0;
+    std::size_t k = n;
+    for (; k > first; --k) {
+      normal_sum += std::abs(state_->normal[c].real[k - 1]) * amplitude_[k - 1];
+      tangent_sum += std::abs(state_->tangent[c].real[k - 1]) * amplitude_[k - 1];
+      if (normal_sum > normal || tangent_sum > tangent) break;
+    }
+    first = std::max(first, k);
+  }
+  h_ = std::min(remaining, longest_decay / alpha_);
+  if (n > 0 && oscillators_->real()[std::min(first, n - 1)] > 0.0)
+    h_ = std::min(h_, turn / std::sqrt(oscillators_->real()[std::min(first, n - 1)]));
+  for (const Complex l : oscillators_->pairs()) h_ = std::min(h_, turn / std::sqrt(size_of(l)));
+  part_modes(first == n);
+  expand(at);
+  return h_;
+}
+
+/// Gaps and slides of all contacts as polynomials in t / h, of slow modes and of what fast ones rest at.
+void ModalProof::expand(const ModalPoint& at) {
+  const std::vector<double>& l = oscillators_->real();
+  const std::vector<Complex>& pairs = oscillators_->pairs();
+  const double fastest = fast_ > 0 ? std::sqrt(std::abs(l[fast_ - 1])) * h_ : 0.0;
+  const bool any_pair = std::any_of(pair_slow_.begin(), pair_slow_.end(), [](bool slow) { return slow; });
+  const double reach = any_pair ? turn : std::max(fastest, 0.5 * alpha_ * h_);
+  degree_ = std::min<std::size_t>(most_degree, 10 + static_cast<std::size_t>(5.5 * reach));
+  const std::size_t count = degree_ + 3;
+  coefficients_.resize(count * fast_);
+  for (std::size_t k = 0; k < fast_; ++k)
+    taylor_of_mode(at.z.real[k], at.rate.real[k], forces_->real[k], l[k], alpha_, h_, count, fast_,
+                   coefficients_.data() + k);
+  pair_coefficients_.resize(count * pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (pair_slow_[k])
+      taylor_of_mode(at.z.pair[k], at.rate.pair[k], forces_->pair[k], pairs[k], alpha_, h_, count,
+                     pairs.size(), pair_coefficients_.data() + k);
+  const std::size_t contacts = model_.contacts.size();
+  normal_rest_.resize(contacts);
+  tangent_rest_.resize(contacts);
+  std::vector<double> n(count), t(count);
+  const auto sum = [&](const Amplitudes& row, double still, std::vector<double>& out, Size& rest) {
+    std::fill(out.begin(), out.end(), 0.0);
+    for (std::size_t j = 0; j < count; ++j) {
+      const double* c = coefficients_.data() + j * fast_;
+      double total = 0.0;
+      for (std::size_t k = 0; k < fast_; ++k) total += row.real[k] * c[k];
+      out[j] = total;
+    }
+    double left = 0.0;  // each mode's series falls by half and more a term from here on
+    for (std::size_t j = degree_ + 1; j < count; ++j)
+      for (std::size_t k = 0; k < fast_; ++k)
+        left += 2.0 * std::abs(row.real[k] * coefficients_[j * fast_ + k]);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (!pair_slow_[k]) {
+        still += whole(row.pair[k] * forces_->pair[k] * inverse(pairs[k]));
+        continue;
+      }
+      for (std::size_t j = 0; j < count; ++j) {
+        const Complex term = row.pair[k] * pair_coefficients_[j * pairs.size() + k];
+        out[j] += whole(term);
+        if (j > degree_) left += 4.0 * size_of(term);
+      }
+    }
+    out[0] += still;
+    rest = {left, left * static_cast<double>(degree_ + 3) / h_};
+  };
+  for (std::size_t c = 0; c < contacts; ++c) {
+    sum(state_->normal[c], still_normal_[c][fast_], n, normal_rest_[c]);
+    sum(state_->tangent[c], still_tangent_[c][fast_], t, tangent_rest_[c]);
+    n[0] += model_.contacts[c].gap;
+    t[0] -= surface_[c];
+    ContactSeries& slow = slow_[c];
+    slow.reset(degree_);
+    const ForceLaw& law = laws_[c];
+    for (std::size_t j = 0; j <= degree_; ++j) {
+      const double rate = static_cast<double>(j + 1) / h_;
+      slow.place(ContactSeries::gap)[j] = n[j];
+      slow.place(ContactSeries::ut)[j] = slow.place(ContactSeries::slide)[j] = t[j];
+      slow.place(ContactSeries::vn)[j] = rate * n[j + 1];
+      slow.place(ContactSeries::vt)[j] = rate * t[j + 1];
+      slow.place(ContactSeries::an)[j] = rate * n[j + 2] * static_cast<double>(j + 2) / h_;
+      slow.place(ContactSeries::N)[j] = law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
+      slow.place(ContactSeries::T)[j] = law.T_gap * n[j] + law.T_ut * t[j] + (j == 0 ? law.T_constant : 0.0);
+    }
+  }
+}
+
+/// The guard's slow part, and what it may be off without the ripple.
+void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& slack) const {
+  const std::size_t c = contact_of_guard(guard.slot);
+  p.assign(degree_ + 1, 0.0);
+  slow_[c].combine(decision_->guards[guard.slot].form, p.data());
+  const Shown& form = guard.form;
+  const auto with = [&](const Size& n, const Size& t) {
+    return std::abs(form.gap) * n.place + std::abs(form.ut) * t.place + std::abs(form.vn) * n.rate +
+           std::abs(form.vt) * t.rate;
+  };
+  slack = with(normal_rest_[c], tangent_rest_[c]) +
+          4.0 * epsilon * (with(normal_size_[c], tangent_size_[c]) + std::abs(guard.constant)) +
+          rounding_of_guard * guard.noise;
+}
+
+/// Is the guard's rate negative from `from` to `to`, places in the step, ripple and all?
+bool ModalProof::decreases(const Watched& guard, const std::vector<double>& p, double from, double to) const {
+  std::vector<double> q(degree_);
+  for (std::size_t j = 0; j < degree_; ++j) q[j] = -static_cast<double>(j + 1) * p[j + 1];
+  for (std::size_t i = 0; i + 1 < q.size(); ++i)  // about `from`
+    for (std::size_t j = q.size() - 1; j-- > i;) q[j] += from * q[j + 1];
+  double power = 1.0, rest = 0.0;
+  for (double& entry : q) {
+    entry *= power;
+    power *= to - from;
+    rest = std::max(rest, std::abs(entry));
+  }
+  q[0] -= guard.ripple_rate * h_ + 1e3 * epsilon * rest;
+  return q[0] > 0.0 && first_fall(q.data(), q.size() - 1, 0.0).kind == FirstFall::Kind::none;
+}
+
+/// The only zero between two places of the step, in closed form: secants, kept inside (Illinois).
+double ModalProof::only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const {
+  ModalPoint point;
+  const auto g = [&](double x) {
+    oscillators_->advance(at, *forces_, h_ * x, point);
+    return value(guard, point);
+  };
+  double low = g(from), high = g(to);
+  if (!(low > 0.0)) return from;
+  if (!(high < 0.0)) return to;
+  int side = 0;
+  double x = from;
+  for (int i = 0; i < 100; ++i) {
+    const double next = from + (to - from) * low / (low - high);
+    const double step = std::abs(next - x);
+    x = std::clamp(next, from, to);
+    const double now = g(x);
+    if (now == 0.0 || (i > 0 && step <= 2.0 * epsilon * to)) break;
+    if (now > 0.0) {
+      from = x;
+      low = now;
+      if (side > 0) high *= 0.5;
+      side = 1;
+    } else {
+      to = x;
+      high = now;
+      if (side < 0) low *= 0.5;
+      side = -1;
+    }
+    if (to - from <= 2.0 * epsilon * to) break;
+  }
+  return x;
+}
+
+/// event: the place of the first fall so far; limit: the place up to which nothing falls.
+void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                        double& event) const {
+  std::vector<double> p;
+  double slack = 0.0;
+  combine(guard, p, slack);
+  const bool all_slow = guard.ripple == 0.0;
+  const auto fires = [&](double x) {
+    if (x >= event) return;
+    event = x;
+    passage.fired = guard.slot;
+  };
+  if (guard.arming == Arming::leaving) {
+    const auto m = static_cast<std::size_t>(guard.leading);
+    std::vector<double> q(p.begin() + static_cast<std::ptrdiff_t>(m), p.end());
+    double scale = 0.0, to_derivative = 1.0;
+    for (std::size_t i = 1; i <= m; ++i) to_derivative *= static_cast<double>(i) / h_;
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      q[j] *= to_derivative;
+      scale += std::abs(q[j]);
+      to_derivative *= static_cast<double>(j + m + 1) / static_cast<double>(j + 1);
+    }
+    // The decision knows that it rises; what else is lost is the rest of the series.
+    q[0] -= std::min(guard.ripple + 1e2 * epsilon * scale, 0.5 * q[0]);
+    if (!(q[0] > 0.0)) {
+      guard.arming = Arming::unknown;
+      limit = 0.0;
+      return;
+    }
+    const FirstFall fall = first_fall(q.data(), q.size() - 1, 0.0);
+    if (fall.kind == FirstFall::Kind::fall) limit = std::min(limit, 0.9 * fall.x);
+    return;
+  }
+  if (guard.arming == Arming::unknown) {
+    p[0] += guard.noise + slack;
+    const FirstFall fall = first_fall(p.data(), degree_, 0.0);
+    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
+    return;
+  }
+  if (all_slow) {
+    const FirstFall fall = first_fall(p.data(), degree_, slack);
+    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
+    if (fall.kind == FirstFall::Kind::touch) passage.touches.push_back(guard.slot);
+    return;
+  }
+  const double off = slack + guard.ripple, start = p[0];
+  p[0] = start - 2.0 * off;
+  const FirstFall doubtful = first_fall(p.data(), degree_, 0.0);
+  if (doubtful.kind != FirstFall::Kind::fall || doubtful.x >= event) return;
+  p[0] = start + off;
+  const FirstFall certain = first_fall(p.data(), degree_, 0.0);
+  if (certain.kind == FirstFall::Kind::fall && decreases(guard, p, doubtful.x, certain.x))
+    fires(only_fall(guard, at, doubtful.x, certain.x));
+  else
+    limit = std::min(limit, doubtful.x);
+}
+
+Passage ModalProof::pass(const ModalPoint& at, double remaining) {
+  measure(at);
+  for (Watched& guard : guards_)
+    if (guard.arming == Arming::leaving && !(guard.now > 0.0)) guard.arming = Arming::unknown;
+  choose_step(remaining);
+  bound_ripples();
+  expand(at);
+  Passage passage;
+  double limit = 1.0, event = 2.0;
+  for (Watched& guard : guards_) settle(guard, at, passage, limit, event);
+  if (limit == 0.0) return pass(at, remaining);
+  if (limit < event) passage.fired.reset();
+  const double x = std::min(limit, event > 1.0 ? 1.0 : event);
+  full_ = !passage.fired && x < 1e-3;
+  passage.length = h_ * x;
+  return passage;
+}
+
+}  // namespace signorini

@@ -1,0 +1,113 @@
+// modal_proof.hpp: how far no guard falls, on intervals that adapt to the amplitudes of the modes.
+//
+//   g(t0 + h x) = sum of slow modes (a polynomial in x) + ripple of fast modes,   |ripple| <= sum |w_k| A_k
+//
+// A_k is the amplitude of mode k and w_k what the guard shows of it. Slow are the modes below J, where the
+// amplitudes above J together stay below a quarter of every guard; h = 4 / omega_J. The slow part is positive
+// beyond the ripple's bound, the polynomial's rest and rounding on all of the step
+// (engine/falls/first_fall.hpp), or up to a place, from which the next step goes on with more modes slow. A
+// fall is an event where the guard decreases throughout the stretch in which it may lie: slow part and ripple
+// of its rate are negative; then the closed form with all modes is zero once. A guard that starts at zero is
+// held by its first derivative that is not. What this rests on besides is the modes themselves: computed
+// eigenvalues, tested by their residual.
+#pragma once
+
+#include <optional>
+
+#include "engine/exact/modal/modal_system.hpp"
+#include "engine/exact/modal/oscillators.hpp"
+#include "engine/falls/turning_points.hpp"
+#include "engine/stepper.hpp"
+#include "motion/contact_series.hpp"
+
+namespace signorini {
+
+/// What a contact shows.
+struct Shown {
+  double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0;
+};
+
+/// A stretch without an event, or up to one.
+struct Passage {
+  double length = 0.0;
+  std::optional<std::size_t> fired;  ///< slot of the guard that falls at its end
+  std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
+};
+
+class ModalProof {
+ public:
+  ModalProof(const Model& model, double alpha);
+
+  /// forces: constant, in modes. The state must live until the next start.
+  void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
+             const Amplitudes& forces);
+  [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
+  /// After a passage without event: which guards are armed now.
+  void rearm(const ModalPoint& at);
+  [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
+  [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
+  /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact leave what they
+  /// ranged over; x_end: they do not.
+  [[nodiscard]] double within(const TurningPoints& known, double x_end) const;
+  /// The contacts' slow parts from a point on, with ripples that are small beside those ranges; returns for
+  /// how long.
+  [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
+  /// The slow parts of the contacts at the last passage or expansion, in units of `unit` of time.
+  [[nodiscard]] const std::vector<ContactSeries>& slow() const { return slow_; }
+  [[nodiscard]] double unit() const { return h_; }
+
+ private:
+  enum class Arming : unsigned char { armed, leaving, unknown };
+  struct Watched {
+    std::size_t slot = 0;
+    Shown form;
+    double constant = 0.0, noise = 0.0;
+    Arming arming = Arming::armed;
+    int leading = 0;
+    Amplitudes place, rate;                  // what of z and z' the guard shows
+    std::vector<double> size;                // |place| + |rate| sqrt(l), real modes
+    double now = 0.0;                        // the value, or the leading derivative's
+    double ripple = 0.0, ripple_rate = 0.0;  // bounds; of the leading derivative where it leaves
+  };
+  void watch(const Segment& segment, const StateModes& state);
+  [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
+  [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
+  void measure_amplitudes(const ModalPoint& at);
+  void measure(const ModalPoint& at);
+  void part_modes(bool all_slow);
+  [[nodiscard]] std::size_t first_fast() const;
+  void choose_step(double remaining);
+  void bound_ripples();
+  void expand(const ModalPoint& at);
+  void combine(const Watched& guard, std::vector<double>& p, double& slack) const;
+  [[nodiscard]] bool decreases(const Watched& guard, const std::vector<double>& p, double from,
+                               double to) const;
+  [[nodiscard]] double only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const;
+  void settle(Watched& guard, const ModalPoint& at, Passage& passage, double& limit, double& event) const;
+  [[nodiscard]] double weight_of(const Watched& guard, std::size_t k) const;
+
+  const Model& model_;
+  double alpha_;
+  const StateModes* state_ = nullptr;
+  const Oscillators* oscillators_ = nullptr;
+  const Amplitudes* forces_ = nullptr;
+  const Decision* decision_ = nullptr;
+  std::vector<ForceLaw> laws_;
+  std::vector<double> surface_;
+  std::vector<Watched> guards_;
+  std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
+  std::vector<double> amplitude_, pair_amplitude_, coefficients_;
+  std::vector<Complex> pair_coefficients_;
+  struct Size {
+    double place = 0.0, rate = 0.0;
+  };
+  std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding
+  std::vector<Size> normal_rest_, tangent_rest_;
+  std::vector<ContactSeries> slow_;
+  std::vector<bool> pair_slow_;
+  std::size_t fast_ = 0, degree_ = 0;
+  double h_ = 0.0;
+  bool full_ = false;  // the next step takes all modes as slow
+};
+
+}  // namespace signorini

@@ -1,0 +1,113 @@
+#include "engine/exact/modal/modal_system.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "contact/friction.hpp"
+#include "contact/law.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double same = 16.0 * std::numeric_limits<double>::epsilon();
+
+bool is_symmetric(const SparseMatrix& a) {
+  const SparseMatrix difference = a - SparseMatrix(a.transpose());
+  return difference.norm() <= same * a.norm();
+}
+
+}  // namespace
+
+ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing) {
+  const Rows r = rows(contact, state);
+  ForceLaw law;
+  law.N_gap = -r.normal.gap;
+  law.N_constant = -(r.normal.pressing * pressing + r.normal.constant);
+  law.T_gap = -r.tangent.N * law.N_gap;
+  law.T_ut = -r.tangent.ut;
+  law.T_constant = -(r.tangent.N * law.N_constant + r.tangent.constant);
+  return law;
+}
+
+std::string modal_refusal(const Model& model) {
+  if (model.size() == 0) return "nothing moves";
+  std::size_t rank = 0;
+  for (const Contact& contact : model.contacts) {
+    if (contact.takes_impulses()) return "rigid contacts";
+    if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
+    if (contact.shear) return "shear elements";
+    if (contact.normal_damping != 0.0) return "dashpots of contacts";
+    if (friction_varies(contact)) return "friction that depends on the slip rate";
+    rank += (contact.has_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
+  }
+  if (rank > most_rank) return "more contacts than a state's modes are worth";
+  if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
+    return "massless degrees of freedom";
+  if (!is_symmetric(model.mass) || !is_symmetric(model.stiffness)) return "matrices that are not symmetric";
+  if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
+  const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
+  if (!(alpha > 0.0)) return "no damping proportional to the mass";
+  const SparseMatrix rest = model.damping - alpha * model.mass;
+  if (!(rest.norm() <= same * model.damping.norm())) return "damping that is not proportional to the mass";
+  return {};
+}
+
+ModalSystem::ModalSystem(const Model& model)
+    : model_(model),
+      modes_(open_modes(model.mass, model.stiffness)),
+      alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {
+  if (!modes_.found()) return;
+  poles_ = Poles(modes_.square);
+  projection_ = (model.mass * modes_.shapes).transpose();
+  const auto amplitudes_of = [&](const Combination& form) {
+    Vector x = Vector::Zero(model.size());
+    form.add_to(x, 1.0);
+    return Vector(modes_.shapes.transpose() * x);
+  };
+  for (const Contact& contact : model.contacts) {
+    normal_.push_back(amplitudes_of(contact.normal));
+    tangent_.push_back(amplitudes_of(contact.tangent));
+  }
+  for (const Load& load : model.loads) load_.push_back(amplitudes_of(load.direction));
+}
+
+const StateModes& ModalSystem::state(const Mode& mode) {
+  std::unique_ptr<StateModes>& made = known_[states_of(mode)];
+  if (made) return *made;
+  std::vector<Vector> u, v;
+  bool symmetric = true;
+  const auto add = [&](const Vector& force, const Vector& form, double stiffness) {
+    u.push_back(force * std::sqrt(stiffness));
+    v.push_back(form * std::sqrt(stiffness));
+  };
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const ForceLaw law = force_law(model_.contacts[c], mode[c], 0.0);
+    if (law.N_gap != 0.0) add(normal_[c] + (law.T_gap / law.N_gap) * tangent_[c], normal_[c], law.N_gap);
+    if (law.T_ut != 0.0) add(tangent_[c], tangent_[c], law.T_ut);
+    symmetric = symmetric && law.T_gap == 0.0;
+  }
+  Eigen::MatrixXd forces(modes_.square.size(), static_cast<Eigen::Index>(u.size())), forms = forces;
+  for (std::size_t a = 0; a < u.size(); ++a) {
+    forces.col(static_cast<Eigen::Index>(a)) = u[a];
+    forms.col(static_cast<Eigen::Index>(a)) = v[a];
+  }
+  made = std::make_unique<StateModes>(
+      StateModes{Spectrum(poles_, forces, forms, symmetric), {}, {}, {}, {}, {}, {}});
+  const Spectrum& spectrum = made->spectrum;
+  if (!spectrum.failure().empty()) return *made;
+  const auto both = [&](const std::vector<Vector>& list, std::vector<Amplitudes>& rows,
+                        std::vector<Amplitudes>& from) {
+    rows.resize(list.size());
+    from.resize(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      spectrum.of_form(list[i], rows[i]);
+      spectrum.to_modes(list[i], from[i]);
+    }
+  };
+  both(normal_, made->normal, made->from_normal);
+  both(tangent_, made->tangent, made->from_tangent);
+  both(load_, made->load, made->from_load);
+  return *made;
+}
+
+}  // namespace signorini

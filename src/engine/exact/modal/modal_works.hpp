@@ -1,0 +1,72 @@
+// modal_works.hpp: works and dissipations of a stretch in modes, in closed form.
+//
+//   y'' + alpha y' + l y = 0:   int y_k' y_l' and int y_k y_l' are forms on the values of y and y' at both
+//   ends, divided by (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l)
+//
+// Damping takes alpha int q'^T q' = alpha sum x_k^T x_l int z_k' z_l', which is alpha sum int z_k'^2 where no
+// contact slips; friction takes int T p', in which g and ut' are sums over modes as well. So the balance of
+// energy is not computed from itself. Forces are constant on the stretch; modes without frequency move like
+// z = a + d t + y, d = p / alpha.
+#pragma once
+
+#include "engine/exact/modal/modal_proof.hpp"
+#include "motion/powers.hpp"
+
+namespace signorini {
+
+class ModalWorks {
+ public:
+  ModalWorks(const Model& model, double alpha) : model_(model), alpha_(alpha) {}
+
+  /// False: a frequency is too low for the closed form of works and too high to be none.
+  [[nodiscard]] static bool suits(const Spectrum& spectrum, double t_end);
+
+  /// All but t_end must live until the next start.
+  void start(const Segment& segment, const StateModes& state, const Oscillators& oscillators,
+             const Amplitudes& forces, double t_end);
+  /// Adds the integrals over the time between two points of the segment.
+  void add(const ModalProof& proof, const ModalPoint& from, const ModalPoint& to, double time,
+           Works& works) const;
+
+  /// A mode's frequency squared, and its homogeneous part with its rate at both ends.
+  template <class S>
+  struct Ends {
+    S l{}, y0{}, r0{}, y1{}, r1{};
+  };
+
+ private:
+  struct Stretch {
+    const ModalPoint &from, &to;
+    double time;
+    std::vector<Ends<double>> real;
+    std::vector<Ends<Complex>> pair;
+    std::vector<double> drift;  // d of real modes
+    Amplitudes area;            // int z
+  };
+  /// int q'^T q', and of each contact int (sum a_k y_k)(sum b_k y_k')
+  struct Sums {
+    double rates = 0.0;
+    std::vector<double> crossed;
+  };
+  [[nodiscard]] Stretch stretch(const ModalPoint& from, const ModalPoint& to, double time) const;
+  [[nodiscard]] double with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const;
+  void add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
+  void add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
+  [[nodiscard]] std::vector<std::size_t> moving(const Stretch& s) const;
+  [[nodiscard]] double gap_area(const Stretch& s, std::size_t contact) const;
+  [[nodiscard]] double gap_times_slide(const Stretch& s, std::size_t contact, double gap,
+                                       double crossed) const;
+
+  const Model& model_;
+  double alpha_, free_below_ = 0.0;
+  const Decision* decision_ = nullptr;
+  const StateModes* state_ = nullptr;
+  const Oscillators* oscillators_ = nullptr;
+  const Amplitudes* forces_ = nullptr;
+  std::vector<std::pair<std::size_t, double>> loads_;  // that act, and how strongly
+  std::vector<std::size_t> slipping_;                  // contacts
+  std::vector<double> c_, h_;                          // of products of vectors, spectrum.hpp
+  std::vector<Complex> c_pair_, h_pair_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,34 @@
+// open_modes.hpp: all modes of a structure whose contacts are open.
+//
+//   K phi = omega^2 M phi,   Phi^T M Phi = 1
+//
+// Frequencies are bracketed by counting negative pivots of K - s M (band_pencil.hpp), shapes found by inverse
+// iteration and the Rayleigh quotient in extended precision, made orthonormal from low to high: a symmetric
+// correction would bring the static forces of high modes into low ones. Free motions have omega = 0 exactly.
+// Sources: Bathe, Finite Element Procedures, section 11.4 (Sturm); Parlett, The Symmetric Eigenvalue Problem,
+// chapter 4 (Rayleigh quotient iteration).
+#pragma once
+
+#include <string>
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+struct OpenModes {
+  Vector square;           ///< omega^2, ascending; 0 of free motions
+  Eigen::MatrixXd shapes;  ///< n x n, columns M-orthonormal
+  int free = 0;            ///< motions without stiffness
+  std::string failure;     ///< why there are none; empty when there are
+
+  [[nodiscard]] bool found() const { return failure.empty(); }
+};
+
+/// Is the band of both matrices narrow enough for this to be worth its price?
+[[nodiscard]] bool has_narrow_band(const SparseMatrix& mass, const SparseMatrix& stiffness);
+
+/// mass, stiffness: symmetric, mass positive definite. Costs about n^2 (10 + band^2) operations and 3 n^3 of
+/// matrix products. Without success: `failure` says why, the rest is empty.
+[[nodiscard]] OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness);
+
+}  // namespace signorini

@@ -1,0 +1,96 @@
+#include "engine/exact/modal/oscillators.hpp"
+
+#include <array>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+constexpr double small_turn = 1.0;      // l time^2 up to which the series is used
+constexpr std::size_t most_terms = 64;  // alpha time <= 4 and l time^2 <= 1: 40 are enough
+
+Complex cosine(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
+Complex sine(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }
+double cosine(double a) { return std::cos(a); }
+double sine(double a) { return std::sin(a); }
+
+template <class S>
+void by_series(S& z, S& rate, S& integral, S p, S l, double alpha, double time) {
+  S a = z, b = rate * time;  // coefficients j and j + 1
+  S sum = a + b, slope = b, area = a + b * 0.5, force = p * (time * time);
+  for (std::size_t j = 0; j < most_terms; ++j) {
+    const double down = 1.0 / static_cast<double>(j + 2);
+    const S next =
+        (force - a * l * (time * time)) * (down / static_cast<double>(j + 1)) - b * (alpha * time * down);
+    force = S(0.0);
+    sum += next;
+    slope += next * static_cast<double>(j + 2);
+    area += next * (1.0 / static_cast<double>(j + 3));
+    const double size = size_of(next) * static_cast<double>(j + 2) + size_of(b) * static_cast<double>(j + 1);
+    a = b;
+    b = next;
+    if (size <= 1e-3 * std::numeric_limits<double>::epsilon() * (size_of(slope) + size_of(sum)) && j > 2)
+      break;
+  }
+  z = sum;
+  rate = time > 0.0 ? slope * (1.0 / time) : rate;
+  integral = area * time;
+}
+
+template <class S>
+void in_closed_form(S& z, S& rate, S p, S l, S w, double alpha, double decay, double time) {
+  const S still = p * inverse(l), y = z - still;
+  const S c = cosine(w * time), s = sine(w * time) * inverse(w);
+  const double half = 0.5 * alpha;
+  z = still + (y * (c + s * half) + rate * s) * decay;
+  rate = (rate * (c - s * half) - y * l * s) * decay;
+}
+
+}  // namespace
+
+Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
+    : alpha_(alpha), real_(spectrum.real()), pairs_(spectrum.pairs()) {
+  for (const double l : real_) {
+    const double square = l - 0.25 * alpha * alpha;
+    turning_.push_back(square > 0.0 ? std::sqrt(square) : 0.0);
+  }
+  for (const Complex l : pairs_) pair_turning_.push_back(root_of(l - Complex(0.25 * alpha * alpha)));
+}
+
+void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const {
+  to = from;
+  const double decay = std::exp(-0.5 * alpha_ * time), square = time * time;
+  double area = 0.0;
+  for (std::size_t k = 0; k < real_.size(); ++k)
+    if (real_[k] * square > small_turn && turning_[k] * time > 0.5)
+      in_closed_form(to.z.real[k], to.rate.real[k], p.real[k], real_[k], turning_[k], alpha_, decay, time);
+    else
+      by_series(to.z.real[k], to.rate.real[k], area, p.real[k], real_[k], alpha_, time);
+  Complex complex_area;
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (size_of(pairs_[k]) * square > small_turn && size_of(pair_turning_[k]) * time > 0.5)
+      in_closed_form(to.z.pair[k], to.rate.pair[k], p.pair[k], pairs_[k], pair_turning_[k], alpha_, decay,
+                     time);
+    else
+      by_series(to.z.pair[k], to.rate.pair[k], complex_area, p.pair[k], pairs_[k], alpha_, time);
+}
+
+void Oscillators::integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
+                            Amplitudes& out) const {
+  out.real.resize(real_.size());
+  out.pair.resize(pairs_.size());
+  const double square = time * time;
+  const auto one = [&](auto z0, auto r0, auto z1, auto r1, auto force, auto l, auto& result) {
+    if (size_of(l) * square > small_turn) {
+      result = (force * time - (z1 - z0) * alpha_ - (r1 - r0)) * inverse(l);
+    } else {
+      by_series(z0, r0, result, force, l, alpha_, time);
+    }
+  };
+  for (std::size_t k = 0; k < real_.size(); ++k)
+    one(from.z.real[k], from.rate.real[k], to.z.real[k], to.rate.real[k], p.real[k], real_[k], out.real[k]);
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    one(from.z.pair[k], from.rate.pair[k], to.z.pair[k], to.rate.pair[k], p.pair[k], pairs_[k], out.pair[k]);
+}
+
+}  // namespace signorini

@@ -1,0 +1,58 @@
+// oscillators.hpp: the motion of uncoupled modes under constant forces, in closed form.
+//
+//   z'' + alpha z' + l z = p:   z - p/l = e^(-alpha t/2) ( a cos(w t) + b sin(w t) ),   w^2 = l - alpha^2/4
+//
+// Where sqrt(l) t is small the Taylor series in t is used instead: an entire function of l, so that zero
+// frequencies and critical damping are no exceptions. Complex l: the mode stands for itself and its
+// conjugate.
+#pragma once
+
+#include "engine/exact/modal/spectrum.hpp"
+
+namespace signorini {
+
+/// Amplitudes and their rates.
+struct ModalPoint {
+  Amplitudes z, rate;
+};
+
+class Oscillators {
+ public:
+  Oscillators() = default;
+  Oscillators(const Spectrum& spectrum, double alpha);
+
+  [[nodiscard]] double alpha() const { return alpha_; }
+  [[nodiscard]] const std::vector<double>& real() const { return real_; }
+  [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_; }
+  /// w of real modes; 0 of those that do not oscillate.
+  [[nodiscard]] const std::vector<double>& turning() const { return turning_; }
+  /// The motion a time later; alpha time <= 4. Forces p are constant.
+  void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
+  /// Integrals of z over the time between the two.
+  void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
+                 Amplitudes& out) const;
+
+ private:
+  double alpha_ = 0.0;
+  std::vector<double> real_, turning_;
+  std::vector<Complex> pairs_, pair_turning_;
+};
+
+/// coefficients[j] = time^j / j! times the derivative of order j of z, 0 <= j < count.
+template <class S>
+void taylor_of_mode(S z, S rate, S p, S l, double alpha, double time, std::size_t count, std::size_t stride,
+                    S* out) {
+  out[0] = z;
+  if (count > 1) out[stride] = rate * time;
+  S first = z * l, second = rate * time;
+  first = (p - first) * (time * time);
+  for (std::size_t j = 0; j + 2 < count; ++j) {
+    const double down = 1.0 / static_cast<double>(j + 2);
+    const S next = first * (down / static_cast<double>(j + 1)) - second * (alpha * time * down);
+    out[(j + 2) * stride] = next;
+    first = second * l * (-time * time);
+    second = next;
+  }
+}
+
+}  // namespace signorini

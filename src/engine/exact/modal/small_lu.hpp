@@ -1,0 +1,128 @@
+// small_lu.hpp: L U factors of a few rows with complete pivoting, and the null vectors of what is singular.
+//
+//   P G Q = L U
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "engine/exact/modal/plain_complex.hpp"
+
+namespace signorini {
+
+/// Springs of closed contacts that a state of the modal flow may have.
+inline constexpr std::size_t most_rank = 12;
+
+template <class S>
+using SmallMatrix = std::array<std::array<S, most_rank>, most_rank>;
+template <class S>
+using SmallVector = std::array<S, most_rank>;
+
+template <class S>
+class SmallLu {
+ public:
+  SmallLu(const SmallMatrix<S>& g, std::size_t rank) : rank_(rank), a_(g) {
+    for (std::size_t i = 0; i < rank; ++i) row_[i] = column_[i] = i;
+    for (std::size_t k = 0; k < rank; ++k) {
+      std::size_t p = k, q = k;
+      for (std::size_t i = k; i < rank; ++i)
+        for (std::size_t j = k; j < rank; ++j)
+          if (size_of(a_[i][j]) > size_of(a_[p][q])) {
+            p = i;
+            q = j;
+          }
+      std::swap(a_[k], a_[p]);
+      std::swap(row_[k], row_[p]);
+      for (std::size_t i = 0; i < rank; ++i) std::swap(a_[i][k], a_[i][q]);
+      std::swap(column_[k], column_[q]);
+      if (!(size_of(a_[k][k]) > 0.0)) {
+        singular_ = true;
+        return;
+      }
+      const S pivot = inverse(a_[k][k]);
+      for (std::size_t i = k + 1; i < rank; ++i) {
+        a_[i][k] = a_[i][k] * pivot;
+        for (std::size_t j = k + 1; j < rank; ++j) a_[i][j] -= a_[i][k] * a_[k][j];
+      }
+    }
+  }
+
+  /// A pivot is exactly zero: no solve.
+  [[nodiscard]] bool singular() const { return singular_; }
+
+  /// tr(G^-1 B)
+  [[nodiscard]] S trace_of_solution(const SmallMatrix<S>& b) const {
+    S trace{};
+    for (std::size_t c = 0; c < rank_; ++c) {
+      SmallVector<S> x{};
+      for (std::size_t i = 0; i < rank_; ++i) {
+        x[i] = b[row_[i]][c];
+        for (std::size_t j = 0; j < i; ++j) x[i] -= a_[i][j] * x[j];
+      }
+      for (std::size_t i = rank_; i-- > 0;) {
+        for (std::size_t j = i + 1; j < rank_; ++j) x[i] -= a_[i][j] * x[j];
+        x[i] = x[i] * inverse(a_[i][i]);
+        if (column_[i] == c) trace += x[i];
+      }
+    }
+    return trace;
+  }
+
+  /// G^-1 b
+  [[nodiscard]] SmallVector<S> solve(const SmallVector<S>& b) const {
+    SmallVector<S> x{}, result{};
+    for (std::size_t i = 0; i < rank_; ++i) {
+      x[i] = b[row_[i]];
+      for (std::size_t j = 0; j < i; ++j) x[i] -= a_[i][j] * x[j];
+    }
+    for (std::size_t i = rank_; i-- > 0;) {
+      for (std::size_t j = i + 1; j < rank_; ++j) x[i] -= a_[i][j] * x[j];
+      x[i] = x[i] * inverse(a_[i][i]);
+      result[column_[i]] = x[i];
+    }
+    return result;
+  }
+
+  /// G^-T b
+  [[nodiscard]] SmallVector<S> solve_transposed(const SmallVector<S>& b) const {
+    SmallVector<S> x{}, result{};
+    for (std::size_t i = 0; i < rank_; ++i) {
+      x[i] = b[column_[i]];
+      for (std::size_t j = 0; j < i; ++j) x[i] -= a_[j][i] * x[j];
+      x[i] = x[i] * inverse(a_[i][i]);
+    }
+    for (std::size_t i = rank_; i-- > 0;) {
+      for (std::size_t j = i + 1; j < rank_; ++j) x[i] -= a_[j][i] * x[j];
+      result[row_[i]] = x[i];
+    }
+    return result;
+  }
+
+  /// c with G c = 0 and d with d^T G = 0, taking the last pivot for zero.
+  void null_vectors(SmallVector<S>& c, SmallVector<S>& d) const {
+    SmallVector<S> x{}, w{};
+    const std::size_t last = rank_ - 1;
+    x[last] = w[last] = S(1.0);
+    for (std::size_t i = last; i-- > 0;) {
+      S sum{}, left{};
+      for (std::size_t j = i + 1; j < rank_; ++j) {
+        sum += a_[i][j] * x[j];
+        left += a_[j][i] * w[j];
+      }
+      x[i] = -(sum * inverse(a_[i][i]));
+      w[i] = -left;
+    }
+    for (std::size_t i = 0; i < rank_; ++i) {
+      c[column_[i]] = x[i];
+      d[row_[i]] = w[i];
+    }
+  }
+
+ private:
+  std::size_t rank_;
+  SmallMatrix<S> a_;
+  std::array<std::size_t, most_rank> row_{}, column_{};
+  bool singular_ = false;
+};
+
+}  // namespace signorini

@@ -1,0 +1,149 @@
+// spectrum.hpp: eigenvalues and eigenvectors of a diagonal plus a few springs.
+//
+//   A = D + U V^T,   det( 1 + V^T (D - l)^-1 U ) = 0
+//   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1,   (1 + V^T (D - l)^-1 U) c = 0, d
+//   likewise
+//
+// D: squares of the open modes' frequencies; U, V: what the springs of closed contacts make of them, not
+// symmetric where a contact slips. All roots are found together (Ehrlich, Aberth). A root is a pole and an
+// offset, so that D_i - l keeps its digits however close they are, and vectors are never stored: they are
+// Cauchy vectors, and products with them are sums over 1 / (D_i - l_k), n^2 operations. Equal poles are
+// parted, and rows that are zero filled, by far less than their rounding, so that every root is simple.
+// Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/exact/modal/small_lu.hpp"
+
+namespace signorini {
+
+/// D, ascending, as a sum of two numbers of which the second parts what is equal.
+struct Poles {
+  explicit Poles(const Eigen::VectorXd& values);
+  Poles() = default;
+  std::vector<double> base, tiny;
+  [[nodiscard]] std::size_t size() const { return base.size(); }
+  /// D_a - D_b
+  [[nodiscard]] double between(std::size_t a, std::size_t b) const {
+    return (base[a] - base[b]) + (tiny[a] - tiny[b]);
+  }
+};
+
+/// Eigenvalues of one kind: real ones, or those of conjugate pairs that lie above the real axis.
+template <class S>
+struct Roots {
+  std::vector<std::size_t> home;  ///< the pole
+  std::vector<S> offset;          ///< from it
+  std::vector<S> value;
+  std::vector<S> right, left;  ///< c and d, `rank` numbers a root; |x| = 1, y^T x = 1
+  [[nodiscard]] std::size_t size() const { return home.size(); }
+};
+
+/// Amplitudes of all modes of a spectrum; a pair's stands for its conjugate's too.
+struct Amplitudes {
+  std::vector<double> real;
+  std::vector<Complex> pair;
+};
+
+class Spectrum {
+ public:
+  /// U, V: n x rank, rank <= most_rank. `symmetric`: V is U but for positive factors of its columns, so that
+  /// all roots are real.
+  Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric);
+
+  /// Why the modes cannot be used; empty: they can.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  /// Eigenvalues in the order of amplitudes: by magnitude.
+  [[nodiscard]] const std::vector<double>& real() const { return values_; }
+  [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_.value; }
+  /// Greatest |x| |y|, and greatest |X Y q - q| that was found for a q of entries within 1.
+  [[nodiscard]] double condition() const { return condition_; }
+  [[nodiscard]] double round_trip() const { return round_trip_; }
+  /// Rounds of the search.
+  [[nodiscard]] int sweeps() const { return sweeps_; }
+
+  /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
+  void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { project(q, false, z); }
+  void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
+  /// c and h = U^T x of each mode, `rank()` numbers each, so that of two modes
+  ///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
+  void products(std::vector<double>& c, std::vector<double>& h, std::vector<Complex>& c_pair,
+                std::vector<Complex>& h_pair) const;
+  /// x_k^T x_l of real modes, k != l, with the numbers of `products`; x_k^T x_k of a real mode and of a
+  /// pair's.
+  [[nodiscard]] double product(std::size_t k, std::size_t l, const std::vector<double>& c,
+                               const std::vector<double>& h) const;
+  [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
+  [[nodiscard]] Complex square_of_pair(std::size_t k) const { return pair_squares_[k]; }
+  [[nodiscard]] std::size_t rank() const { return rank_; }
+  /// q := X z, for several z at once.
+  void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
+
+ private:
+  template <class S>
+  bool search(std::vector<S>& offset);
+  template <class S>
+  void start(std::vector<S>& offset) const;
+  /// Newton's steps on the characteristic polynomial, and on it with the other roots divided out.
+  template <class S>
+  struct Correction {
+    S alone, among;
+  };
+  template <class S>
+  Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
+  template <class S>
+  struct Local;
+  template <class S>
+  void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
+  template <class S>
+  void settle_home(std::size_t k, std::vector<S>& offset);
+  template <class S>
+  void find_vectors(Roots<S>& roots);
+  template <class S>
+  void project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const;
+  void project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;
+  void turn_equal_modes(Eigen::MatrixXd& u, Eigen::MatrixXd& v);
+  void take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v);
+  void order_values();
+  void find_squares();
+  void part_close_roots();
+  template <class S>
+  [[nodiscard]] S moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const;
+  [[nodiscard]] double moved_by_all(std::size_t j, const std::vector<double>& real,
+                                    const std::vector<Complex>& pair) const;
+  bool part_kinds(const std::vector<Complex>& offset);
+  void test();
+
+  std::size_t rank_;
+  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> turns_;  // of equal modes: the first one, rotation
+  std::vector<Eigen::Index> seen_, unseen_;                      // among all modes
+  Eigen::MatrixXd u_unseen_;
+  std::vector<double> unseen_poles_;
+  // Of those that are seen:
+  std::size_t n_ = 0;
+  Poles poles_;
+  Eigen::MatrixXd u_, v_;
+  std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers a pole
+  std::vector<std::size_t> home_, group_begin_, group_end_;  // groups: equal poles
+  Roots<double> real_;
+  Roots<Complex> pairs_;
+  std::vector<std::size_t> order_;  // of real_ and, after its end, of unseen_
+  std::vector<double> values_;
+  struct Close {
+    std::size_t k, l;
+    double product;  // y_k^T x_l, of rounding alone
+  };
+  std::vector<Close> close_;
+  std::vector<double> squares_;
+  std::vector<Complex> pair_squares_;
+  std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
+  std::string failure_;
+  double condition_ = 1.0, round_trip_ = 0.0;
+  int sweeps_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,140 @@
+// Eigenvalues and vectors of a diagonal plus a few springs, against dense matrices.
+#include "engine/exact/modal/spectrum.hpp"
+
+#include <doctest/doctest.h>
+
+#include <complex>
+#include <random>
+
+#include "base/eigen_dense.hpp"
+
+using namespace signorini;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+struct Case {
+  VectorXd d;
+  MatrixXd u, v;
+  bool symmetric;
+
+  [[nodiscard]] MatrixXd dense() const { return MatrixXd(d.asDiagonal()) + u * v.transpose(); }
+};
+
+/// Two zero frequencies, two equal ones, springs that see neither all of them nor mode 9.
+Case random_case(std::mt19937_64& random, int n, int rank, bool symmetric) {
+  std::normal_distribution<double> normal;
+  Case c;
+  c.symmetric = symmetric;
+  c.d =
+      VectorXd::NullaryExpr(n, [](Eigen::Index i) { return i < 2 ? 0.0 : 10.0 * std::pow(double(i), 3.0); });
+  if (n > 10) c.d[7] = c.d[6];
+  c.v = MatrixXd::NullaryExpr(n, rank, [&] { return 30.0 * normal(random); });
+  if (n > 10) c.v.row(9).setZero();
+  c.u = c.v;
+  if (!symmetric) c.u += MatrixXd::NullaryExpr(n, rank, [&] { return 15.0 * normal(random); });
+  return c;
+}
+
+std::vector<std::complex<double>> values_of(const Spectrum& spectrum) {
+  std::vector<std::complex<double>> all(spectrum.real().begin(), spectrum.real().end());
+  for (const Complex l : spectrum.pairs()) {
+    all.emplace_back(l.re, l.im);
+    all.emplace_back(l.re, -l.im);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/modal");
+
+TEST_CASE(
+    "spectrum: eigenvalues are those of the dense matrix, complex pairs, unseen and equal modes included") {
+  std::mt19937_64 random(1);
+  int pairs = 0;
+  for (const int n : {5, 20, 51})
+    for (const int rank : {1, 2, 3, 4})
+      for (const bool symmetric : {true, false})
+        for (int i = 0; i < 5; ++i) {
+          CAPTURE(n);
+          CAPTURE(rank);
+          CAPTURE(symmetric);
+          const Case c = random_case(random, n, rank, symmetric);
+          const Poles poles(c.d);
+          const Spectrum spectrum(poles, c.u, c.v, symmetric);
+          REQUIRE(spectrum.failure() == "");
+          pairs += static_cast<int>(spectrum.pairs().size());
+          const std::vector<std::complex<double>> found = values_of(spectrum);
+          REQUIRE(found.size() == static_cast<std::size_t>(n));
+          const MatrixXd a = c.dense();
+          for (const std::complex<double> l : general_eigenvalues(a)) {
+            double nearest = 1e300;
+            for (const std::complex<double> mine : found) nearest = std::min(nearest, std::abs(mine - l));
+            // The dense matrix is perturbed by rounding of its greatest entries.
+            CHECK(nearest < 1e-13 * spectrum.condition() * a.norm());
+          }
+          CHECK(spectrum.round_trip() < 1e-9);
+        }
+  CHECK(pairs > 10);
+}
+
+TEST_CASE("spectrum: X L Y is the matrix, rows show what the modes show") {
+  std::mt19937_64 random(2);
+  for (const bool symmetric : {true, false}) {
+    const Case c = random_case(random, 30, 3, symmetric);
+    const Poles poles(c.d);
+    const Spectrum spectrum(poles, c.u, c.v, symmetric);
+    REQUIRE(spectrum.failure() == "");
+    const VectorXd q = VectorXd::Random(30), form = VectorXd::Random(30);
+    Amplitudes z, row;
+    spectrum.to_modes(q, z);
+    spectrum.of_form(form, row);
+    double shown = 0.0;
+    for (std::size_t k = 0; k < z.real.size(); ++k) shown += row.real[k] * z.real[k];
+    for (std::size_t k = 0; k < z.pair.size(); ++k) shown += whole(row.pair[k] * z.pair[k]);
+    CHECK(shown == doctest::Approx(form.dot(q)).epsilon(1e-10));
+    for (std::size_t k = 0; k < z.real.size(); ++k) z.real[k] *= spectrum.real()[k];
+    for (std::size_t k = 0; k < z.pair.size(); ++k) z.pair[k] *= spectrum.pairs()[k];
+    VectorXd product;
+    spectrum.from_modes({&z}, {&product});
+    CHECK((product - c.dense() * q).norm() < 1e-11 * c.dense().norm());
+  }
+}
+
+TEST_CASE("spectrum: without springs every mode is its own") {
+  const VectorXd d = VectorXd::LinSpaced(4, 0.0, 3.0), q = VectorXd::LinSpaced(4, 1.0, 2.0);
+  const Poles poles(d);
+  const Spectrum spectrum(poles, MatrixXd(4, 0), MatrixXd(4, 0), true);
+  Amplitudes z;
+  spectrum.to_modes(q, z);
+  CHECK(z.real == std::vector<double>(q.data(), q.data() + 4));
+  CHECK(spectrum.real() == std::vector<double>(d.data(), d.data() + 4));
+}
+
+TEST_CASE("spectrum: products of vectors from c and h are those of the vectors") {
+  std::mt19937_64 random(3);
+  const Case c = random_case(random, 12, 2, false);
+  const Poles poles(c.d);
+  const Spectrum spectrum(poles, c.u, c.v, false);
+  REQUIRE(spectrum.failure() == "");
+  std::vector<double> small, sums;
+  std::vector<Complex> small_pair, sums_pair;
+  spectrum.products(small, sums, small_pair, sums_pair);
+  const std::size_t count = spectrum.real().size();
+  std::vector<VectorXd> x(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    Amplitudes one;
+    one.real.assign(count, 0.0);
+    one.pair.assign(spectrum.pairs().size(), Complex());
+    one.real[k] = 1.0;
+    spectrum.from_modes({&one}, {&x[k]});
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    CHECK(spectrum.square(k) == doctest::Approx(x[k].squaredNorm()).epsilon(1e-12));
+    for (std::size_t l = 0; l < k; ++l)
+      CHECK(std::abs(spectrum.product(k, l, small, sums) - x[k].dot(x[l])) <
+            1e-9 * x[k].norm() * x[l].norm());
+  }
+}

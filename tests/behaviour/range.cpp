@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "engines.hpp"
+#include "signorini/engine.hpp"
 #include "signorini/simulate.hpp"
 #include "study/check/check.hpp"
 
@@ -24,7 +24,8 @@ Result run(const std::string& name, const std::string& engine, const std::string
 TEST_SUITE_BEGIN("behaviour/range");
 
 TEST_CASE("a motion that grows beyond the range of numbers ends the run where it does") {
-  for (const std::string& engine : tests::all_engines) {
+  for (const EngineName& name : all_engines) {
+    const std::string engine(name.name);
     CAPTURE(engine);
     const Outcome outcome = run("growth", engine, "1e-2").report.outcome;
     CHECK(outcome.kind == Outcome::Kind::stopped);
@@ -35,14 +36,16 @@ TEST_CASE("a motion that grows beyond the range of numbers ends the run where it
 }
 
 TEST_CASE("a load of 6e300 newtons a second for a hundred seconds") {
-  for (const std::string& engine : tests::all_engines) {
+  for (const EngineName& name : all_engines) {
+    const std::string engine(name.name);
     CAPTURE(engine);
     CHECK(run("hang-slider", engine, "1e-2").report.outcome.kind == Outcome::Kind::done);
   }
 }
 
 TEST_CASE("times below what engines can divide by: nothing moves in them") {
-  for (const std::string& engine : tests::all_engines) {
+  for (const EngineName& name : all_engines) {
+    const std::string engine(name.name);
     CAPTURE(engine);
     const Result shortest = run("tiny-times", engine, "1e-157");
     CHECK(shortest.report.outcome.kind == Outcome::Kind::done);

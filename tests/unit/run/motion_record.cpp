@@ -15,9 +15,9 @@ namespace {
 class Keeper : public Result {
  public:
   [[nodiscard]] bool wants_motion() const override { return true; }
-  void motion(int contact, const std::vector<MotionRow>& rows) override {
+  void motion(int contact, const std::vector<MotionRow>& track) override {
     CHECK(contact == static_cast<int>(tracks.size()));
-    tracks.push_back(rows);
+    tracks.push_back(track);
   }
   std::vector<std::vector<MotionRow>> tracks;
 };

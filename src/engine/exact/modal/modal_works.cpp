@@ -26,10 +26,15 @@ template <class S>
 Integrals<S> integrals(const Ends<S>& k, const Ends<S>& l, double alpha) {
   const S yy = k.y1 * l.y1 - k.y0 * l.y0, rr = k.r1 * l.r1 - k.r0 * l.r0;
   const S yr = k.y1 * l.r1 - k.y0 * l.r0, ry = k.r1 * l.y1 - k.r0 * l.y0;
-  const S difference = l.l - k.l, sum = k.l + l.l;
-  const S e = inverse(difference * difference + sum * (2.0 * alpha * alpha));
   Integrals<S> result;
   result.changed = yy;
+  if (!(size_of(k.l) + size_of(l.l) > 0.0)) {  // both only die out, y = -y'/alpha
+    result.rates = rr * (-0.5 / alpha);
+    result.mixed = rr * (0.5 / (alpha * alpha));
+    return result;
+  }
+  const S difference = l.l - k.l, sum = k.l + l.l;
+  const S e = inverse(difference * difference + sum * (2.0 * alpha * alpha));
   // c1 = l_k m, c2 = -l_l m, m = -difference e, b = -alpha sum e, a = l_k b + alpha c1
   const S m = -(difference * e), b = sum * e * (-alpha);
   result.rates = (k.l * b + k.l * m * alpha) * yy + b * rr + k.l * m * yr - l.l * m * ry;

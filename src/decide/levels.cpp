@@ -78,6 +78,92 @@ Noise pass_on(const CoulombProblem& p, const CoulombSolution& s, const Eigen::Ve
   return result;
 }
 
+/// What a solution says within its noise.
+struct Reading {
+  const CoulombProblem& problem;
+  const CoulombSolution& solution;
+  Noise passed;
+  std::size_t order;
+
+  [[nodiscard]] bool is_zero_response(Eigen::Index i) const {
+    return std::abs(solution.response[i]) <= noise_of_solution * passed.response[i];
+  }
+  [[nodiscard]] double zero_force(Eigen::Index i) const { return noise_of_solution * passed.force[i]; }
+};
+
+enum class Verdict : unsigned char { open, limit, decided };  // open: an open question
+
+void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
+  state.state = slip_along(sign);
+  guards.sliding = {order + 1, true};
+}
+
+/// A contact whose friction is at its limit: back into the cone, slip, or still undecided.
+Verdict leave_limit(const Reading& r, std::size_t i, ContactState& state, KnownGuards& guards) {
+  const int sign = r.problem.items[i].sign;
+  const auto t = static_cast<Eigen::Index>(2 * i) + 1;
+  if (sign * r.solution.force[t] > r.zero_force(t)) {
+    state.state = State::stick;
+    (sign > 0 ? guards.slip_plus : guards.slip_minus) = {r.order, true};
+    return Verdict::decided;
+  }
+  if (r.is_zero_response(t)) return Verdict::open;
+  start_slip(sign, r.order, state, guards);
+  return Verdict::decided;
+}
+
+/// Friction of a contact that presses and has not slipped before. Inside its cone it answers to rest,
+/// whatever rounding has left of that.
+Verdict settle_friction(const Reading& r, std::size_t i, Participant& who, ContactState& state,
+                        KnownGuards& guards) {
+  const CoulombItem& item = r.problem.items[i];
+  const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+  const double l = item.kind == Kind::pressed ? item.pressing : r.solution.force[n];
+  const double k = r.solution.force[t];
+  const double f = r.solution.kinetic[i] ? item.kinetic_friction : item.static_friction;
+  state.state = State::stick;
+  if (f * l - std::abs(k) > r.zero_force(t) + f * r.zero_force(n)) return Verdict::decided;
+  if (!r.is_zero_response(t)) {
+    start_slip(sign_of(r.solution.response[t]), r.order, state, guards);
+    return Verdict::decided;
+  }
+  if (item.static_friction != item.kinetic_friction || std::abs(k) <= r.zero_force(t))
+    return Verdict::decided;
+  // At its limit: with one coefficient the next derivative decides; with two it sticks until the
+  // guard of the static limit falls.
+  who.sign = -sign_of(k);
+  state.state = slip_along(who.sign);
+  return Verdict::limit;
+}
+
+/// A force that is not zero answers to a response of zero, whatever rounding has left of that.
+Verdict settle_contact(const Reading& r, std::size_t i, Participant& who, ContactState& state,
+                       KnownGuards& guards) {
+  const CoulombItem& item = r.problem.items[i];
+  const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+  if (item.kind != Kind::pressed && !(r.solution.force[n] > r.zero_force(n))) {
+    if (!(r.solution.force[n] > 0.0) && !r.is_zero_response(n)) {
+      guards.closing = {r.order + 2, true};
+      return Verdict::decided;
+    }
+    if (item.kind == Kind::frictional && !r.is_zero_response(t)) {
+      who.slipping = true;
+      who.sign = sign_of(r.solution.response[t]);
+    }
+    return Verdict::open;
+  }
+  if (item.kind != Kind::pressed) guards.separation = {r.order, true};
+  if (item.kind == Kind::normal) {
+    state.state = State::closed;
+    return Verdict::decided;
+  }
+  if (item.kind == Kind::sliding) {
+    state.state = slip_along(item.sign);
+    return Verdict::decided;
+  }
+  return settle_friction(r, i, who, state, guards);
+}
+
 }  // namespace
 
 Refusal dependent_rows(std::vector<std::size_t> contacts) {
@@ -165,78 +251,21 @@ bool Levels::pose(const Instant& instant, const Forcing& forcing, std::size_t or
   return true;
 }
 
-/// Takes over what the solution decides. True: it decides somebody. A force that is not zero answers to a
-/// response of zero, whatever rounding has left of that, and friction inside its cone to rest.
+/// Takes over what the solution decides. True: it decides somebody.
 bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
                     Mode& mode, std::vector<KnownGuards>& known) const {
-  const Noise passed = pass_on(level.problem, solution, level.noise);
-  const auto is_zero_response = [&](Eigen::Index i) {
-    return std::abs(solution.response[i]) <= noise_of_solution * passed.response[i];
-  };
-  const auto zero_force = [&](Eigen::Index i) { return noise_of_solution * passed.force[i]; };
-  const Known slides{level.order + 1, true}, lifts{level.order + 2, true}, at_order{level.order, true};
+  const Reading reading{level.problem, solution, pass_on(level.problem, solution, level.noise), level.order};
   bool decides = false;
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     Entry& entry = entries[level.entries[i]];
-    const CoulombItem& item = level.problem.items[i];
     ContactState& state = mode[entry.who.contact];
     KnownGuards& guards = known[entry.who.contact];
-    const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
-    const double rt = solution.response[t];
-    const auto slip = [&](int sign) {
-      state.state = slip_along(sign);
-      guards.sliding = slides;
-    };
-    if (item.kind == Kind::limit) {
-      if (item.sign * solution.force[t] > zero_force(t)) {
-        state.state = State::stick;
-        (item.sign > 0 ? guards.slip_plus : guards.slip_minus) = at_order;
-      } else if (is_zero_response(t)) {
-        continue;  // still at its limit
-      } else {
-        slip(item.sign);
-      }
-      entry.standing = Standing::decided;
-      decides = true;
-      continue;
-    }
-    if (item.kind != Kind::pressed && !(solution.force[n] > zero_force(n))) {
-      if (!(solution.force[n] > 0.0) && !is_zero_response(n)) {
-        entry.standing = Standing::decided;  // open
-        guards.closing = lifts;
-        decides = true;
-      } else if (item.kind == Kind::frictional && !is_zero_response(t)) {
-        entry.who.slipping = true;
-        entry.who.sign = sign_of(rt);
-      }
-      continue;
-    }
-    entry.standing = Standing::decided;
+    const Verdict verdict = level.problem.items[i].kind == Kind::limit
+                                ? leave_limit(reading, i, state, guards)
+                                : settle_contact(reading, i, entry.who, state, guards);
+    if (verdict == Verdict::open) continue;
+    entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
     decides = true;
-    if (item.kind != Kind::pressed) guards.separation = at_order;
-    if (item.kind == Kind::normal) {
-      state.state = State::closed;
-      continue;
-    }
-    if (item.kind == Kind::sliding) {
-      state.state = slip_along(item.sign);
-      continue;
-    }
-    const double l = item.kind == Kind::pressed ? item.pressing : solution.force[n];
-    const double k = solution.force[t];
-    const double f = solution.kinetic[i] ? item.kinetic_friction : item.static_friction;
-    const bool inside = f * l - std::abs(k) > zero_force(t) + f * zero_force(n);
-    state.state = State::stick;
-    if (inside) continue;
-    if (!is_zero_response(t)) {
-      slip(sign_of(rt));
-    } else if (item.static_friction == item.kinetic_friction && std::abs(k) > zero_force(t)) {
-      // At its limit: with one coefficient the next derivative decides; with two it sticks until the
-      // guard of the static limit falls.
-      entry.standing = Standing::limit;
-      entry.who.sign = -sign_of(k);
-      state.state = slip_along(entry.who.sign);
-    }
   }
   return decides;
 }

@@ -52,6 +52,7 @@ TEST_CASE("times below what engines can divide by: nothing moves in them") {
     CHECK(shortest.report.outcome.t == 1e-155);
     CHECK(shortest.events.empty());
     CHECK(shortest.rows.back().u[0] == 0.0);
+    if (name.engine == Engine::friction_iteration) continue;  // it takes no rigid contacts
     // The load that begins at the least positive number acts from then on.
     const Result rocking = run("denormal-start", engine, "1e-4");
     CHECK(rocking.report.outcome.kind == Outcome::Kind::done);

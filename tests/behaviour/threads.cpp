@@ -18,7 +18,7 @@ struct Job {
 
 std::vector<Event> events_of(const Job& job) {
   const Scene scene = read_scene(std::string(SIGNORINI_TEST_DATA) + "/cases/" + job.scene + ".toml",
-                                 {{"run.engine", job.engine}, {"run.t_end", "2.0"}});
+                                 {{"run.engine", job.engine}});
   return simulate(build_model(scene), scene.run).events;
 }
 

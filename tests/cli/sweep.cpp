@@ -270,7 +270,7 @@ TEST_CASE("cli sweep: over two keys of numbers it is drawn as maps") {
               .code == 0);
   const std::string cells = shell.read("belt-sweep/plots/map.csv");
   CHECK(std::count(cells.begin(), cells.end(), '\n') == 10);
-  CHECK(has(cells, "\n1.05,1.35,"));
+  CHECK(has(cells, "\n1.35,1.75,"));
   CHECK(has(shell.read("belt-sweep/plots/motion.gp"), "fillcolor palette"));
   if (on_path("gnuplot")) CHECK(shell.read("belt-sweep/plots/forces.png").size() > 2000);
 }

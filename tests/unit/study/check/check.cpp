@@ -161,6 +161,7 @@ TEST_SUITE("unit/study/check/check") {
 
   TEST_CASE("nodes without anything and sections without members are pointed out") {
     Scene s = pipeline();
+    s.damping.alpha_over_omega1 = 0.0;  // it drags free motions, which is said too
     CHECK(checked(s).warnings.empty());
     s.nodes.push_back({"E", 1.0, 1.0, {}});
     s.sections.push_back({"old", 1.0, 1.0, 1.0});

@@ -27,7 +27,9 @@ TEST_SUITE("behaviour/awkward") {
     for (const Event& event : result.events)
       if (event.type == EventType::slip) slips.push_back(event.t);
     REQUIRE(slips.size() >= 3);
-    CHECK(std::abs(slips[0] - 7.5) < 1e-6);
+    // It slips back until sin t = 0.2, then rides with the belt until the spring holds the static limit.
+    const double first = std::asin(0.2) + (0.5 + std::sqrt(0.96)) / 0.2;
+    CHECK(std::abs(slips[0] - first) < 1e-6);
     const double period = std::numbers::pi + 2.0 * std::atan(0.4) + 5.0;
     for (std::size_t i = 1; i < slips.size(); ++i) CHECK(std::abs(slips[i] - slips[i - 1] - period) < 1e-6);
   }

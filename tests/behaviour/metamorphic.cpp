@@ -44,7 +44,7 @@ void check_ways(const Scene& scene, std::uint64_t seed, Engine engine, Sums& sum
 }
 
 Scene model(const std::string& name) {
-  return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", {{"run.output_dt", "0.1"}});
+  return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", {{"run.output_dt", "0.1"}, {"run.flow", "taylor"}});
 }
 
 }  // namespace

@@ -99,11 +99,10 @@ TEST_CASE("a jump of the surface beside a tangential dashpot below the static li
       CHECK(std::abs(changes[i].t - times[i]) < 1e-8);
       CHECK(changes[i].to == states[i]);
     }
-    // The spring beside the dashpot is the contact's own.
+    // The spring beside the dashpot is the contact's own: between f N / kt of slip and of sticking.
     CHECK(r.report.audit.energy.value < 1e-7 * r.report.audit.energy_scale);
-    const double u = r.rows.back().u[0];
-    CHECK(r.report.audit.final.elastic == doctest::Approx(0.5 * 400.0 * u * u).epsilon(1e-6));
-    CHECK(r.report.audit.final.contact > 0.0);
+    CHECK(r.report.audit.final.contact > 3.0 * 3.0 / (2.0 * 8000.0));
+    CHECK(r.report.audit.final.contact < 4.0 * 4.0 / (2.0 * 8000.0));
   }
 }
 

@@ -97,6 +97,8 @@ struct Counters {
   long error_test_failures = 0, convergence_failures = 0, guard_evaluations = 0, restarts = 0;
   long rolled_back = 0;  ///< events that lay inside a step and were found by the polynomial check
   long time_events = 0;
+  // exact in modes: combinations of contact states, proven stretches, segments left to the Taylor series
+  long contact_states = 0, proof_steps = 0, fallbacks = 0;
   std::map<int, long> steps_by_order;
 };
 
@@ -120,6 +122,7 @@ struct Method {
   double accuracy = 0.0;        ///< value of its accuracy key (engine.hpp): rtol, dt, or 0
   int max_order = 5;
   std::string max_order_reason;
+  std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and why
 };
 
 /// Everything about a run but its rows.

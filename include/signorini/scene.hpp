@@ -58,6 +58,8 @@ struct Direction {
 enum class Refine { root, linear };
 /// newmark: doubling looks for the step at which doubling it changes the result by less than the tolerance.
 enum class StepControl { fixed, doubling };
+/// exact: what the motion between events is computed with.
+enum class Flow { automatic, modal, taylor };
 
 /// Absolute tolerances; where absent, rtol times a scale of the scene.
 struct Tolerances {
@@ -77,6 +79,7 @@ struct RunSpec {
   std::optional<double> dt;      ///< newmark, friction-iteration: the step; doubling: the greatest one
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
+  Flow flow = Flow::automatic;
   double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
   SourcePlace place;

@@ -139,6 +139,10 @@ Json settings_json(const RunSpec& run, const Tolerance& tolerance, const Method&
       {"max_iterations", run.max_iterations}};
   for (const auto& [key, value] : own)
     if (has_key(engine, key)) json[key] = value;
+  if (!method.flow.empty()) {
+    json["flow"] = method.flow;
+    json["flow_reason"] = method.flow_reason;
+  }
   return json;
 }
 
@@ -157,7 +161,10 @@ Json counter_json(const Counters& c) {
           {"guard_evaluations", c.guard_evaluations},
           {"restarts", c.restarts},
           {"rolled_back", c.rolled_back},
-          {"time_events", c.time_events}};
+          {"time_events", c.time_events},
+          {"contact_states", c.contact_states},
+          {"proof_steps", c.proof_steps},
+          {"fallbacks", c.fallbacks}};
 }
 
 Json extreme_json(const Model& model, const Extreme& extreme, double scale) {

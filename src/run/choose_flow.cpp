@@ -1,13 +1,15 @@
 #include "run/choose_flow.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/exact/modal/modal_system.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr int fewest_unknowns = 24;  // below, the series is as fast
 constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
 
 bool stands_still(const Piece& piece) {
@@ -21,12 +23,12 @@ bool stands_still(const History& history) {
                      [](const Piece& piece) { return stands_still(piece); });
 }
 
-/// Why auto prefers the series; empty: it does not.
-std::string doubt(const Model& model) {
-  if (model.size() < fewest_unknowns) return "few unknowns";
+/// What modes cannot follow; empty: they can follow all of it.
+std::string objection(const Model& model) {
+  if (std::string why = modal_refusal(model); !why.empty()) return why;
   if (model.size() > most_unknowns) return "more unknowns than modes are kept of";
   for (const Load& load : model.loads)
-    if (!stands_still(load.history)) return "loads that change";
+    if (!stands_still(load.history)) return "loads that change other than in jumps";
   for (const Contact& contact : model.contacts)
     if (!stands_still(contact.normal_force) || !stands_still(contact.surface_motion))
       return "surfaces that move";
@@ -35,9 +37,13 @@ std::string doubt(const Model& model) {
 
 }  // namespace
 
-std::string objection_to_modes(const Model& model) {
-  std::string why = modal_refusal(model);
-  return why.empty() ? doubt(model) : why;
+FlowChoice choose_flow(const Model& model, const RunSpec& run) {
+  if (run.flow == Flow::automatic) return {false, "auto: its forces at events are the sharpest"};
+  if (run.flow == Flow::taylor) return {false, "as given"};
+  if (const std::string why = objection(model); !why.empty())
+    throw SceneError(run.place, "run.flow",
+                     fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
+  return {true, "as given"};
 }
 
 }  // namespace signorini

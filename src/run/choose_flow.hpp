@@ -1,10 +1,10 @@
 // choose_flow.hpp: what engine `exact` computes the motion between events with.
 //
-//   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //   taylor   power series of the equations: the cost follows the highest frequency of the mesh
+//   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
-// Modes are taken where they can follow all of the scene and have been measured to be faster:
-// from 24 unknowns on, with loads and surfaces that stand still between their jumps.
+// run.flow = "auto" takes the series: at events its forces are zero to their last digits, those of the modes to
+// some 1e-12 of the greatest force, which a decision may take for a force.
 #pragma once
 
 #include <string>
@@ -13,7 +13,12 @@
 
 namespace signorini {
 
-/// Why the flow is not modal; empty: it is.
-[[nodiscard]] std::string objection_to_modes(const Model& model);
+struct FlowChoice {
+  bool modal = false;
+  std::string reason;  ///< "as given" or "auto: ..."
+};
+
+/// Errors: SceneError where run.flow = "modal" and the scene has what modes cannot follow.
+[[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);
 
 }  // namespace signorini

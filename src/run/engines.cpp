@@ -60,10 +60,14 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
 }
 
 Method closed_flow(const Model& model, const RunSpec& run) {
-  const std::string why = objection_to_modes(model);
-  return {run.engine, "", 0.0, most_levels,
-          why.empty() ? "flow in modes; where they cannot follow, Taylor series as long as rounding needs"
-                      : "Taylor series as long as rounding needs; rtol has no part in it"};
+  FlowChoice flow = choose_flow(model, run);
+  return {run.engine,
+          "",
+          0.0,
+          most_levels,
+          "Taylor series as long as rounding needs; rtol has no part in it",
+          flow.modal ? "modal" : "taylor",
+          std::move(flow.reason)};
 }
 
 Method bdf(const Model& model, const RunSpec& run) {
@@ -79,7 +83,7 @@ Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
 }
 
 std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
-  if (objection_to_modes(p.model).empty())
+  if (choose_flow(p.model, p.run).modal)
     return std::make_unique<ModalEngine>(p.model, p.structure, p.systems, p.run.t_end);
   return std::make_unique<ExactEngine>(p.model, p.structure, p.systems, p.run.t_end);
 }

@@ -51,6 +51,7 @@ constexpr Key table_of_keys[] = {
     {"run", "dt", positive, "time", "", "", "Time step of engines whose steps have a given length (newmark, friction-iteration), which need it; with step = \"doubling\" the greatest one."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},
+    {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact, the motion between events: \"taylor\" as power series of the equations; \"modal\" in the modes of each contact state, at a cost that follows the motion and not the mesh, where they can follow all of the scene; auto: taylor."},
     {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: the part of the change of a limiting force that an iteration takes, at most 1."},
     {"run", "max_iterations", count, "", "100", "", "Engine friction-iteration: iterations of a step before the run stops."},
 

@@ -101,6 +101,8 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   run.t_end = table.number("t_end");
   read_initial(table, scene);
   run.engine = engine_called(table.choice("engine")).value_or(Engine::automatic);
+  const std::string flow = table.choice("flow");
+  run.flow = flow == "modal" ? Flow::modal : flow == "taylor" ? Flow::taylor : Flow::automatic;
   read_tolerances(table, run);
   read_output(table, run);
   read_frames(table, run, scene.matrices.has_value());

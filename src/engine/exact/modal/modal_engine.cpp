@@ -230,7 +230,9 @@ void ModalEngine::count() {
   counters = taylor_.counters;
   counters.steps += steps_;
   counters.restarts += restarts_;
-  counters.guard_evaluations += proofs_;
+  counters.contact_states = static_cast<long>(system_.states());
+  counters.proof_steps = proofs_;
+  counters.fallbacks = fallbacks_;
   warnings.insert(warnings.end(), taylor_.warnings.begin(), taylor_.warnings.end());
 }
 

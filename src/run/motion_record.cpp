@@ -34,8 +34,12 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k)
     tracks_[k].push_back({t, auditor.sample(k, forcing, t, mode[k], point)});
-  while (tracks_[0].size() > most_rows_) {
-    width_ = std::max(2.0 * width_, t_end_ / static_cast<double>(most_rows_));
+  if (tracks_[0].size() <= most_rows_) return;
+  // What has come since the last time may fit into bins as wide as they are.
+  if (width_ == 0.0) width_ = t_end_ / static_cast<double>(most_rows_);
+  for (std::vector<MotionRow>& rows : tracks_) thin(rows);
+  while (tracks_[0].size() > most_rows_ / 2) {
+    width_ *= 2.0;
     for (std::vector<MotionRow>& rows : tracks_) thin(rows);
   }
 }

@@ -2,7 +2,7 @@
 //
 //   rows: both sides of every instant, turning points, ends of steps, and inside of steps as many as a line
 //   needs. Of each bin of width w they are thinned to the first, the last, and those with the least and the
-//   greatest N, T, gap and ut;   w = 0 at first, then doubled as often as there would be too many
+//   greatest N, T, gap and ut;   w = 0 at first, then doubled as often as bins leave too many
 //
 // So a short run is drawn in full, and of a long one what a picture can show of it, every peak included.
 #pragma once

@@ -85,4 +85,15 @@ TEST_CASE("the record does not depend on the output times, and is bounded") {
   CHECK(longer.tracks[0].back().t == 5000.0);
 }
 
+TEST_CASE("a run of many steps is kept evenly: no part of it is thinned more than the rest") {
+  const Keeper run = kept(SIGNORINI_MODELS "/oscillator.toml",
+                          {{"run.engine", "newmark"}, {"run.dt", "1e-4"}, {"run.output_dt", "12.0"}});
+  CHECK(run.report.counters.steps > 100000);
+  const std::vector<MotionRow>& rows = run.tracks[0];
+  CHECK(rows.size() <= 8000);
+  double widest = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i) widest = std::max(widest, rows[i].t - rows[i - 1].t);
+  CHECK(widest < 12.0 / 200.0);
+}
+
 TEST_SUITE_END();

@@ -74,19 +74,18 @@ struct Contact {
   std::optional<double> tangential_stiffness;
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
-  double static_friction = 0.0, kinetic_friction = 0.0;
-  std::optional<double> stribeck_velocity;  ///< friction falls from static to kinetic with the slip rate
-  double restitution = 0.0;                 ///< rigid: Newton's coefficient
-  std::optional<double> capture_velocity;   ///< rigid: rebounds slower than this rest; absent: the engine's
-  History normal_force;                     ///< slider: compression >= 0
-  History surface_motion;                   ///< integral of the surface velocity from t = 0
+  Friction friction;
+  double restitution = 0.0;                ///< rigid: Newton's coefficient
+  std::optional<double> capture_velocity;  ///< rigid: rebounds slower than this rest; absent: the engine's
+  History normal_force;                    ///< slider: compression >= 0
+  History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
 
   [[nodiscard]] bool has_gap() const { return signorini::has_gap(law); }
   [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }
   [[nodiscard]] bool takes_impulses() const { return signorini::takes_impulses(law); }
   [[nodiscard]] bool is_pressed() const { return signorini::is_pressed(law); }
-  [[nodiscard]] bool has_friction() const { return static_friction > 0.0; }
+  [[nodiscard]] bool has_friction() const { return friction.static_ > 0.0; }
   /// Without a spring along the tangent: T may jump, and stick is a row on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
     return has_friction() && !has_spring() && !tangential_stiffness && !shear;

@@ -173,9 +173,10 @@ enum class Law { compliant, rigid, slider };
 /// N is given: the normal force of the scene.
 [[nodiscard]] constexpr bool is_pressed(Law law) { return law == Law::slider; }
 
-struct FrictionSpec {
-  double static_ = 0.0;
-  double kinetic = 0.0;
+/// Coefficients of friction, of a scene and of its contacts.
+struct Friction {
+  double static_ = 0.0;  ///< |T| <= static |N| in stick
+  double kinetic = 0.0;  ///< |T| = kinetic |N| in slip
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
 };
@@ -190,7 +191,7 @@ struct ContactSpec {
   std::optional<double> tangential_stiffness;
   double normal_damping = 0.0;      ///< dashpot beside the normal spring, >= 0
   double tangential_damping = 0.0;  ///< dashpot beside the tangential spring, >= 0
-  FrictionSpec friction;
+  Friction friction;
   HistorySpec normal_force;      ///< slider: compression, positive
   HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;

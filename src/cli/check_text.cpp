@@ -76,7 +76,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
     table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force),
-               c.has_friction() ? number(c.static_friction * std::abs(s.N)) : ""});
+               c.has_friction() ? number(c.friction.static_ * std::abs(s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n",
                      model.static_start ? "in static equilibrium" : "in the given initial state") +

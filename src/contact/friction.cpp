@@ -5,14 +5,14 @@
 namespace signorini {
 
 double sliding_friction(const Contact& contact, double along) {
-  if (!contact.stribeck_velocity) return contact.kinetic_friction;
-  return contact.kinetic_friction +
-         (contact.static_friction - contact.kinetic_friction) * std::exp(-along / *contact.stribeck_velocity);
+  if (!contact.friction.stribeck_velocity) return contact.friction.kinetic;
+  return contact.friction.kinetic + (contact.friction.static_ - contact.friction.kinetic) *
+                                        std::exp(-along / *contact.friction.stribeck_velocity);
 }
 
 double sliding_friction_slope(const Contact& contact, double along) {
-  if (!contact.stribeck_velocity) return 0.0;
-  return (contact.kinetic_friction - sliding_friction(contact, along)) / *contact.stribeck_velocity;
+  if (!contact.friction.stribeck_velocity) return 0.0;
+  return (contact.friction.kinetic - sliding_friction(contact, along)) / *contact.friction.stribeck_velocity;
 }
 
 Form sliding_row(int s, double f) {
@@ -34,8 +34,8 @@ Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) 
 
 void FrictionRecursion::begin(const Contact& contact, int s, double rate) {
   s_ = s;
-  kinetic_ = contact.kinetic_friction;
-  velocity_ = *contact.stribeck_velocity;
+  kinetic_ = contact.friction.kinetic;
+  velocity_ = *contact.friction.stribeck_velocity;
   const double along = s * rate;
   f_.assign(1, sliding_friction(contact, along));
   exponent_.assign(1, -along / velocity_);

@@ -23,7 +23,7 @@ namespace signorini {
 
 /// The coefficient depends on the slip rate: what slips is not linear.
 [[nodiscard]] inline bool friction_varies(const Contact& contact) {
-  return contact.stribeck_velocity.has_value();
+  return contact.friction.stribeck_velocity.has_value();
 }
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;

@@ -57,8 +57,8 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
     hit.restitution[i] = contact.restitution;
     CoulombItem item;
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
-    item.static_friction = contact.static_friction;
-    item.kinetic_friction = contact.kinetic_friction;
+    item.static_friction = contact.friction.static_;
+    item.kinetic_friction = contact.friction.kinetic;
     hit.problem.items.push_back(item);
   }
   return hit;

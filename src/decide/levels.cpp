@@ -178,7 +178,7 @@ CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t
   CoulombItem item;
   item.sign = entry.who.sign;
   item.kinetic_friction = entry.who.sliding_friction;
-  item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.static_friction;
+  item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.friction.static_;
   if (entry.standing == Standing::limit) {
     item.kind = Kind::limit;
   } else if (contact.is_pressed()) {

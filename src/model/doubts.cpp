@@ -143,7 +143,7 @@ class Doubts {
     std::vector<std::size_t> high;
     double greatest = 0.0;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-      const double f = std::max(model_.contacts[k].static_friction, model_.contacts[k].kinetic_friction);
+      const double f = std::max(model_.contacts[k].friction.static_, model_.contacts[k].friction.kinetic);
       if (f > greatest_friction) high.push_back(k);
       greatest = std::max(greatest, f);
     }

@@ -100,7 +100,7 @@ std::vector<Vector> amplitudes_of_loads(const Model& model, double t_end) {
 std::vector<Vector> limits_of_friction(const Model& model, double t_end) {
   std::vector<Vector> forces;
   for (const Contact& c : model.contacts)
-    if (const double limit = c.static_friction * magnitude(c.normal_force, t_end);
+    if (const double limit = c.friction.static_ * magnitude(c.normal_force, t_end);
         c.law == Law::slider && limit > 0.0)
       forces.emplace_back(full(c.tangent, model.size()) * limit);
   return forces;

@@ -79,8 +79,8 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
                {"law", to_string(contact.law)},
-               {"static_friction", contact.static_friction},
-               {"kinetic_friction", contact.kinetic_friction}};
+               {"static_friction", contact.friction.static_},
+               {"kinetic_friction", contact.friction.kinetic}};
   if (contact.has_gap()) {
     json["gap"] = contact.gap;
     if (contact.takes_impulses())
@@ -88,7 +88,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     else
       json["normal_stiffness"] = contact.normal_stiffness;
   }
-  if (contact.stribeck_velocity) json["stribeck_velocity"] = *contact.stribeck_velocity;
+  if (contact.friction.stribeck_velocity) json["stribeck_velocity"] = *contact.friction.stribeck_velocity;
   if (contact.takes_impulses() && report != nullptr)
     json["capture_velocity"] = contact.capture_velocity.value_or(capture_velocity);
   if (contact.shear) {

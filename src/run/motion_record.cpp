@@ -19,14 +19,22 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
   most_rows_ = std::clamp(most_in_all / tracks_.size(), fewest_of_one, most_of_one);
 }
 
-std::vector<double> MotionRecord::times(double begin, double end, std::vector<double> turning_points) const {
-  if (tracks_.empty()) return {};
+const std::vector<MotionRecord::Moment>& MotionRecord::moments(double begin, double end,
+                                                               const std::vector<double>& turning_points) {
+  moments_.clear();
+  for (const double t : turning_points) moments_.push_back({t, true});
+  if (tracks_.empty()) return moments_;
   const double length = end - begin;
   const double spacing = std::min(std::max(length / pieces_of_step, width_), t_end_ / pieces_of_run);
   const int pieces = spacing > 0.0 ? static_cast<int>(std::min(length / spacing, most_pieces)) : 1;
-  for (int i = 1; i < pieces; ++i) turning_points.push_back(begin + length * i / pieces);
-  std::sort(turning_points.begin(), turning_points.end());
-  return turning_points;
+  if (pieces <= 1) return moments_;
+  for (int i = 1; i < pieces; ++i) moments_.push_back({begin + length * i / pieces, false});
+  std::sort(moments_.begin(), moments_.end(), [](const Moment& a, const Moment& b) { return a.t < b.t; });
+  return moments_;
+}
+
+bool MotionRecord::needs(double t) const {
+  return !tracks_.empty() && (width_ == 0.0 || std::floor(t / width_) != last_bin_);
 }
 
 void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
@@ -34,6 +42,7 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k)
     tracks_[k].push_back({t, auditor.sample(k, forcing, t, mode[k], point)});
+  if (width_ > 0.0) last_bin_ = std::floor(t / width_);
   if (tracks_[0].size() <= most_rows_) return;
   // What has come since the last time may fit into bins as wide as they are.
   if (width_ == 0.0) width_ = t_end_ / static_cast<double>(most_rows_);

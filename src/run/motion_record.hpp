@@ -19,8 +19,16 @@ class MotionRecord {
   /// Both must outlive the record. Nothing is kept where the recorder does not want it.
   MotionRecord(const Model& model, double t_end, const Recorder& recorder);
 
-  /// Inside of a step: the turning points, and as many more as a line needs; ascending.
-  [[nodiscard]] std::vector<double> times(double begin, double end, std::vector<double> turning_points) const;
+  /// A time inside of a step.
+  struct Moment {
+    double t = 0.0;
+    bool turns = false;  ///< a turning point
+  };
+  /// The turning points of a step and as many times between as a line needs; ascending.
+  [[nodiscard]] const std::vector<Moment>& moments(double begin, double end,
+                                                   const std::vector<double>& turning_points);
+  /// Is a row at the end of a step, t, the first one of its bin?
+  [[nodiscard]] bool needs(double t) const;
   /// A row of every contact; times ascend, and may repeat.
   void add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
   /// Hands over all rows, contact by contact.
@@ -30,7 +38,9 @@ class MotionRecord {
   void thin(std::vector<MotionRow>& rows) const;
 
   double t_end_, width_ = 0.0;  // of a bin
-  std::size_t most_rows_ = 0;   // of a contact
+  double last_bin_ = -1.0;      // of the last row
+  std::vector<Moment> moments_;
+  std::size_t most_rows_ = 0;  // of a contact
   std::vector<std::vector<MotionRow>> tracks_;
 };
 

@@ -108,7 +108,7 @@ class Loop {
     }
   }
 
-  /// What lies inside a step: rows, works, extremes; then its end.
+  /// What lies inside a step: rows, works, extremes, and times for pictures; then its end.
   void pass(const Step& step) {
     double from = step.begin;
     const auto add_works = [&](double to) {
@@ -124,22 +124,15 @@ class Loop {
       emit(t, point);
     }
     add_works(step.end);
-    for (const double t : engine_->turning_points()) {
+    for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
       engine_->evaluate(t, point_);
-      auditor_.observe(forcing_, t, decision_.mode, point_);
-    }
-    draw(step);
-    t_ = step.end;
-    engine_->evaluate(t_, point_);
-    motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
-  }
-
-  /// For pictures: turning points, and between them as many rows as a line needs.
-  void draw(const Step& step) {
-    for (const double t : motion_.times(step.begin, step.end, engine_->turning_points())) {
-      engine_->evaluate(t, point_);
+      if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
       motion_.add(t, auditor_, forcing_, decision_.mode, point_);
     }
+    t_ = step.end;
+    engine_->evaluate(t_, point_);
+    if (step.kind == Step::Kind::event || motion_.needs(t_))
+      motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
   }
 
   /// Decides the states at t_, applies and records them.

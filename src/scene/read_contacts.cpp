@@ -13,8 +13,8 @@ namespace signorini {
 
 namespace {
 
-FrictionSpec read_friction(Table& contact) {
-  FrictionSpec friction;
+Friction read_friction(Table& contact) {
+  Friction friction;
   const toml::node* node = contact.raw("friction");
   if (node && node->is_table()) {
     Table table = contact.child("friction");

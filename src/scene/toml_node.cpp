@@ -23,7 +23,7 @@ std::string on_one_line(std::string text) {
 }
 
 /// A piece of text that is short enough for a message.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   return '"' + std::string(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");
 }
@@ -42,7 +42,7 @@ SourcePlace place_of(const toml::source_region& region) {
 SourcePlace place_of(const toml::node& node) { return place_of(node.source()); }
 
 std::string describe(const toml::node& node) {
-  if (const auto* value = node.as_string()) return "the string " + quoted(value->get());
+  if (const auto* value = node.as_string()) return "the string " + in_quotes(value->get());
   if (const auto* value = node.as_integer()) return fmt::format("the number {}", value->get());
   if (const auto* value = node.as_floating_point()) return "the number " + toml_number(value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "the boolean true" : "the boolean false";

@@ -188,7 +188,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const State state = segment_.decision->mode[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
-    T = contact.kinetic_friction * N;
+    T = contact.friction.kinetic * N;
   else if (contact.tangential_stiffness)
     T = *contact.tangential_stiffness * ut;
   else if (state == State::stick && norm_.tangent(c) > 0.0)
@@ -216,24 +216,85 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
   return first_fall(guard_.data(), degree_, 0.0);
 }
 
+Step ExactEngine::failed(std::string reason) {
+  step_ = {};
+  step_.kind = Step::Kind::failed;
+  step_.begin = step_.end = t_;
+  step_.reason = std::move(reason);
+  return step_;
+}
+
+/// Why no step of this length can be made from here; empty: one can.
+std::string ExactEngine::hindrance(double scale) const {
+  if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
+    return fmt::format(
+        "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this time",
+        growth_now_ / growth_margin);
+  if (!end_.u.allFinite()) return overflow;
+  if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
+  return {};
+}
+
+/// Bound on what all displacements leave out on [0, x], in norm_: from |x_k| on the series is below a
+/// geometric one with ratio 1/2.
+double ExactEngine::rest_of_series(double x) const {
+  double rest = 0.0;
+  for (int k = 1; k <= 2; ++k) {
+    const auto order = static_cast<Eigen::Index>(degree_) + k;
+    rest = std::max(rest, 2.0 * norm_.of(series_.u.col(order)) * std::pow(x, static_cast<double>(order)));
+  }
+  return rest;
+}
+
+ExactEngine::Earliest ExactEngine::earliest_fall(double x) {
+  const double rest = rest_of_series(x);
+  Earliest first;
+  std::vector<std::pair<std::size_t, double>> touches;  // slot, place in the step
+  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
+    if (arming_.idle(slot)) continue;
+    const FirstFall fall = fall_of(slot, x, rest);
+    if (fall.kind == FirstFall::Kind::lost) {
+      first.lost = true;
+      return first;
+    }
+    if (fall.kind == FirstFall::Kind::fall && (!first.slot || fall.x < first.at)) {
+      first.slot = slot;
+      first.at = fall.x;
+    } else if (fall.kind == FirstFall::Kind::touch && arming_.armed(slot)) {
+      touches.emplace_back(slot, fall.x);
+    }
+  }
+  for (const auto& [slot, where] : touches)
+    if (where < first.at) warn_of_touch(slot, t_ + where * x * series_.scale);
+  return first;
+}
+
+void ExactEngine::warn_of_touch(std::size_t slot, double t) {
+  ++touches_;
+  if (touches_ <= most_touches)
+    warnings.push_back(fmt::format(
+        "contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
+        "at this precision, and it was taken not to",
+        model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind), t));
+  else if (touches_ == most_touches + 1)
+    warnings.emplace_back("more guards touch zero; these are not listed");
+}
+
+/// Guards that were zero when the segment began, at the end of a step without a fall.
+void ExactEngine::see_unarmed(double x) {
+  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
+    if (arming_.idle(slot) || arming_.armed(slot)) continue;
+    const GuardStart& guard = segment_.decision->guards[slot];
+    contacts_[contact_of_guard(slot)].combine(guard.form, guard_.data());
+    arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * guard.noise);
+  }
+}
+
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
   const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
   const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
-  const bool too_fast = growth_now_ * resolution_at(t_, 0.0) > 1.0;
-  if (!(scale > 0.0) || too_fast || !end_.u.allFinite()) {
-    step_ = {};
-    step_.kind = Step::Kind::failed;
-    step_.begin = step_.end = t_;
-    step_.reason = "the step has fallen below the resolution of time";
-    if (!end_.u.allFinite()) step_.reason = overflow;
-    if (too_fast)
-      step_.reason = fmt::format(
-          "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this "
-          "time",
-          growth_now_ / growth_margin);
-    return step_;
-  }
+  if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
   ++counters.steps;
   double x = expand(scale);
   last_ = scale * x;
@@ -243,54 +304,17 @@ Step ExactEngine::advance() {
   for (std::size_t c = 0; c < contacts_.size(); ++c)
     contacts_[c].fill(model_.contacts[c], c, series_, degree_);
 
-  // From |x_k| on the series is below a geometric one with ratio 1/2.
-  double rest = 0.0;
-  for (int k = 1; k <= 2; ++k) {
-    const auto order = static_cast<Eigen::Index>(degree_) + k;
-    rest = std::max(rest, 2.0 * norm_.of(series_.u.col(order)) * std::pow(x, static_cast<double>(order)));
-  }
+  const Earliest first = earliest_fall(x);
+  if (first.lost) return failed(overflow);
   step_ = {};
   step_.begin = t_;
-  std::optional<std::size_t> first;
-  std::vector<std::pair<std::size_t, double>> touches;  // slot, place in the step
-  double at = 1.0;
-  for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
-    if (arming_.idle(slot)) continue;
-    const FirstFall fall = fall_of(slot, x, rest);
-    if (fall.kind == FirstFall::Kind::lost) {
-      step_.kind = Step::Kind::failed;
-      step_.end = t_;
-      step_.reason = overflow;
-      return step_;
-    }
-    if (fall.kind == FirstFall::Kind::fall && (!first || fall.x < at)) {
-      first = slot;
-      at = fall.x;
-    } else if (fall.kind == FirstFall::Kind::touch && arming_.armed(slot)) {
-      touches.emplace_back(slot, fall.x);
-    }
-  }
-  for (const auto& [slot, where] : touches)
-    if (where < at && ++touches_ <= most_touches)
-      warnings.push_back(
-          fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
-                      "at this precision, and it was taken not to",
-                      model_.contacts[contact_of_guard(slot)].name,
-                      to_string(segment_.decision->guards[slot].kind), t_ + where * x * scale));
-    else if (where < at && touches_ == most_touches + 1)
-      warnings.emplace_back("more guards touch zero; these are not listed");
-  if (first) {
+  if (first.slot) {
     step_.kind = Step::Kind::event;
-    step_.fired = {{contact_of_guard(*first), segment_.decision->guards[*first].kind}};
-    x *= at;
+    step_.fired = {{contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind}};
+    x *= first.at;
     end = t_ + scale * x;
   } else {
-    for (std::size_t slot = 0; slot < arming_.size(); ++slot) {
-      if (arming_.idle(slot) || arming_.armed(slot)) continue;
-      const GuardStart& guard = segment_.decision->guards[slot];
-      contacts_[contact_of_guard(slot)].combine(guard.form, guard_.data());
-      arming_.see(slot, value_at(guard_.data(), degree_, x), 4.0 * guard.noise);
-    }
+    see_unarmed(x);
   }
   step_.end = end;
   step_.resolution = resolution_at(end, end - t_);

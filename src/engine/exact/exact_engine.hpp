@@ -49,7 +49,19 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] bool stands(double x) const;
   [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
+  [[nodiscard]] double rest_of_series(double x) const;
   [[nodiscard]] FirstFall fall_of(std::size_t slot, double x, double rest);
+  /// Of all guards on [0, x]: the one that falls first, and in which part of the step.
+  struct Earliest {
+    std::optional<std::size_t> slot;
+    double at = 1.0;
+    bool lost = false;  // a motion that is no number
+  };
+  [[nodiscard]] Earliest earliest_fall(double x);
+  void warn_of_touch(std::size_t slot, double t);
+  void see_unarmed(double x);
+  [[nodiscard]] std::string hindrance(double scale) const;
+  [[nodiscard]] Step failed(std::string reason);
   void evaluate_at(double x, Point& point) const;
 
   const Model& model_;

@@ -24,6 +24,7 @@ class TurningPoints {
             Ends ends = Ends::observed);
   struct Range {
     double least = 0.0, greatest = 0.0;
+    void see(double value);
   };
   /// So far, of a field that is watched.
   [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {
@@ -43,6 +44,12 @@ class TurningPoints {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
 
  private:
+  static constexpr std::size_t turn_samples = 8;  // a step turns by less than 4 rad of any mode that matters
+  using Samples = std::array<double, turn_samples + 1>;
+  /// place: of the range, watched.size() * contact + field.
+  void find_of(const ContactSeries& contact, std::size_t place, const Samples& x, const Series& series,
+               Ends ends);
+
   std::vector<Range> ranges_;  // so far
   std::vector<Turn> turns_;
   std::vector<double> times_;

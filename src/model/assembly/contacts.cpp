@@ -67,9 +67,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.normal_stiffness = spec.normal_stiffness;
     c.tangential_stiffness = spec.tangential_stiffness;
     c.normal_damping = spec.normal_damping;
-    c.static_friction = spec.friction.static_;
-    c.kinetic_friction = spec.friction.kinetic;
-    c.stribeck_velocity = spec.friction.stribeck_velocity;
+    c.friction = spec.friction;
     c.initial_shear = spec.initial_shear;
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;

@@ -25,7 +25,7 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
-  json["limit"] = -contact.static_friction * sample.N;
+  json["limit"] = -contact.friction.static_ * sample.N;
   return json;
 }
 

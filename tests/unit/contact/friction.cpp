@@ -11,9 +11,9 @@ namespace {
 Contact stribeck() {
   Contact c;
   c.law = Law::slider;
-  c.static_friction = 0.5;
-  c.kinetic_friction = 0.2;
-  c.stribeck_velocity = 0.7;
+  c.friction.static_ = 0.5;
+  c.friction.kinetic = 0.2;
+  c.friction.stribeck_velocity = 0.7;
   return c;
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("friction falls from static to kinetic with the slip rate, and only wh
   CHECK(friction_varies(c));
   CHECK(slips_nonlinearly(c, State::slip_minus));
   CHECK_FALSE(slips_nonlinearly(c, State::stick));
-  c.stribeck_velocity.reset();
+  c.friction.stribeck_velocity.reset();
   CHECK(sliding_friction(c, 3.0) == 0.2);
   CHECK(sliding_friction_slope(c, 3.0) == 0.0);
   CHECK_FALSE(slips_nonlinearly(c, State::slip_minus));

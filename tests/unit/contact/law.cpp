@@ -14,8 +14,8 @@ Contact element() {
   c.law = Law::compliant;
   c.normal_stiffness = 1000.0;
   c.tangential_stiffness = 500.0;
-  c.static_friction = 0.4;
-  c.kinetic_friction = 0.3;
+  c.friction.static_ = 0.4;
+  c.friction.kinetic = 0.3;
   return c;
 }
 

@@ -14,8 +14,8 @@ Contact element() {
   c.normal_stiffness = 100.0;
   c.normal_damping = 2.0;
   c.tangential_stiffness = 50.0;
-  c.static_friction = 0.5;
-  c.kinetic_friction = 0.4;
+  c.friction.static_ = 0.5;
+  c.friction.kinetic = 0.4;
   return c;
 }
 

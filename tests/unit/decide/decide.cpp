@@ -34,7 +34,7 @@ Model blocks(const std::vector<std::vector<double>>& mass, const std::vector<dou
     c.law = Law::slider;
     c.tangent.terms = {{static_cast<int>(i), 1.0}};
     c.normal_force = History::constant(1.0);
-    c.static_friction = c.kinetic_friction = friction;
+    c.friction.static_ = c.friction.kinetic = friction;
     c.tangential_stiffness = kt;
     model.contacts.push_back(c);
     Load load;

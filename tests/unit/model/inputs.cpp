@@ -50,7 +50,7 @@ TEST_SUITE("unit/model/inputs") {
     CHECK(*bedding.tangential_stiffness == doctest::Approx(8.0e4 * 0.3 / 0.05));
     CHECK(plank.restitution == 0.5);
     CHECK(*plank.capture_velocity == 1e-6);
-    CHECK(*plank.stribeck_velocity == 0.1);
+    CHECK(*plank.friction.stribeck_velocity == 0.1);
     // a at x = 0 between l at -1 and r at 3: weights 3/4 and 1/4
     Vector u = Vector::Zero(model.size());
     u[dof(model, "a.uy")] = 1.0;

@@ -28,7 +28,7 @@ Model row_of_masses(int n) {
     c.law = Law::slider;
     c.tangent.terms = {{i, 1.0}};
     c.normal_force = History::constant(1.0);
-    c.static_friction = c.kinetic_friction = 0.3;
+    c.friction.static_ = c.friction.kinetic = 0.3;
     c.tangential_stiffness = 50.0;
     model.contacts.push_back(c);
   }

@@ -12,14 +12,8 @@ namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double quarter = 0.25;       // of a guard, that fast modes may take together
-constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
-constexpr double longest_decay = 2.0;  // alpha h
-constexpr std::size_t most_degree = 30;
+constexpr double quarter = 0.25;                  // of a guard, that fast modes may take together
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
-constexpr double fine =
-    1e-4;  // of the range of what a peak is looked for in: ripple that is left aside where it turns
-constexpr double never = 1e300;
 
 double sum_of(const Amplitudes& weights, const Amplitudes& values) {
   double sum = 0.0;
@@ -149,26 +143,6 @@ Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
           sum_of(state_->tangent[c], at.rate)};
 }
 
-void ModalProof::measure_amplitudes(const ModalPoint& at) {
-  const std::vector<double>&l = oscillators_->real(), &w = oscillators_->turning();
-  amplitude_.resize(l.size());
-  for (std::size_t k = 0; k < l.size(); ++k) {
-    if (!(w[k] > 0.0)) {
-      amplitude_[k] = never;
-      continue;
-    }
-    const double y = at.z.real[k] - forces_->real[k] / l[k], b = (at.rate.real[k] + 0.5 * alpha_ * y) / w[k];
-    amplitude_[k] = std::sqrt(y * y + b * b);
-  }
-  const std::vector<Complex>& pairs = oscillators_->pairs();
-  pair_amplitude_.resize(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Complex y = at.z.pair[k] - forces_->pair[k] * inverse(pairs[k]);
-    pair_amplitude_[k] =
-        size_of(y) + size_of(at.rate.pair[k] + y * (0.5 * alpha_)) / std::sqrt(size_of(pairs[k]));
-  }
-}
-
 void ModalProof::measure(const ModalPoint& at) {
   measure_amplitudes(at);
   for (Watched& guard : guards_)
@@ -232,19 +206,6 @@ void ModalProof::choose_step(double remaining) {
   part_modes(first == l.size());
 }
 
-/// Which modes a step of length h_ follows as polynomials.
-void ModalProof::part_modes(bool all_slow) {
-  const std::vector<double>& l = oscillators_->real();
-  const std::vector<Complex>& pairs = oscillators_->pairs();
-  const double square = turn * turn * (1.0 + 1e-12);
-  fast_ = static_cast<std::size_t>(
-      std::partition_point(l.begin(), l.end(), [&](double value) { return value * h_ * h_ < square; }) -
-      l.begin());
-  if (all_slow) fast_ = l.size();
-  pair_slow_.assign(pairs.size(), true);
-  for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
-}
-
 void ModalProof::bound_ripples() {
   const std::vector<double>& l = oscillators_->real();
   const std::vector<Complex>& pairs = oscillators_->pairs();
@@ -265,136 +226,6 @@ void ModalProof::bound_ripples() {
                             (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
       guard.ripple += ripple;
       guard.ripple_rate += ripple * root;
-    }
-  }
-}
-
-double ModalProof::within(const TurningPoints& known, double x_end) const {
-  if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
-  std::vector<double> p(degree_ + 1);
-  double safe = 1.0;  // of x_end
-  for (std::size_t c = 0; c < slow_.size(); ++c) {
-    const ForceLaw& law = laws_[c];
-    double normal = normal_rest_[c].place, tangent = tangent_rest_[c].place;
-    for (std::size_t k = fast_; k < amplitude_.size(); ++k) {
-      normal += std::abs(state_->normal[c].real[k]) * amplitude_[k];
-      tangent += std::abs(state_->tangent[c].real[k]) * amplitude_[k];
-    }
-    const std::array<double, 4> ripple{std::abs(law.N_gap) * normal,
-                                       std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
-                                       tangent};
-    for (std::size_t f = 0; f < ripple.size(); ++f) {
-      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
-      const double* a = slow_[c].of(TurningPoints::watched[f]);
-      for (const double sign : {1.0, -1.0}) {
-        double power = 1.0;
-        for (std::size_t j = 0; j <= degree_; ++j, power *= x_end) p[j] = -sign * a[j] * power;
-        p[0] += (sign > 0.0 ? range.greatest : -range.least) - ripple[f];
-        if (!(p[0] > 0.0)) return 0.0;
-        const FirstFall fall = first_fall(p.data(), degree_, 0.0);
-        if (fall.kind != FirstFall::Kind::none) safe = std::min(safe, fall.x);
-      }
-    }
-  }
-  return safe * x_end;
-}
-
-double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  measure_amplitudes(at);
-  const std::size_t n = amplitude_.size();
-  std::size_t first = 0;
-  for (std::size_t c = 0; c < slow_.size(); ++c) {
-    const ForceLaw& law = laws_[c];
-    const auto allowed = [&](ContactSeries::Field field, double factor) {
-      const TurningPoints::Range& range = known.range(c, field);
-      return factor == 0.0 ? never : fine * (range.greatest - range.least) / std::abs(factor);
-    };
-    const double normal = std::min({allowed(ContactSeries::gap, 1.0), allowed(ContactSeries::N, law.N_gap),
-                                    allowed(ContactSeries::T, law.T_gap)});
-    const double tangent = std::min(allowed(ContactSeries::slide, 1.0), allowed(ContactSeries::T, law.T_ut));
-    double normal_sum = 0.0, tangent_sum = 0.0;
-    std::size_t k = n;
-    for (; k > first; --k) {
-      normal_sum += std::abs(state_->normal[c].real[k - 1]) * amplitude_[k - 1];
-      tangent_sum += std::abs(state_->tangent[c].real[k - 1]) * amplitude_[k - 1];
-      if (normal_sum > normal || tangent_sum > tangent) break;
-    }
-    first = std::max(first, k);
-  }
-  h_ = std::min(remaining, longest_decay / alpha_);
-  if (n > 0 && oscillators_->real()[std::min(first, n - 1)] > 0.0)
-    h_ = std::min(h_, turn / std::sqrt(oscillators_->real()[std::min(first, n - 1)]));
-  for (const Complex l : oscillators_->pairs()) h_ = std::min(h_, turn / std::sqrt(size_of(l)));
-  part_modes(first == n);
-  expand(at);
-  return h_;
-}
-
-/// Gaps and slides of all contacts as polynomials in t / h, of slow modes and of what fast ones rest at.
-void ModalProof::expand(const ModalPoint& at) {
-  const std::vector<double>& l = oscillators_->real();
-  const std::vector<Complex>& pairs = oscillators_->pairs();
-  const double fastest = fast_ > 0 ? std::sqrt(std::abs(l[fast_ - 1])) * h_ : 0.0;
-  const bool any_pair = std::any_of(pair_slow_.begin(), pair_slow_.end(), [](bool slow) { return slow; });
-  const double reach = any_pair ? turn : std::max(fastest, 0.5 * alpha_ * h_);
-  degree_ = std::min<std::size_t>(most_degree, 10 + static_cast<std::size_t>(5.5 * reach));
-  const std::size_t count = degree_ + 3;
-  coefficients_.resize(count * fast_);
-  for (std::size_t k = 0; k < fast_; ++k)
-    taylor_of_mode(at.z.real[k], at.rate.real[k], forces_->real[k], l[k], alpha_, h_, count, fast_,
-                   coefficients_.data() + k);
-  pair_coefficients_.resize(count * pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (pair_slow_[k])
-      taylor_of_mode(at.z.pair[k], at.rate.pair[k], forces_->pair[k], pairs[k], alpha_, h_, count,
-                     pairs.size(), pair_coefficients_.data() + k);
-  const std::size_t contacts = model_.contacts.size();
-  normal_rest_.resize(contacts);
-  tangent_rest_.resize(contacts);
-  std::vector<double> n(count), t(count);
-  const auto sum = [&](const Amplitudes& row, double still, std::vector<double>& out, Size& rest) {
-    std::fill(out.begin(), out.end(), 0.0);
-    for (std::size_t j = 0; j < count; ++j) {
-      const double* c = coefficients_.data() + j * fast_;
-      double total = 0.0;
-      for (std::size_t k = 0; k < fast_; ++k) total += row.real[k] * c[k];
-      out[j] = total;
-    }
-    double left = 0.0;  // each mode's series falls by half and more a term from here on
-    for (std::size_t j = degree_ + 1; j < count; ++j)
-      for (std::size_t k = 0; k < fast_; ++k)
-        left += 2.0 * std::abs(row.real[k] * coefficients_[j * fast_ + k]);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      if (!pair_slow_[k]) {
-        still += whole(row.pair[k] * forces_->pair[k] * inverse(pairs[k]));
-        continue;
-      }
-      for (std::size_t j = 0; j < count; ++j) {
-        const Complex term = row.pair[k] * pair_coefficients_[j * pairs.size() + k];
-        out[j] += whole(term);
-        if (j > degree_) left += 4.0 * size_of(term);
-      }
-    }
-    out[0] += still;
-    rest = {left, left * static_cast<double>(degree_ + 3) / h_};
-  };
-  for (std::size_t c = 0; c < contacts; ++c) {
-    sum(state_->normal[c], still_normal_[c][fast_], n, normal_rest_[c]);
-    sum(state_->tangent[c], still_tangent_[c][fast_], t, tangent_rest_[c]);
-    n[0] += model_.contacts[c].gap;
-    t[0] -= surface_[c];
-    ContactSeries& slow = slow_[c];
-    slow.reset(degree_);
-    const ForceLaw& law = laws_[c];
-    for (std::size_t j = 0; j <= degree_; ++j) {
-      const double rate = static_cast<double>(j + 1) / h_;
-      slow.place(ContactSeries::gap)[j] = n[j];
-      slow.place(ContactSeries::ut)[j] = slow.place(ContactSeries::slide)[j] = t[j];
-      slow.place(ContactSeries::vn)[j] = rate * n[j + 1];
-      slow.place(ContactSeries::vt)[j] = rate * t[j + 1];
-      slow.place(ContactSeries::an)[j] = rate * n[j + 2] * static_cast<double>(j + 2) / h_;
-      slow.place(ContactSeries::N)[j] = law.N_gap * n[j] + (j == 0 ? law.N_constant : 0.0);
-      slow.place(ContactSeries::T)[j] = law.T_gap * n[j] + law.T_ut * t[j] + (j == 0 ? law.T_constant : 0.0);
     }
   }
 }

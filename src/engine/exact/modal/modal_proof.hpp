@@ -57,6 +57,10 @@ class ModalProof {
   [[nodiscard]] double unit() const { return h_; }
 
  private:
+  static constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
+  static constexpr double longest_decay = 2.0;  // alpha h
+  static constexpr double never = 1e300;
+
   enum class Arming : unsigned char { armed, leaving, unknown };
   struct Watched {
     std::size_t slot = 0;
@@ -69,6 +73,9 @@ class ModalProof {
     double now = 0.0;                        // the value, or the leading derivative's
     double ripple = 0.0, ripple_rate = 0.0;  // bounds; of the leading derivative where it leaves
   };
+  struct Size {
+    double place = 0.0, rate = 0.0;
+  };
   void watch(const Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
@@ -78,6 +85,8 @@ class ModalProof {
   [[nodiscard]] std::size_t first_fast() const;
   void choose_step(double remaining);
   void bound_ripples();
+  void expand_modes(const ModalPoint& at);
+  [[nodiscard]] Size sum(const Amplitudes& row, double still, std::vector<double>& out) const;
   void expand(const ModalPoint& at);
   void combine(const Watched& guard, std::vector<double>& p, double& slack) const;
   [[nodiscard]] bool decreases(const Watched& guard, const std::vector<double>& p, double from,
@@ -98,14 +107,11 @@ class ModalProof {
   std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;
   std::vector<Complex> pair_coefficients_;
-  struct Size {
-    double place = 0.0, rate = 0.0;
-  };
   std::vector<Size> normal_size_, tangent_size_;  // sums of magnitudes, for rounding
   std::vector<Size> normal_rest_, tangent_rest_;
   std::vector<ContactSeries> slow_;
   std::vector<bool> pair_slow_;
-  std::size_t fast_ = 0, degree_ = 0;
+  std::size_t fast_ = 0, degree_ = 0, count_ = 0;  // slow modes; degree and length of their series
   double h_ = 0.0;
   bool full_ = false;  // the next step takes all modes as slow
 };

@@ -21,6 +21,9 @@
 
 namespace signorini {
 
+/// Of a pole, between equal ones: below all rounding.
+inline constexpr double parting = 1e-22;
+
 /// D, ascending, as a sum of two numbers of which the second parts what is equal.
 struct Poles {
   explicit Poles(const Eigen::VectorXd& values);
@@ -95,8 +98,15 @@ class Spectrum {
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
+  /// What the poles outside a group make of a root near it: G0 = 1 + V^T (D - l)^-1 U without the group, its
+  /// slope, and the group's own matrix, which is not singular near its poles:
+  ///   S = D_group - l + U_group G0^-1 V_group^T,   det(A - l) = product of (D_i - l) outside * det G0 * det
+  ///   S
   template <class S>
-  struct Local;
+  struct Local {
+    SmallMatrix<S> g{}, slope{}, s{};
+    std::size_t first = 0, count = 0;
+  };
   template <class S>
   void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
   template <class S>

@@ -1,0 +1,261 @@
+// The roots of the secular function, all together: Ehrlich and Aberth, from poles.
+#include "engine/exact/modal/spectrum.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <limits>
+#include <numeric>
+
+#include "base/eigen_dense.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_sweeps = 200;
+constexpr double nearly = 1e-9;      // relative step from which on rounding may end the convergence
+constexpr double lift = 1e-3;        // of a start, off the real axis: complex roots are not found from it
+constexpr double real_share = 1e-7;  // imaginary part of an offset that rounding makes of a real root
+constexpr double paired = 1e-8;      // relative distance of conjugates
+
+Complex complex_of(std::complex<double> a) { return {a.real(), a.imag()}; }
+template <class S>
+S start_of(std::complex<double> value, std::size_t index);
+template <>
+double start_of(std::complex<double> value, std::size_t) {
+  return value.real();
+}
+template <>
+Complex start_of(std::complex<double> value, std::size_t index) {
+  Complex result = complex_of(value);
+  if (std::abs(result.im) < lift * std::abs(result.re))
+    result.im = (index % 2 == 0 ? lift : -lift) * std::abs(result.re);
+  return result;
+}
+
+}  // namespace
+
+/// Offsets to first order: those of the small matrix that a group of close poles makes of what the others do.
+template <class S>
+void Spectrum::start(std::vector<S>& offset) const {
+  const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  for (std::size_t first = 0, last = 0; first < n_; first = last) {
+    last = group_end_[first];
+    SmallMatrix<double> g{};
+    for (std::size_t a = 0; a < rank_; ++a) g[a][a] = 1.0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (i >= first && i < last) continue;
+      const double weight = 1.0 / poles_.between(i, first);
+      const double* term = terms_.data() + i * rank_ * rank_;
+      for (std::size_t a = 0; a < rank_; ++a)
+        for (std::size_t b = 0; b < rank_; ++b) g[a][b] += weight * term[a * rank_ + b];
+    }
+    const SmallLu<double> lu(g, rank_);
+    const std::size_t count = last - first;
+    Eigen::MatrixXd small(at(count), at(count));
+    for (std::size_t j = 0; j < count; ++j) {
+      SmallVector<double> column{};
+      for (std::size_t a = 0; a < rank_; ++a) column[a] = v_(at(first + j), at(a));
+      if (!lu.singular()) column = lu.solve(column);
+      for (std::size_t i = 0; i < count; ++i) {
+        double sum = i == j ? poles_.between(first + i, first) : 0.0;
+        for (std::size_t a = 0; a < rank_; ++a) sum += u_(at(first + i), at(a)) * column[a];
+        small(at(i), at(j)) = sum;
+      }
+    }
+    std::vector<std::complex<double>> value(count, small(0, 0));
+    if (count > 1) {
+      const Eigen::VectorXcd found = general_eigenvalues(small);
+      std::copy_n(found.data(), count, value.begin());
+      std::sort(value.begin(), value.end(), [](auto a, auto b) { return a.real() < b.real(); });
+    }
+    const double down =
+        first > 0 ? 0.5 * poles_.between(first, first - 1) : std::abs(poles_.base[last - 1]) + 1e300;
+    const double up = last < n_ ? 0.5 * poles_.between(last, last - 1) : 1e300;
+    for (std::size_t j = 0; j < count; ++j) {
+      const double limit = value[j].real() > 0.0 ? up : down, size = std::abs(value[j]);
+      const double part = (1.0 + static_cast<double>(j)) / (1.0 + static_cast<double>(count));
+      if (size > limit) value[j] *= 2.0 * part * limit / size;
+      const std::size_t k = first + j;
+      offset[k] =
+          start_of<S>(value[j] - poles_.between(k, first), k);  // from the first pole of the group to its own
+      if (!(size_of(offset[k]) > 0.0)) offset[k] = S(parting * std::max(poles_.base[k], 1e-250));
+    }
+  }
+}
+
+template <class S>
+void Spectrum::group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const {
+  const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  for (std::size_t j = 0; j < local.count; ++j) {
+    SmallVector<S> column{};
+    for (std::size_t a = 0; a < rank_; ++a) column[a] = S(v_(at(local.first + j), at(a)));
+    column = lu.solve(column);
+    for (std::size_t i = 0; i < local.count; ++i) {
+      S sum{};
+      for (std::size_t a = 0; a < rank_; ++a) sum += column[a] * u_(at(local.first + i), at(a));
+      if (i == j) sum += S(poles_.between(local.first + i, home)) - own;
+      local.s[i][j] = sum;
+    }
+  }
+}
+
+template <class S>
+typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::vector<S>& offset,
+                                                      const std::vector<S>& shift) const {
+  const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
+  Local<S> local;
+  for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
+  const std::size_t home = home_[k], squares = rank_ * rank_;
+  local.first = group_begin_[home];
+  local.count = group_end_[home] - local.first;
+  const double base = poles_.base[home], tiny = poles_.tiny[home];
+  const S own = offset[k];
+  S poles{}, sum{};
+  for (std::size_t i = 0; i < n_; ++i) {
+    const S f = (own - offset[i]) + ((base - poles_.base[home_[i]]) + (tiny - poles_.tiny[home_[i]]));
+    if (i >= local.first && i < local.first + local.count) {
+      if (i != k && size_of(f) > 0.0) sum -= inverse(f);
+      continue;
+    }
+    const S one = inverse(own + ((base - poles_.base[i]) + (tiny - poles_.tiny[i])));  // 1 / (l - D_i)
+    const S two = one * one;
+    const double* term = terms_.data() + i * squares;
+    for (std::size_t a = 0; a < rank_; ++a)
+      for (std::size_t b = 0; b < rank_; ++b) {
+        const double w = *term++;
+        local.g[a][b] -= one * w;
+        local.slope[a][b] += two * w;
+      }
+    poles += one;
+    if (i == k)
+      sum += one;
+    else if (size_of(f) > 0.0)  // 1/(l - D_i) - 1/(l - l_i), whose terms nearly cancel
+      sum += shift[i] * one * inverse(f);
+  }
+  const SmallLu<S> lu(local.g, rank_);
+  if (lu.singular()) return {S(0.0), S(0.0)};
+  group_matrix(lu, own, home, local);
+  // S' = -1 - U G0^-1 G0' G0^-1 V^T
+  SmallMatrix<S> change{};
+  for (std::size_t j = 0; j < local.count; ++j) {
+    SmallVector<S> column{}, product{};
+    for (std::size_t a = 0; a < rank_; ++a) column[a] = S(v_(at(local.first + j), at(a)));
+    column = lu.solve(column);
+    for (std::size_t a = 0; a < rank_; ++a)
+      for (std::size_t b = 0; b < rank_; ++b) product[a] += local.slope[a][b] * column[b];
+    product = lu.solve(product);
+    for (std::size_t i = 0; i < local.count; ++i) {
+      S value = i == j ? S(-1.0) : S(0.0);
+      for (std::size_t a = 0; a < rank_; ++a) value -= product[a] * u_(at(local.first + i), at(a));
+      change[i][j] = value;
+    }
+  }
+  const SmallLu<S> group(local.s, local.count);
+  if (group.singular()) return {S(0.0), S(0.0)};
+  const S trace = lu.trace_of_solution(local.slope) + group.trace_of_solution(change);
+  return {inverse(poles + trace), inverse(sum + trace)};
+}
+
+/// To the nearest pole.
+template <class S>
+void Spectrum::settle_home(std::size_t k, std::vector<S>& offset) {
+  std::size_t best = home_[k];
+  const auto distance = [&](std::size_t to) { return size_of(offset[k] - poles_.between(to, home_[k])); };
+  const double step = real_part(offset[k]);
+  const std::size_t now = home_[k];
+  for (std::size_t i = now; step > 0.0 && i + 1 < n_ && distance(i + 1) < distance(i); ++i) best = i + 1;
+  for (std::size_t i = now; step < 0.0 && i > 0 && distance(i - 1) < distance(i); --i) best = i - 1;
+  if (best == now) return;
+  const S moved = offset[k] - poles_.between(best, now);
+  if (!(size_of(moved) > 0.0)) return;
+  offset[k] = moved;
+  home_[k] = best;
+}
+
+template <class S>
+bool Spectrum::search(std::vector<S>& offset) {
+  start(offset);
+  std::vector<S> shift(n_);  // D_i - l_i
+  for (std::size_t i = 0; i < n_; ++i) shift[i] = -offset[i];
+  std::vector<double> last(n_, std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> todo(n_);
+  std::iota(todo.begin(), todo.end(), std::size_t(0));
+  for (sweeps_ = 0; !todo.empty() && sweeps_ < most_sweeps; ++sweeps_) {
+    std::vector<std::size_t> left;
+    for (const std::size_t k : todo) {
+      const Correction<S> found = correction(k, offset, shift);
+      // Where two approaches collide they would push each other away by less than they are apart.
+      const bool collides =
+          size_of(found.alone) > 1e3 * size_of(found.among) || !std::isfinite(size_of(found.among));
+      const S step =
+          collides ? found.alone *
+                         (0.3 + 0.1 * static_cast<double>((k + 7 * static_cast<std::size_t>(sweeps_)) % 5))
+                   : found.among;
+      const double size = size_of(step);
+      if (!std::isfinite(size)) {
+        failure_ = "the search for eigenvalues left the range of numbers";
+        return false;
+      }
+      S next = offset[k] - step;
+      if (!(size_of(next) > 0.0)) next = offset[k] * 0.5;
+      offset[k] = next;
+      const double relative = size / size_of(next);
+      const std::size_t before = home_[k];
+      settle_home(k, offset);
+      shift[k] = S(poles_.between(k, home_[k])) - offset[k];
+      const bool settled =
+          !collides && (relative <= 4.0 * epsilon || (relative < nearly && relative > 0.25 * last[k]));
+      if (!settled || home_[k] != before) left.push_back(k);
+      last[k] = relative;
+    }
+    todo = std::move(left);
+  }
+  if (todo.empty()) return true;
+  failure_ = "the search for eigenvalues did not settle";
+  return false;
+}
+
+bool Spectrum::part_kinds(const std::vector<Complex>& offset) {
+  struct Found {
+    std::size_t home;
+    Complex offset;
+    double size;
+  };
+  std::vector<Found> above, below;
+  std::vector<Found> flat;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const Complex value = offset[k] + poles_.base[home_[k]];
+    const Found f{home_[k], offset[k], size_of(value)};
+    if (std::abs(f.offset.im) <= real_share * size_of(f.offset))
+      flat.push_back(f);
+    else
+      (f.offset.im > 0.0 ? above : below).push_back(f);
+  }
+  if (above.size() != below.size()) return false;
+  const auto by_place = [](const Found& a, const Found& b) {
+    return a.size < b.size || (a.size == b.size && a.offset.re < b.offset.re);
+  };
+  for (std::vector<Found>* list : {&above, &below, &flat}) std::sort(list->begin(), list->end(), by_place);
+  for (const Found& a : above) {
+    const bool has_twin = std::any_of(below.begin(), below.end(), [&](const Found& b) {
+      const Complex off = a.offset - Complex(b.offset.re, -b.offset.im) + poles_.between(a.home, b.home);
+      return size_of(off) <= paired * size_of(a.offset);
+    });
+    if (!has_twin) return false;
+    pairs_.home.push_back(a.home);
+    pairs_.offset.push_back(a.offset);
+  }
+  for (const Found& f : flat) {
+    real_.home.push_back(f.home);
+    real_.offset.push_back(f.offset.re);
+  }
+  return true;
+}
+
+template bool Spectrum::search(std::vector<double>&);
+template bool Spectrum::search(std::vector<Complex>&);
+template void Spectrum::group_matrix(const SmallLu<double>&, double, std::size_t, Local<double>&) const;
+template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
+
+}  // namespace signorini

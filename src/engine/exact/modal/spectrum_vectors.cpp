@@ -1,0 +1,177 @@
+// The vectors of a spectrum, and products of them.
+#include "engine/exact/modal/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors rounding mixes
+constexpr std::size_t most_neighbours = 6;
+
+}  // namespace
+
+template <class S>
+void Spectrum::find_vectors(Roots<S>& roots) {
+  const std::size_t squares = rank_ * rank_;
+  for (std::size_t k = 0; k < roots.size(); ++k) {
+    const std::size_t home = roots.home[k];
+    const S own = roots.offset[k];
+    roots.value.push_back(own + (poles_.base[home] + poles_.tiny[home]));
+    Local<S> local;
+    local.first = group_begin_[home];
+    local.count = group_end_[home] - local.first;
+    for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (i >= local.first && i < local.first + local.count) continue;
+      const S one = inverse(S(poles_.between(i, home)) - own);
+      const double* term = terms_.data() + i * squares;
+      for (std::size_t a = 0; a < rank_; ++a)
+        for (std::size_t b = 0; b < rank_; ++b) local.g[a][b] += one * *term++;
+    }
+    const SmallLu<S> lu(local.g, rank_);
+    group_matrix(lu, own, home, local);
+    SmallVector<S> right{}, left{}, c{}, d{};  // of the group, and what they are outside
+    SmallLu<S>(local.s, local.count).null_vectors(right, left);
+    for (std::size_t j = 0; j < local.count; ++j)
+      for (std::size_t a = 0; a < rank_; ++a) {
+        const auto row = static_cast<Eigen::Index>(local.first + j), column = static_cast<Eigen::Index>(a);
+        c[a] -= right[j] * v_(row, column);
+        d[a] -= left[j] * u_(row, column);
+      }
+    c = lu.solve(c);
+    d = lu.solve_transposed(d);
+    double x_size = 0.0, y_size = 0.0;
+    S product{};
+    for (std::size_t i = 0; i < n_; ++i) {
+      const S one = inverse(S(poles_.between(i, home)) - own);
+      S x{}, y{};
+      for (std::size_t a = 0; a < rank_; ++a) {
+        x += c[a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+        y += d[a] * v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+      }
+      x *= one;
+      y *= one;
+      x_size = std::hypot(x_size, size_of(x));
+      y_size = std::hypot(y_size, size_of(y));
+      product += x * y;
+    }
+    condition_ = std::max(condition_, x_size * y_size / size_of(product));
+    const S to_right = S(1.0 / x_size), to_left = inverse(product) * x_size;
+    for (std::size_t a = 0; a < rank_; ++a) {
+      roots.right.push_back(c[a] * to_right);
+      roots.left.push_back(d[a] * to_left);
+    }
+  }
+}
+
+/// Vectors of eigenvalues that nearly coincide are right but for each other: Y := (1 - E) Y with E = Y X
+/// there.
+void Spectrum::part_close_roots() {
+  std::vector<std::size_t> order;
+  for (const std::size_t k : order_)
+    if (k < real_.size()) order.push_back(k);
+  const auto vector = [&](const std::vector<double>& small, const Eigen::MatrixXd& side, std::size_t k) {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(n_));
+    for (std::size_t i = 0; i < n_; ++i) {
+      double sum = 0.0;
+      for (std::size_t a = 0; a < rank_; ++a)
+        sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+      x[static_cast<Eigen::Index>(i)] = sum / (poles_.between(i, real_.home[k]) - real_.offset[k]);
+    }
+    return x;
+  };
+  for (std::size_t p = 0; p < order.size(); ++p) {
+    const std::size_t k = order[p];
+    for (std::size_t m = p + 1; m < std::min(order.size(), p + most_neighbours); ++m) {
+      const std::size_t l = order[m];
+      if (real_.value[l] - real_.value[k] > close_roots * real_.value[l]) break;
+      close_.push_back({k, l, vector(real_.left, v_, k).dot(vector(real_.right, u_, l))});
+      close_.push_back({l, k, vector(real_.left, v_, l).dot(vector(real_.right, u_, k))});
+    }
+  }
+}
+
+/// x^T x, of which the pole nearest to the root makes most.
+void Spectrum::find_squares() {
+  const auto square = [&](const auto& roots, std::size_t k) {
+    using S = typename std::decay_t<decltype(roots.offset)>::value_type;
+    S sum{};
+    for (std::size_t i = 0; i < n_; ++i) {
+      S entry{};
+      for (std::size_t a = 0; a < rank_; ++a)
+        entry += roots.right[k * rank_ + a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+      entry *= inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]);
+      sum += entry * entry;
+    }
+    for (std::size_t j = 0; j < unseen_.size(); ++j) {
+      const S entry = moved(roots, k, j, unseen_poles_[j]);
+      sum += entry * entry;
+    }
+    return sum;
+  };
+  for (const std::size_t k : order_) {
+    const bool seen = k < real_.size();
+    squares_.push_back(seen ? square(real_, k) : 1.0);
+    value_base_.push_back(seen ? poles_.base[real_.home[k]] : unseen_poles_[k - real_.size()]);
+    value_offset_.push_back(seen ? real_.offset[k] + poles_.tiny[real_.home[k]] : 0.0);
+  }
+  for (std::size_t k = 0; k < pairs_.size(); ++k) pair_squares_.push_back(square(pairs_, k));
+}
+
+double Spectrum::product(std::size_t k, std::size_t l, const std::vector<double>& c,
+                         const std::vector<double>& h) const {
+  const double difference = (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < rank_; ++a)
+    sum += h[k * rank_ + a] * c[l * rank_ + a] - c[k * rank_ + a] * h[l * rank_ + a];
+  return sum == 0.0 ? 0.0 : sum / difference;
+}
+
+void Spectrum::products(std::vector<double>& c, std::vector<double>& h, std::vector<Complex>& c_pair,
+                        std::vector<Complex>& h_pair) const {
+  const auto fill = [&](const auto& roots, auto& left, auto& right) {
+    using S = typename std::decay_t<decltype(left)>::value_type;
+    left = roots.right;
+    right.assign(roots.size() * rank_, S(0.0));
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+      const auto add = [&](const S& entry, const Eigen::MatrixXd& u, Eigen::Index row) {
+        for (std::size_t a = 0; a < rank_; ++a)
+          right[k * rank_ + a] += entry * u(row, static_cast<Eigen::Index>(a));
+      };
+      for (std::size_t i = 0; i < n_; ++i) {
+        S entry{};
+        for (std::size_t a = 0; a < rank_; ++a)
+          entry +=
+              roots.right[k * rank_ + a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+        add(entry * inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]), u_,
+            static_cast<Eigen::Index>(i));
+      }
+      for (std::size_t j = 0; j < unseen_.size(); ++j)
+        add(moved(roots, k, j, unseen_poles_[j]), u_unseen_, static_cast<Eigen::Index>(j));
+    }
+  };
+  fill(pairs_, c_pair, h_pair);
+  std::vector<double> c_seen, h_seen;
+  fill(real_, c_seen, h_seen);
+  // An unseen mode's shape is a unit vector: U c stands for one as the limit of a residue, and it meets
+  // others in one entry only.
+  c.assign(order_.size() * rank_, 0.0);
+  h = c;
+  for (std::size_t p = 0; p < order_.size(); ++p)
+    if (order_[p] < real_.size())
+      for (std::size_t a = 0; a < rank_; ++a) {
+        c[p * rank_ + a] = c_seen[order_[p] * rank_ + a];
+        h[p * rank_ + a] = h_seen[order_[p] * rank_ + a];
+      }
+    else
+      for (std::size_t a = 0; a < rank_; ++a)
+        h[p * rank_ + a] =
+            u_unseen_(static_cast<Eigen::Index>(order_[p] - real_.size()), static_cast<Eigen::Index>(a));
+}
+
+template void Spectrum::find_vectors(Roots<double>&);
+template void Spectrum::find_vectors(Roots<Complex>&);
+
+}  // namespace signorini

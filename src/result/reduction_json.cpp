@@ -1,11 +1,10 @@
 #include "result/reduction_json.hpp"
 
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 namespace signorini {
 
-nlohmann::ordered_json reduction_json(const Reduction& r, const Report* report) {
-  using Json = nlohmann::ordered_json;
+Json reduction_json(const Reduction& r, const Report* report) {
   Json json = {{"cutoff_omega", r.cutoff},
                {"modes_kept", r.modes},
                {"free_motions", r.free_modes},

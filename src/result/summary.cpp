@@ -2,8 +2,8 @@
 
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
+#include "base/json.hpp"
 
 #include "base/input_file.hpp"
 #include "base/version.hpp"
@@ -17,8 +17,6 @@
 namespace signorini {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const char* to_string(Outcome::Kind kind) {
   switch (kind) {
@@ -205,7 +203,6 @@ Json head_json(const Scene& scene, const Model& model, const std::vector<std::st
 }
 
 // Names come from files in any encoding; a byte that is not UTF-8 must not cost the summary.
-std::string text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
 
@@ -236,7 +233,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &report));
   }
-  return text(json);
+  return json_text(json);
 }
 
 namespace {
@@ -251,7 +248,7 @@ std::string brief_json(const Scene& scene, const Model& model, const std::vector
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, 0.0, nullptr));
   }
-  return text(json);
+  return json_text(json);
 }
 
 }  // namespace
@@ -279,7 +276,7 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path.string(), "cannot be read; expected the directory of a run");
   try {
-    const Json json = Json::parse(file);
+    const Json json = parse_json(file);
     RunFacts facts;
     facts.title = json.at("title");
     facts.outcome = json.at("outcome").at("kind");

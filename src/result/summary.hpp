@@ -1,8 +1,6 @@
 // summary.hpp: summary.json, what a run was and how it went, written and read back (docs/output.md).
 //
 //   outcome.kind: running (not ended, or killed), done, stopped, interrupted
-//
-// The one translation unit behind this header is the only one that knows nlohmann-json.
 #pragma once
 
 #include <filesystem>

@@ -1,13 +1,11 @@
 #include "result/trace_writer.hpp"
 
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "signorini/error.hpp"
 
 namespace signorini {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_signs) {
   Json result = Json::array();
@@ -38,7 +36,7 @@ void TraceWriter::write(const Round& round) {
                      {"tried", tried},
                      {"failed", names(round.failed, model_, true)},
                      {"holds", round.failed.empty()}};
-  file_ << line.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+  file_ << json_line(line) << std::endl;
   if (!file_) throw FileError(path_.string(), "cannot be written");
 }
 

@@ -1,15 +1,15 @@
 // units_json.hpp: the units of a scene, in the words of scene files.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "base/json.hpp"
 
 #include "signorini/scene.hpp"
 
 namespace signorini {
 
 /// force, mass, length, time
-[[nodiscard]] nlohmann::ordered_json units_json(const Units& units);
-/// The same, read back. Errors: nlohmann::json::exception.
-[[nodiscard]] Units units_from(const nlohmann::ordered_json& json);
+[[nodiscard]] Json units_json(const Units& units);
+/// The same, read back. Errors: Json::exception.
+[[nodiscard]] Units units_from(const Json& json);
 
 }  // namespace signorini

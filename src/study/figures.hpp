@@ -1,8 +1,9 @@
 // figures.hpp: figures that a run may not have, in tables and JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
+
+#include "base/json.hpp"
 
 namespace signorini {
 
@@ -15,8 +16,8 @@ template <class Value>
 
 /// null where absent.
 template <class Value>
-[[nodiscard]] nlohmann::ordered_json json_of(const std::optional<Value>& value) {
-  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+[[nodiscard]] Json json_of(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
 }
 
 }  // namespace signorini

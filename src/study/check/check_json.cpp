@@ -1,4 +1,4 @@
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "contact/law.hpp"
 #include "result/reduction_json.hpp"
@@ -7,8 +7,6 @@
 
 namespace signorini {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json frequency_json(const Frequencies& frequencies) {
   Json modes = Json::array();
@@ -79,7 +77,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   for (const Column& column : model.columns) columns.push_back(column.name);
   json["columns"] = std::move(columns);
   // Names come from files in any encoding; a byte that is not UTF-8 must not cost the answer.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace signorini

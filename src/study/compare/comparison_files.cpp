@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "result/csv.hpp"
 #include "result/units_json.hpp"
@@ -11,8 +11,6 @@
 namespace signorini {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string runs_csv(const ComparisonReport& report) {
   CsvBlock block;
@@ -183,7 +181,7 @@ std::string comparison_json(const ComparisonReport& report) {
   json["limits"] = Json::object();
   for (const Limit& limit : report.limits) json["limits"][limit.name] = limit.value;
   json["exceeded"] = report.exceeded;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 void write_comparison(const std::filesystem::path& directory, const ComparisonReport& report) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "base/number.hpp"
 #include "result/csv_read.hpp"
@@ -11,8 +11,6 @@
 namespace signorini {
 
 namespace {
-
-using Json = nlohmann::json;
 
 template <class Value>
 std::optional<Value> optional_value(const Json& json, const char* key) {
@@ -58,7 +56,7 @@ RunFigures read_run_figures(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
   std::ifstream file(path, std::ios::binary);
   try {
-    const Json json = Json::parse(file);
+    const Json json = parse_json(file);
     const Json& outcome = json.at("outcome");
     run.engine = json.value("engine", "");
     run.reason = outcome.value("reason", "");

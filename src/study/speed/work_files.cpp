@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "base/number.hpp"
 #include "base/version.hpp"
@@ -17,8 +17,6 @@
 namespace signorini {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The quantities of tables for people; files have all.
 constexpr const char* shown[] = {"event_time", "displacement", "force_away", "energy"};
@@ -250,7 +248,7 @@ std::string work_json(const WorkReport& report) {
     json["frontier"][name] = std::move(names);
   }
   json["conclusions"] = work_conclusions(report);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 void write_work(const std::filesystem::path& directory, const WorkReport& report) {

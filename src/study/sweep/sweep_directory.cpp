@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <system_error>
+#include "base/json.hpp"
 
 #include "base/version.hpp"
 #include "result/csv.hpp"
@@ -18,8 +18,6 @@ namespace signorini {
 namespace fs = std::filesystem;
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json spec_json(const SweepSpec& spec) {
   Json json = {{"sweep", 1},
@@ -147,8 +145,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     remove_old(path_);
   }
   create(path_ / "rows");
-  write_file(path_ / "sweep.json",
-             spec_json(spec_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(path_ / "sweep.json", json_text(spec_json(spec_)));
   read_rows();
 }
 
@@ -197,7 +194,7 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string(), "cannot be read; expected the directory of a sweep");
   try {
-    const Json json = Json::parse(stream);
+    const Json json = parse_json(stream);
     SweepSpec spec;
     spec.scene = json.at("scene");
     spec.fingerprint = json.at("fingerprint");

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include "base/json.hpp"
 
 #include "base/fingerprint.hpp"
 #include "base/input_file.hpp"
@@ -13,8 +13,6 @@
 namespace signorini {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Only the Report counts.
 class NoRecorder : public Recorder {
@@ -95,13 +93,13 @@ std::string row_json(const SweepRow& row) {
                                 {"N", contact.N},
                                 {"T", contact.T},
                                 {"friction_work", contact.friction}});
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string row_text(const SweepRow& row) {
-  Json json = Json::parse(row_json(row));
-  json["checksum"] = fingerprint_of(json.dump());
-  return json.dump(2) + "\n";
+  Json json = parse_json(row_json(row));
+  json["checksum"] = fingerprint_of(json_line(json));
+  return json_text(json);
 }
 
 bool same_result(const SweepRow& a, const SweepRow& b) {
@@ -116,10 +114,10 @@ SweepRow read_row(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string(), "cannot be read");
   try {
-    Json json = Json::parse(stream);
+    Json json = parse_json(stream);
     const std::string checksum = json.at("checksum");
     json.erase("checksum");
-    if (checksum != fingerprint_of(json.dump()))
+    if (checksum != fingerprint_of(json_line(json)))
       throw FileError(file.string(), "has been altered since it was written");
     SweepRow row;
     row.index = json.at("row").get<std::size_t>() - 1;

@@ -1,7 +1,7 @@
 #include "study/sweep/sweep_table.hpp"
 
-#include <nlohmann/json.hpp>
 #include <set>
+#include "base/json.hpp"
 
 #include "result/csv.hpp"
 #include "result/units_json.hpp"
@@ -69,15 +69,14 @@ std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
 }
 
 std::string sweep_json(const SweepSpec& spec, const SweepRows& rows) {
-  using Json = nlohmann::ordered_json;
   Json json = {
       {"title", spec.title},       {"scene", spec.scene},        {"units", units_json(spec.units)},
       {"settings", spec.settings}, {"share", spec.share.text()}, {"rows_in_all", points(spec.vary).size()}};
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary) json["vary"].push_back({{"path", vary.path}, {"values", vary.values}});
   json["rows"] = Json::array();
-  for (const auto& [index, row] : rows) json["rows"].push_back(Json::parse(row_json(row)));
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  for (const auto& [index, row] : rows) json["rows"].push_back(parse_json(row_json(row)));
+  return json_text(json);
 }
 
 }  // namespace signorini

@@ -1,0 +1,24 @@
+// json.hpp: JSON, read and written. Parser and writer are compiled once, in json.cpp: each file that
+// instantiates them costs four seconds (docs/decisions/dense-algebra-in-one-file.md).
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <string>
+
+// NOLINTNEXTLINE(readability-redundant-declaration)
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
+namespace signorini {
+
+using Json = nlohmann::ordered_json;
+
+/// Indented, with a line end; bytes that are not UTF-8 become replacement characters.
+[[nodiscard]] std::string json_text(const Json& json);
+/// The same in one line, without line end.
+[[nodiscard]] std::string json_line(const Json& json);
+/// Errors: Json::exception.
+[[nodiscard]] Json parse_json(std::istream& stream);
+[[nodiscard]] Json parse_json(const std::string& text);
+
+}  // namespace signorini

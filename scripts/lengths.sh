@@ -18,6 +18,7 @@ long_functions() {
       first[indent] = 0
       next
     }
+    /{.*}$/ && !first[indent] { next }
     /;$/ && !/{/ { first[indent] = 0; next }
     /\(/ && !first[indent] && !/^ *(namespace|using|struct|class|enum|return|if|for|while|switch|else|do) / {
       first[indent] = FNR

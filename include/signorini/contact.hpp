@@ -85,7 +85,7 @@ struct Contact {
   [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }
   [[nodiscard]] bool takes_impulses() const { return signorini::takes_impulses(law); }
   [[nodiscard]] bool is_pressed() const { return signorini::is_pressed(law); }
-  [[nodiscard]] bool has_friction() const { return friction.static_ > 0.0; }
+  [[nodiscard]] bool has_friction() const { return friction.any(); }
   /// Without a spring along the tangent: T may jump, and stick is a row on accelerations.
   [[nodiscard]] bool sticks_rigidly() const {
     return has_friction() && !has_spring() && !tangential_stiffness && !shear;

@@ -115,6 +115,10 @@ struct Reduction {
 struct Model {
   std::string title;
   Units units;
+  /// What one unit of force, length and time of the numbers here is in those: 1, but inside of a run.
+  Factors unit;
+  /// In which a run computes: powers of two, found by build_model (model/machine_units.hpp).
+  Factors machine;
   std::vector<Dof> dofs;
   SparseMatrix mass, damping, stiffness;
   std::vector<Load> loads;
@@ -133,8 +137,18 @@ struct Model {
   std::optional<Reduction> reduction;
   /// What the scene may say and hardly means, one sentence each; the first warnings of every run.
   std::vector<std::string> warnings;
+  /// Where massless motions needed a degree of freedom of their own (model/undamped.hpp): displacements of
+  /// the first degrees of freedom = basis * u.
+  std::optional<SparseMatrix> basis;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
+  /// Displacements (or velocities) of physical_dofs().
+  [[nodiscard]] Vector physical(const Vector& u) const {
+    if (reduction) return reduction->physical(u);
+    Vector x = u;
+    if (basis) x.head(basis->rows()) = *basis * u.head(basis->cols());
+    return x;
+  }
   /// To which columns and drawing refer.
   [[nodiscard]] const std::vector<Dof>& physical_dofs() const { return reduction ? reduction->dofs : dofs; }
 };

@@ -14,6 +14,7 @@
 #include "signorini/engine.hpp"
 #include "signorini/event.hpp"
 #include "signorini/model.hpp"
+#include "signorini/trace.hpp"
 
 namespace signorini {
 
@@ -67,6 +68,7 @@ struct Outcome {
   enum class Kind { done, stopped, interrupted } kind = Kind::done;
   double t = 0.0;      ///< reached
   std::string reason;  ///< one sentence with time, contact, guard; empty when done
+  Refusal refusal;     ///< where it stopped because states could not be decided
 };
 
 /// A greatest violation, where it happened, and the scale that it is relative to.
@@ -134,6 +136,7 @@ struct Report {
   std::vector<Peak> peaks;                     ///< one a contact
   std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
   std::map<std::string, long> events_by_type;
+  long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration without reading and assembling
 };

@@ -24,6 +24,11 @@ struct Units {
   std::string force, mass, length, time;
 };
 
+/// Of units of force, length and time: positive, finite.
+struct Factors {
+  double force = 1.0, length = 1.0, time = 1.0;
+};
+
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
 /// f(t) = offset + amplitude * shape(t). A load's amplitude stands outside its history, so for loads
@@ -60,6 +65,10 @@ enum class Refine { root, linear };
 enum class StepControl { fixed, doubling };
 /// exact: what the motion between events is computed with.
 enum class Flow { automatic, modal, taylor };
+/// Whether a run is certified (certify.hpp); automatic: where that is cheap.
+enum class Certify { automatic, yes, no };
+/// What a run is certified by: the exact flow, or the same engine with a finer setting.
+enum class Companion { automatic, exact, finer };
 
 /// Absolute tolerances; where absent, rtol times a scale of the scene.
 struct Tolerances {
@@ -68,7 +77,7 @@ struct Tolerances {
 
 struct RunSpec {
   double t_end = 0.0;
-  Engine engine = Engine::automatic;
+  Engine engine = Engine::ida;
   double rtol = 1e-8;
   Tolerances atol;
   std::optional<double> output_dt;  ///< grid 0, dt, 2 dt, ..., t_end
@@ -80,6 +89,8 @@ struct RunSpec {
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
   Flow flow = Flow::automatic;
+  Certify certify = Certify::automatic;
+  Companion companion = Companion::automatic;
   double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
   SourcePlace place;
@@ -179,6 +190,8 @@ struct Friction {
   double kinetic = 0.0;  ///< |T| = kinetic |N| in slip
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
+
+  [[nodiscard]] bool any() const { return static_ > 0.0; }
 };
 
 struct ContactSpec {

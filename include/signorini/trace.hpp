@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,10 @@ struct Refusal {
   } kind = Kind::none;
   std::string reason;                 ///< one sentence
   std::vector<std::size_t> contacts;  ///< concerned
-  double condition = 0.0;             ///< of W in units that make its diagonal one; 0: unknown
-  double residual = 0.0;              ///< by how many of its roundings the best mode fails; 0: unknown
+  /// Of W in units that make its diagonal one. NaN: unknown.
+  double condition = std::numeric_limits<double>::quiet_NaN();
+  /// By how many of its roundings the best combination of states fails. NaN: unknown.
+  double residual = std::numeric_limits<double>::quiet_NaN();
 
   explicit operator bool() const { return kind != Kind::none; }
 };

@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "cli/table.hpp"
+#include "contact/friction.hpp"
 #include "contact/law.hpp"
+#include "run/expected.hpp"
 
 namespace signorini::cli {
 
@@ -76,7 +78,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
     table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force),
-               c.has_friction() ? number(c.friction.static_ * std::abs(s.N)) : ""});
+               c.has_friction() ? number(static_friction(c) * std::abs(s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n",
                      model.static_start ? "in static equilibrium" : "in the given initial state") +
@@ -243,16 +245,21 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
   const Effort& effort = cost.effort;
-  if (!(effort.steps > 0.0)) return text + "      the number of steps is not known beforehand\n";
+  const std::string exact =
+      cost.exact ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
+                 : "";
+  if (!(effort.steps > 0.0)) return text + "      the number of steps is not known beforehand\n" + exact;
   const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
   if (steps)
     return text + fmt::format("      {:.3g} steps in its period; {} steps, {}\n", effort.steps_per_period,
                               rough(effort.steps), time);
-  return text + fmt::format(
-                    "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
-                    "order of\n"
-                    "      magnitude, usually too high where the highest modes stay quiet\n",
-                    effort.steps_per_period, rough(effort.steps), time);
+  return text +
+         fmt::format(
+             "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
+             "order of\n"
+             "      magnitude, usually too high where the highest modes stay quiet\n",
+             effort.steps_per_period, rough(effort.steps), time) +
+         exact;
 }
 
 }  // namespace

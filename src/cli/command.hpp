@@ -26,6 +26,7 @@ void add_compare(Program& program);
 void add_plot(Program& program);
 void add_study(Program& program);
 void add_sweep(Program& program);
+void add_verify(Program& program);
 void add_keys(Program& program);
 
 }  // namespace signorini::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "base/suggest.hpp"
 #include "cli/command.hpp"
@@ -31,10 +32,40 @@ struct CompareOptions : OutputOptions {
   double instant = 0.0;
 };
 
-Scene scene_for(const CompareOptions& options, const std::string& engine) {
+/// "newmark:dt=1e-4": an engine, and keys of [run] for this run of it.
+struct Variant {
+  std::string engine;
+  std::vector<Override> keys;
+};
+
+Variant variant_of(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ':');) parts.push_back(part);
+  Variant variant{parts.empty() ? text : parts.front(), {}};
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::size_t equals = parts[i].find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--engines " + text + ": expected NAME:KEY=VALUE, such as newmark:dt=1e-4");
+    variant.keys.push_back({"run." + parts[i].substr(0, equals), parts[i].substr(equals + 1)});
+  }
+  return variant;
+}
+
+/// Engines without their keys, as --set names them.
+std::vector<std::string> engines_of(const CompareOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& text : options.engines) names.push_back(variant_of(text).engine);
+  return names;
+}
+
+Scene scene_for(const CompareOptions& options, const std::string& text) {
+  const Variant variant = variant_of(text);
+  const std::string& engine = variant.engine;
   try {
-    std::vector<Override> changes = overrides_for(options.settings, options.engines, engine);
+    std::vector<Override> changes = overrides_for(options.settings, engines_of(options), engine);
     changes.insert(changes.begin(), {"run.engine", engine});
+    changes.insert(changes.end(), variant.keys.begin(), variant.keys.end());
     return read_scene(options.sources.front(), changes);
   } catch (const UsageError& error) {
     throw UsageError(engine_as_given(error.what(), engine));
@@ -227,7 +258,8 @@ void add_compare(Program& program) {
       ->required();
   command
       ->add_option("--engines", options->engines,
-                   "engines to run on the scene, the first is the reference: ida,exact")
+                   "engines to run on the scene, the first is the reference: ida,exact; with keys of [run]: "
+                   "newmark:dt=1e-4,newmark:dt=5e-5")
       ->option_text("NAME,NAME...")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -27,10 +27,14 @@ output_dt = 1e-3
 Events are found to full accuracy whatever `output_dt` is: it only says which rows `history.csv` has. `t_end` is
 always one of them.
 
-`engine = "exact"` follows the closed form of the motion between events, to rounding and whatever `rtol` is; it is
-the quicker one too, except where stiff dampers or damping beta K on a fine mesh bring decays that are long over.
-`engine = "auto"` takes it but for those, and for laws that are not linear; `summary.json` says what was taken and
-why.)"},
+The engine is `ida` where none is named. `engine = "exact"` follows the closed form of the motion between events, to
+rounding and whatever `rtol` is; it is the quicker one too, except where stiff dampers or damping beta K on a fine mesh
+bring decays that are long over: `check` says what it would cost. `engine = "auto"` takes it but for those, and for laws
+that are not linear; `summary.json` says what was taken and why.
+
+A companion beside the run says how far off each event may be, and until when the sequence of events is certain
+([output.md](output.md#certified-runs)). By itself it runs where it is expected to cost less than half of the run, which
+is where `exact` takes the scene; `certify = true` asks for it.)"},
     {"run.atol", "### `run.atol`",
      R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
 motions matter.)"},

@@ -46,11 +46,14 @@ int main_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("signorini ") + version + ", SUNDIALS " + sundials_version);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early,\n"
-      "5 a limit of compare was exceeded, 6 a file could not be read or written, 130 interrupted.");
+      "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early, or verify cannot\n"
+      "decide, 5 a limit of compare was exceeded, or verify found a difference, 6 a file could not be read "
+      "or\n"
+      "written, 130 interrupted.");
   Program program{app, std::vector<std::string>(argv, argv + argc), {}};
   add_run(program);
   add_check(program);
+  add_verify(program);
   add_compare(program);
   add_sweep(program);
   add_study(program);

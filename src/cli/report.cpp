@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "cli/table.hpp"
 #include "engine/tolerance.hpp"
+#include "run/expected.hpp"
 
 namespace signorini::cli {
 
@@ -27,16 +29,52 @@ std::string force(const Model& model, double value) {
   return number(std::abs(value) < 1e-10 * model.scales.force ? 0.0 : value);
 }
 
-void add_event(Table& table, const Model& model, const Event& e) {
-  if (e.contact < 0) {
-    table.row({fmt::format("{:.9g}", e.t), "", to_string(e.type), "", "", ""});
-    return;
+/// The table of events: with a certificate one column more, and a line where certainty ends.
+class EventTable {
+ public:
+  EventTable(const Model& model, const Certificate* certificate)
+      : model_(model),
+        certificate_(certificate),
+        table_(certificate != nullptr ? with_error(header(model)) : header(model),
+               certificate != nullptr ? std::vector{true, true, false, false, false, true, true}
+                                      : std::vector{true, false, false, false, true, true}) {}
+
+  /// `row`: its number among all, from 0.
+  void add(const Event& e, std::size_t row) {
+    const bool certain = certificate_ == nullptr || certificate_->certain(row);
+    if (!certain && !told_) table_.line("  --- not certain from here on: " + certificate_->reason);
+    told_ = told_ || !certain;
+    std::vector<std::string> cells = {fmt::format("{:.9g}", e.t), name_of(model_, e.contact),
+                                      to_string(e.type)};
+    if (e.contact < 0) {
+      cells.insert(cells.end(), {"", "", ""});
+    } else {
+      const std::string hit = e.impulse_n ? fmt::format(", impulse {}", number(*e.impulse_n)) : "";
+      cells.insert(cells.end(), {fmt::format("{} -> {}", to_string(e.from), to_string(e.to)) + hit,
+                                 force(model_, e.N), force(model_, e.T)});
+    }
+    if (certificate_ != nullptr)
+      cells.insert(cells.begin() + 1, certain ? fmt::format("{:.1e}", certificate_->t_errors[row]) : "?");
+    table_.row(std::move(cells));
   }
-  const std::string states = fmt::format("{} -> {}", to_string(e.from), to_string(e.to));
-  const std::string hit = e.impulse_n ? fmt::format(", impulse {}", number(*e.impulse_n)) : "";
-  table.row({fmt::format("{:.9g}", e.t), name_of(model, e.contact), to_string(e.type), states + hit,
-             force(model, e.N), force(model, e.T)});
-}
+  void line(std::string text) { table_.line(std::move(text)); }
+  [[nodiscard]] std::string str() const { return table_.str(); }
+
+ private:
+  static std::vector<std::string> header(const Model& model) {
+    const std::string unit = " [" + model.units.force + "]";
+    return {"t [" + model.units.time + "]", "contact", "event", "from -> to", "N" + unit, "T" + unit};
+  }
+  static std::vector<std::string> with_error(std::vector<std::string> names) {
+    names.insert(names.begin() + 1, "error at most");
+    return names;
+  }
+
+  const Model& model_;
+  const Certificate* certificate_;
+  Table table_;
+  bool told_ = false;
+};
 
 std::string events_by_type(const Report& report) {
   std::string text;
@@ -98,18 +136,17 @@ std::string method_of(const Method& method) {
 
 }  // namespace
 
-std::string event_table(const Live& live, const Model& model) {
-  const std::string unit = " [" + model.units.force + "]";
-  Table table({"t [" + model.units.time + "]", "contact", "event", "from -> to", "N" + unit, "T" + unit},
-              {true, false, false, false, true, true});
+std::string event_table(const Live& live, const Model& model, const Certificate* certificate) {
+  EventTable table(model, certificate);
   const auto& first = live.first_events();
   const bool all = live.event_count() <= static_cast<long>(Live::most_shown);
   const std::size_t shown = all ? first.size() : Live::shown_first;
-  for (std::size_t i = 0; i < shown; ++i) add_event(table, model, first[i]);
+  for (std::size_t i = 0; i < shown; ++i) table.add(first[i], i);
   if (!all) {
     const long left_out = live.event_count() - static_cast<long>(Live::shown_first + Live::shown_last);
     table.line(fmt::format("... {} more; all {} are in events.csv", left_out, live.event_count()));
-    for (const Event& e : live.last_events()) add_event(table, model, e);
+    std::size_t row = static_cast<std::size_t>(live.event_count()) - live.last_events().size();
+    for (const Event& e : live.last_events()) table.add(e, row++);
   }
   return first.empty() ? "  no events\n" : table.str();
 }
@@ -154,6 +191,31 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
+  RunSpec chosen = run;
+  chosen.engine = report.method.engine;
+  if (const std::optional<double> exact = exact_instead(model, chosen))
+    text += fmt::format("exact would take {} s (--engine exact)\n", about_seconds(*exact));
+  return text;
+}
+
+std::string certification(const Model& model, const CertifiedReport& run) {
+  if (!run.certificate) return run.why_not.empty() ? "" : "not certified: " + run.why_not + "\n";
+  const Certificate& c = *run.certificate;
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < c.t_errors.size(); ++i)
+    if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
+  const std::string beside =
+      fmt::format("beside {}, {:.2f} s and {:.2f} s of waiting", c.companion, c.wall_time, c.wait);
+  const std::string times = fmt::format("times within {:.1e} {}", greatest, model.units.time);
+  std::string text =
+      c.complete
+          ? fmt::format("certain to the end: all {} rows of events, {} ({})\n", c.t_errors.size(), times,
+                        beside)
+          : fmt::format("certain until t = {:.9g} {}: {} of {} rows of events, {} ({}); then {}\n", c.until,
+                        model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
+  if (c.unordered > 0)
+    text += fmt::format("the order of {} of neighbouring events of different contacts is not certain\n",
+                        count_of(c.unordered, "pair"));
   return text;
 }
 

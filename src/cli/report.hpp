@@ -4,17 +4,22 @@
 #include <string>
 
 #include "cli/live.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini::cli {
 
-/// One row an event; of many, the first and the last ones. N and T as they are just before the event.
-[[nodiscard]] std::string event_table(const Live& live, const Model& model);
+/// One row an event; of many, the first and the last ones. N and T as they are just before the event. A
+/// certificate, or null, says how far off each time may be, and where the sequence ends to be certain.
+[[nodiscard]] std::string event_table(const Live& live, const Model& model, const Certificate* certificate);
 
 /// One row a contact: static reaction, greatest motions and forces, friction loss.
 [[nodiscard]] std::string contact_table(const Model& model, const Report& report);
 
 /// Outcome, events by type, audit, energy balance, effort.
 [[nodiscard]] std::string closing(const RunSpec& run, const Model& model, const Report& report);
+
+/// Until when the sequence is certain, or why nobody knows.
+[[nodiscard]] std::string certification(const Model& model, const CertifiedReport& run);
 
 }  // namespace signorini::cli

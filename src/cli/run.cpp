@@ -14,7 +14,9 @@
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
 #include "result/trace_writer.hpp"
-#include "signorini/simulate.hpp"
+#include "run/choose_engine.hpp"
+#include "run/expected.hpp"
+#include "signorini/certify.hpp"
 
 namespace signorini::cli {
 
@@ -26,6 +28,7 @@ struct RunOptions : OutputOptions {
   std::string scene, engine;
   std::optional<std::string> directory, trace;
   std::vector<std::string> settings;
+  bool certify = false;
 };
 
 fs::path directory_of(const RunOptions& options) {
@@ -53,6 +56,7 @@ ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& di
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
   if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
+  if (options.certify) changes.push_back({"run.certify", "true"});
   const fs::path path = directory_of(options);
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
@@ -61,12 +65,17 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   if (trace) listener = [&](const Round& round) { trace->write(round); };
   RunDirectory directory(path, scene, model, {options.force, command_line});
 
-  Report report;
+  RunSpec chosen = scene.run;
+  chosen.engine = choose_engine(model, scene.run).engine;
+  if (const std::string patience = warn_of_patience(model, chosen, options.scene); !patience.empty())
+    print_warning(patience);
+  CertifiedReport certified;
+  const Report& report = certified.report;
   std::string events;
   {
     Live live(directory, model, scene.run.t_end, !options.quiet);
     try {
-      report = simulate(model, scene.run, live, listener);
+      certified = simulate_certified(model, scene.run, live, {listener, [] { return !Interrupt::asked(); }});
     } catch (const FileError& error) {
       if (!directory.started()) throw;
       directory.abandon(live.reached(), error.what());
@@ -75,9 +84,10 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
                               "is kept in {}",
                               error.what(), live.reached(), model.units.time, path.string()));
     }
-    if (options.tables()) events = event_table(live, model);
+    if (options.tables())
+      events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr);
   }
-  const std::string summary = directory.finish(report);
+  const std::string summary = directory.finish(certified);
   for (const std::string& warning : report.warnings) print_warning(warning);
 
   if (options.json) print(summary);
@@ -86,7 +96,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     print(events + "\n");
     const std::string contacts = contact_table(model, report);
     if (!contacts.empty()) print(contacts + "\n");
-    print(closing(scene.run, model, report));
+    print(closing(scene.run, model, report) + certification(model, certified));
     const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
     print("results: " + path.string() + "/ (events.csv, history.csv, contacts.csv, energy.csv, " + frames +
           "summary.json, run.toml)\n");
@@ -111,6 +121,10 @@ void add_run(Program& program) {
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");
   add_settings(*command, options->settings);
+  command->add_flag(
+      "--certify", options->certify,
+      "compute a companion beside the run, which says how far off events may be, and until when the "
+      "sequence is certain; the same as --set run.certify=true");
   command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
       ->option_text("FILE");
   add_output_options(*command, *options,

@@ -24,7 +24,7 @@ Violations violations(const Contact& contact, State state, const ContactMotion& 
     v.product = std::abs(m.gap * m.N);
   }
   const int s = slip_sign(state);
-  const double friction = s == 0 ? contact.friction.static_ : sliding_friction(contact, s * m.vt);
+  const double friction = s == 0 ? static_friction(contact) : sliding_friction(contact, s * m.vt);
   if (closed) v.friction = std::abs(m.T) + friction * m.N;
   if (s != 0) v.direction = -m.T * slip_rate(contact, s).value(m);
   return v;

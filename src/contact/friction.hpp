@@ -16,6 +16,9 @@
 
 namespace signorini {
 
+/// Greatest |T| over |N| in stick; and over |N| in slip, of all slip rates the least.
+[[nodiscard]] inline double static_friction(const Contact& contact) { return contact.friction.static_; }
+[[nodiscard]] inline double kinetic_friction(const Contact& contact) { return contact.friction.kinetic; }
 /// Coefficient of friction at a slip rate along the slip, s p'; smooth past zero. And its derivative by the
 /// rate.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);

@@ -59,7 +59,7 @@ Form slip_rate(const Contact& contact, int s) {
   Form form;
   form.vt = 1.0;
   if (!contact.tangential_stiffness) return form;
-  const double ratio = s * contact.friction.kinetic / *contact.tangential_stiffness;
+  const double ratio = s * kinetic_friction(contact) / *contact.tangential_stiffness;
   if (contact.has_spring()) {
     form.vn = ratio * contact.normal_stiffness;
     form.an = ratio * contact.normal_damping;
@@ -99,7 +99,7 @@ Rows rows(const Contact& contact, const ContactState& state) {
       break;
     case State::slip_plus:
     case State::slip_minus:
-      result.tangent = sliding_row(slip_sign(state.state), contact.friction.kinetic);
+      result.tangent = sliding_row(slip_sign(state.state), kinetic_friction(contact));
       break;
   }
   return result;
@@ -126,10 +126,10 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
   }
   if (state.state == State::stick) {
     result[1].kind = Guard::slip_plus;
-    result[1].form.N = -contact.friction.static_;
+    result[1].form.N = -static_friction(contact);
     result[1].form.T = -1.0;
     result[2].kind = Guard::slip_minus;
-    result[2].form.N = -contact.friction.static_;
+    result[2].form.N = -static_friction(contact);
     result[2].form.T = 1.0;
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;

@@ -3,14 +3,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "base/rounding.hpp"
+
 namespace signorini {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// The system w - M z - d z0 = q in the present basis. Columns: w, z, z0, right side.
 class Tableau {
@@ -20,7 +19,7 @@ class Tableau {
     t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -Eigen::VectorXd::Ones(n_), q;
     for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
     // What an elimination leaves of a zero.
-    zero_ = 64.0 * epsilon * std::max(1.0, M.cwiseAbs().maxCoeff());
+    zero_ = rounding::of_many * std::max(1.0, M.cwiseAbs().maxCoeff());
   }
 
   [[nodiscard]] Eigen::Index artificial() const { return 2 * n_; }
@@ -78,7 +77,7 @@ class Tableau {
   /// a - b; what an elimination leaves of a zero is zero, or ties would be broken by rounding.
   [[nodiscard]] static double difference(double a, double b) {
     const double d = a - b;
-    return std::abs(d) <= 64.0 * epsilon * std::max(std::abs(a), std::abs(b)) ? 0.0 : d;
+    return std::abs(d) <= rounding::of_many * std::max(std::abs(a), std::abs(b)) ? 0.0 : d;
   }
   /// Row i over its pivot before row j over its own: right side first, then the columns of w, which hold the
   /// inverse of the basis.

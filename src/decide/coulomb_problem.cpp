@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "decide/complementarity.hpp"
 
 namespace signorini {
@@ -17,9 +18,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// How far a solution may miss its conditions, of the problem's size: some roundings of a small elimination.
-constexpr double misses = 1e3 * epsilon;
+// How far a solution may miss its conditions, of the problem's size.
+constexpr double misses = rounding::of_elimination;
+// Responses that differ by less, of the problem's size, are the same. Chosen: above what a condition of 1e6
+// makes of `misses`, far below what differs in Painleve's paradox.
 constexpr double same_solution = 1e-9;
 
 Index normal(std::size_t i) { return static_cast<Index>(2 * i); }
@@ -112,6 +114,8 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
 /// What an item may do, for trying all states. sign: of slipping.
 enum class Try : unsigned char { open, stick, slip_plus, slip_minus };
 
+int sign_of(Try state) { return state == Try::slip_plus ? 1 : state == Try::slip_minus ? -1 : 0; }
+
 std::vector<Try> choices(const CoulombItem& item) {
   switch (item.kind) {
     case Kind::normal:
@@ -128,24 +132,26 @@ std::vector<Try> choices(const CoulombItem& item) {
   return {};
 }
 
-/// The forces (scaled) of one combination of states, if it fulfils all conditions.
-std::optional<VectorXd> forces_of(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
-                                  const std::vector<bool>& kinetic) {
+/// The equations of one combination of states: one unknown or none a row; A x = c with x the 2m forces.
+struct Equations {
+  MatrixXd A;
+  VectorXd c;
+};
+
+Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
+                       const std::vector<bool>& kinetic) {
   const Index n = s.b.size();
-  const Index m = static_cast<Index>(p.items.size());
-  // One unknown or none a row; A x = c with x the 2m forces.
-  MatrixXd A = MatrixXd::Zero(n, n);
-  VectorXd c = VectorXd::Zero(n);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
+  Equations e{MatrixXd::Zero(n, n), VectorXd::Zero(n)};
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
     const Index ni = normal(i), ti = tangent(i);
     const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
-    const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
+    const int sign = sign_of(states[i]);
     const auto respond = [&](Index row) {
-      A.row(row) = s.W.row(row);
-      c[row] = -s.b[row];
+      e.A.row(row) = s.W.row(row);
+      e.c[row] = -s.b[row];
     };
-    const auto no_force = [&](Index row) { A(row, row) = 1.0; };
+    const auto no_force = [&](Index row) { e.A(row, row) = 1.0; };
     const bool own_normal = item.kind != Kind::pressed && item.kind != Kind::limit;
     if (own_normal && states[i] != Try::open)
       respond(ni);
@@ -156,34 +162,47 @@ std::optional<VectorXd> forces_of(const CoulombProblem& p, const Scaled& s, cons
       respond(ti);
     } else {
       no_force(ti);
-      if (item.kind == Kind::pressed) c[ti] = -sign * f * item.pressing * s.unit[ni];
-      if (own_normal && sign != 0) A(ti, ni) = sign * f;
+      if (item.kind == Kind::pressed) e.c[ti] = -sign * f * item.pressing * s.unit[ni];
+      if (own_normal && sign != 0) e.A(ti, ni) = sign * f;
     }
   }
-  const Eigen::FullPivLU<MatrixXd> lu(A);
-  VectorXd x = lu.solve(c);
-  const double size = s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff();
-  const double zero = misses * size;
-  if (!((A * x - c).cwiseAbs().maxCoeff() <= zero)) return std::nullopt;
+  return e;
+}
+
+/// The forces (scaled) of one combination of states, and by how much of the problem's size they miss a
+/// condition at worst.
+struct Attempt {
+  VectorXd force;
+  double miss = 0.0;
+};
+
+Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
+                const std::vector<bool>& kinetic) {
+  const Equations e = equations_of(p, s, states, kinetic);
+  Attempt result{Eigen::FullPivLU<MatrixXd>(e.A).solve(e.c)};
+  const VectorXd& x = result.force;
   const VectorXd r = s.b + s.W * x;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
+  double miss = (e.A * x - e.c).cwiseAbs().maxCoeff();
+  const auto must_not_be_negative = [&](double value) { miss = std::max(miss, -value); };
+  for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
     const Index ni = normal(i), ti = tangent(i);
     const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
-    const int sign = states[i] == Try::slip_plus ? 1 : states[i] == Try::slip_minus ? -1 : 0;
-    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[ni] : x[ni];
-    bool good = true;
+    const int sign = sign_of(states[i]);
     if (item.kind == Kind::limit) {
-      good = states[i] == Try::stick ? item.sign * x[ti] >= -zero : item.sign * r[ti] >= -zero;
-    } else {
-      good = l >= -zero && (item.kind == Kind::pressed || r[ni] >= -zero);
-      if (states[i] == Try::stick && item.kind != Kind::normal)
-        good = good && std::abs(x[ti]) <= f * l + zero;
-      if (sign != 0 && item.kind != Kind::sliding) good = good && sign * r[ti] >= -zero;
+      must_not_be_negative(item.sign * (states[i] == Try::stick ? x[ti] : r[ti]));
+      continue;
     }
-    if (!good) return std::nullopt;
+    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[ni] : x[ni];
+    must_not_be_negative(l);
+    if (item.kind != Kind::pressed) must_not_be_negative(r[ni]);
+    if (states[i] == Try::stick && item.kind != Kind::normal) must_not_be_negative(f * l - std::abs(x[ti]));
+    if (sign != 0 && item.kind != Kind::sliding) must_not_be_negative(sign * r[ti]);
   }
-  return x;
+  const double size = s.b.cwiseAbs().maxCoeff() + x.cwiseAbs().maxCoeff();
+  result.miss = miss > 0.0 ? miss / size : 0.0;
+  if (!std::isfinite(result.miss)) result.miss = std::numeric_limits<double>::infinity();
+  return result;
 }
 
 CoulombSolution finished(const CoulombProblem& p, const Scaled& s, const VectorXd& force,
@@ -235,16 +254,19 @@ bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, 
 
 }  // namespace
 
-std::vector<CoulombSolution> all_solutions(const CoulombProblem& p) {
-  std::vector<CoulombSolution> found;
-  if (p.items.size() > most_enumerated) return found;
+Enumerated all_solutions(const CoulombProblem& p) {
+  Enumerated all;
+  std::vector<CoulombSolution>& found = all.solutions;
+  if (p.items.size() > most_enumerated) return all;
   const Scaled s = scaled(p);
+  const VectorXd inverse = s.unit.cwiseInverse();
   std::vector<std::vector<Try>> options;
   std::size_t combinations = 1;
   for (const CoulombItem& item : p.items) {
     options.push_back(choices(item));
     combinations *= options.back().size();
   }
+  double least = std::numeric_limits<double>::infinity();
   std::vector<Try> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
@@ -253,13 +275,13 @@ std::vector<CoulombSolution> all_solutions(const CoulombProblem& p) {
     for (std::size_t i = 0; i < states.size(); ++i) {
       states[i] = options[i][rest % options[i].size()];
       rest /= options[i].size();
-      kinetic[i] = states[i] == Try::slip_plus || states[i] == Try::slip_minus;
+      kinetic[i] = sign_of(states[i]) != 0;
     }
-    const auto x = forces_of(p, s, states, kinetic);
-    if (!x) continue;
-    CoulombSolution solution = finished(p, s, *x, kinetic);
+    const Attempt tried = attempt(p, s, states, kinetic);
+    least = std::min(least, tried.miss);
+    if (tried.miss > misses) continue;
+    CoulombSolution solution = finished(p, s, tried.force, kinetic);
     const bool known = std::any_of(found.begin(), found.end(), [&](const CoulombSolution& other) {
-      const VectorXd inverse = s.unit.cwiseInverse();
       const double size =
           s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
       return inverse.cwiseProduct(solution.response - other.response).cwiseAbs().maxCoeff() <=
@@ -267,7 +289,8 @@ std::vector<CoulombSolution> all_solutions(const CoulombProblem& p) {
     });
     if (!known) found.push_back(std::move(solution));
   }
-  return found;
+  all.least_miss = found.empty() ? least / rounding::eps : 0.0;
+  return all;
 }
 
 std::optional<CoulombSolution> solve(const CoulombProblem& p) {
@@ -278,9 +301,9 @@ std::optional<CoulombSolution> solve(const CoulombProblem& p) {
     if (!x || !fulfils(p, s, *x, kinetic)) break;
     if (!mark_slipping(p, s, *x, kinetic)) return finished(p, s, *x, kinetic);
   }
-  std::vector<CoulombSolution> all = all_solutions(p);
-  if (all.empty()) return std::nullopt;
-  return all.front();
+  Enumerated all = all_solutions(p);
+  if (all.solutions.empty()) return std::nullopt;
+  return std::move(all.solutions.front());
 }
 
 double condition_of(const CoulombProblem& p) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -47,8 +48,16 @@ struct CoulombSolution {
 
 inline constexpr std::size_t most_enumerated = 6;
 
-/// All solutions that differ in their response, by trying all states; at most `most_enumerated` items.
-[[nodiscard]] std::vector<CoulombSolution> all_solutions(const CoulombProblem& problem);
+/// What trying all states yields.
+struct Enumerated {
+  std::vector<CoulombSolution> solutions;  ///< those that differ in their response
+  /// By how many roundings of the problem's size the best combination misses a condition; 0: it holds, NaN:
+  /// there were too many items.
+  double least_miss = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// At most `most_enumerated` items are tried.
+[[nodiscard]] Enumerated all_solutions(const CoulombProblem& problem);
 
 /// Of W, in units that make its diagonal one: greatest over least singular value.
 [[nodiscard]] double condition_of(const CoulombProblem& problem);

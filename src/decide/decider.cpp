@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "decide/driven_states.hpp"
-#include "decide/enumeration.hpp"
+#include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
@@ -39,7 +39,8 @@ struct Decider::Course {
   std::vector<Failure> failed;  // there
   std::vector<Mode> seen;       // for recognising a circle
   std::vector<ContactMotion> noise_before;
-  Block block;
+  Findings found;
+  std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
   bool blurred = false;
 };
 
@@ -48,7 +49,12 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
       systems_(systems),
       jets_(systems),
       max_rounds_(max_rounds),
-      touching_(systems, jets_, capture_velocity) {}
+      touching_(systems, jets_, capture_velocity),
+      blocks_(coupled_contacts(model_)),
+      block_of_(model_.contacts.size()) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (const std::size_t c : blocks_[b]) block_of_[c] = b;
+}
 
 /// The motion in a mode. False: its rows are dependent.
 bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course) {
@@ -95,39 +101,107 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
 void Decider::look(Course& course, bool before) {
-  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.block.known);
+  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known);
+  std::erase_if(course.failed, [&](const Failure& f) {
+    return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
+           course.undecided.end();
+  });
   if (!listener_) return;
-  Round round{course.instant.t, course.decision.rounds, {}, {}, course.block.hit, course.mode, {}};
+  Round round{course.instant.t, course.decision.rounds, {}, {}, course.found.hit, course.mode, {}};
   for (const Fired& f : course.instant.fired) round.fired.push_back({f.contact, to_string(f.guard)});
   for (const Failure& f : course.failed)
     round.failed.push_back({f.contact, to_string(f.guard), f.sign.order, f.sign.excess});
-  for (std::size_t c = 0; c < course.block.known.size(); ++c)
-    if (course.block.known[c].touches) round.touching.push_back(c);
+  for (std::size_t c = 0; c < course.found.known.size(); ++c)
+    if (course.found.known[c].touches) round.touching.push_back(c);
   listener_(round);
 }
 
-/// Contacts that decide alone take their next states. True: others must be decided together.
-bool Decider::react(Course& course) const {
-  Block& block = course.block;
-  bool jointly = block.sliders;
+/// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
+std::vector<Block> Decider::react(Course& course) const {
+  Findings& found = course.found;
+  std::vector<bool> jointly(blocks_.size(), false);
+  std::vector<std::size_t> turning;
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     if (!course.decision.visited[c]) course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
-    if (!contact.takes_impulses() && !(block.sliders && contact.sticks_rigidly())) {
+    if (found.sliders) jointly[block_of_[c]] = true;
+    const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    if (!contact.takes_impulses() && !(found.sliders && contact.sticks_rigidly())) {
+      // Its slip rate has come to zero, to its rounding: it is zero, whatever its next state is.
+      if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
+        found.known[c].sliding.zeros = 1;
+      if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
       continue;
     }
-    jointly = true;
+    jointly[block_of_[c]] = true;
+    // It was to leave, but in the mode that came of it g' is nothing.
+    if (f.guard == Guard::closing && f.sign.order > 1 && found.known[c].touches) found.stays[c] = true;
     // It was left at its static limit, and that falls.
-    const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
-    if (slips && block.decided[c]) block.kinetic[c] = true;
-    if (f.guard == Guard::sliding && block.decided[c] &&
+    if (slips && found.decided[c]) found.kinetic[c] = true;
+    if (f.guard == Guard::sliding && found.decided[c] &&
         starts_at_zero(f.form, course.jets[c], course.instant))
-      block.rests[c] = true;
+      found.rests[c] = true;
   }
-  return jointly;
+  stop(turning, course);
+  if (course.instant.start && course.decision.rounds == 1)
+    for (std::size_t c = 0; c < block_of_.size(); ++c)
+      if (model_.contacts[c].takes_impulses()) jointly[block_of_[c]] = true;
+  std::vector<Block> result;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (jointly[b]) result.push_back(blocks_[b]);
+  return result;
+}
+
+/// Sliders that turn do so from rest: what locating has left of their slip rates would outlive what comes
+/// after.
+void Decider::stop(const std::vector<std::size_t>& turning, Course& course) const {
+  if (turning.empty()) return;
+  const ModeSystemPtr system = systems_.of(course.mode);
+  if (!system) return;
+  std::vector<Fixed> fixed;
+  for (std::size_t i = 0; i < turning.size(); ++i)
+    fixed.push_back({static_cast<Eigen::Index>(2 * i) + 1, &model_.contacts[turning[i]].tangent,
+                     course.after.surface(turning[i], course.instant.t, 1)});
+  if (!settled(fixed, course.instant.v)) settle(delassus(model_, *system, turning), fixed, course.instant.v);
+}
+
+/// All combinations of states of a block, where no other way leads to one that holds.
+Refusal Decider::enumerate(std::size_t block, Course& course) {
+  Enumeration enumeration(systems_, jets_);
+  std::vector<Enumeration::Choice> choices;
+  for (const Participant& who : course.found.participants)
+    if (block_of_[who.contact] == block) choices.push_back(enumeration.choice(who));
+  for (const std::size_t c : blocks_[block]) {
+    const Contact& contact = model_.contacts[c];
+    if (contact.takes_impulses() || !course.decision.visited[c]) continue;
+    const bool takes_part = std::any_of(choices.begin(), choices.end(),
+                                        [&](const Enumeration::Choice& other) { return other.contact == c; });
+    if (!takes_part)
+      choices.push_back(enumeration.choice(c, course.instant.mode[c], course.decision.before[c]));
+  }
+  Refusal refusal{
+      Refusal::Kind::endless,
+      "no combination of states is consistent; guards that fail: " + names_of(model_, course.failed),
+      contacts_of(course.failed)};
+  const auto best = enumeration.least_failing(course.instant, course.after, blocks_[block], choices,
+                                              course.found.known, course.mode);
+  if (!best) return refusal;
+  refusal.condition = best->condition;
+  refusal.residual = best->forgiveness;
+  if (best->ambiguous) {
+    refusal.kind = Refusal::Kind::ambiguous;
+    refusal.reason = "several motions continue this one; guards that fail in the last that was tried: " +
+                     names_of(model_, course.failed);
+  }
+  if (!best->acceptable()) return refusal;
+  course.mode = best->mode;
+  for (const std::size_t c : blocks_[block]) course.found.known[c] = course.found.known[c].of_motion();
+  course.undecided.push_back(block);
+  course.decision.undecided = true;
+  return {};
 }
 
 /// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
@@ -141,42 +215,34 @@ Refusal Decider::leave_circle(Course& course) {
     course.seen.clear();
     return {};
   }
-  if (!course.block.sliders) {
-    course.block.sliders = true;
+  if (!course.found.sliders) {
+    course.found.sliders = true;
     return {};
   }
-  Refusal refusal{
-      Refusal::Kind::endless,
-      "no combination of states is consistent; guards that fail: " + names_of(model_, course.failed),
-      contacts_of(course.failed)};
-  Enumeration enumeration(systems_, jets_);
-  if (const auto best = enumeration.least_failing(instant, course.after, course.block, course.mode)) {
-    refusal.condition = best->condition;
-    refusal.residual = best->forgiveness;
-    if (best->acceptable()) {
-      course.mode = best->mode;
-      for (KnownGuards& known : course.block.known) known = known.of_motion();
-      course.decision.undecided = true;
-      return {};
-    }
-  }
-  return refusal;
+  std::vector<std::size_t> circling;
+  for (const Failure& f : course.failed)
+    if (circling.empty() ||
+        std::find(circling.begin(), circling.end(), block_of_[f.contact]) == circling.end())
+      circling.push_back(block_of_[f.contact]);
+  for (const std::size_t block : circling)
+    if (Refusal why = enumerate(block, course)) return why;
+  return {};
 }
 
 /// The next mode, from the guards that failed in the last one.
 Refusal Decider::try_next(Course& course) {
   Decision& d = course.decision;
-  const bool jointly = react(course) || (course.instant.start && d.rounds == 1);
-  course.block.hit = false;
-  if (jointly) {
-    Refusal why = touching_.decide(course.instant, course.after, course.jets, course.failed, course.block, d,
-                                   course.mode);
+  const std::vector<Block> jointly = react(course);
+  course.found.hit = false;
+  if (!jointly.empty()) {
+    Refusal why = touching_.decide(course.instant, course.after, course.jets, course.failed, jointly,
+                                   course.found, d, course.mode);
     if (why) {
       if (!course.failed.empty()) why.reason += " (after " + names_of(model_, course.failed) + ")";
       return why;
     }
   }
-  if (course.block.hit) course.seen.clear();  // other velocities: the same states mean something else
+  if (course.found.hit) course.seen.clear();  // other velocities: the same states mean something else
   const bool again = std::find(course.seen.begin(), course.seen.end(), course.mode) != course.seen.end();
   if (again && !(course.instant.start && d.rounds == 1))
     if (Refusal why = leave_circle(course)) return why;
@@ -193,7 +259,7 @@ Refusal Decider::go(const Forcing& before, Course& course) {
   course.seen.push_back(course.mode);
   look(course, true);
   Decision& d = course.decision;
-  while (!d.undecided && (!course.failed.empty() || (course.instant.start && d.rounds == 0))) {
+  while (!course.failed.empty() || (course.instant.start && d.rounds == 0)) {
     if (++d.rounds > max_rounds_)
       return {Refusal::Kind::endless,
               fmt::format("{} rounds of state changes at one instant do not end; guards that fail: {}",
@@ -219,7 +285,7 @@ void Decider::finish(Course& course) const {
     for (const GuardForm& guard : guards(model_.contacts[c], course.mode[c])) {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
-        const Known known = course.block.known[c].of(guard.kind);
+        const Known known = course.found.known[c].of(guard.kind);
         start.at_zero = known.zeros > 0 || starts_at_zero(guard.form, jet, course.instant);
         start.noise = guard.form.magnitude(jet.noise[0]);
         const int order = sign_of_guard(guard.form, jet, course.instant, known).order;
@@ -232,7 +298,7 @@ void Decider::finish(Course& course) const {
 
 Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
   const std::size_t count = model_.contacts.size();
-  Course course{std::move(instant), after, {}, {}, {}, {}, {}, {}, Block(count)};
+  Course course{std::move(instant), after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
   course.decision.crossings.resize(count);
@@ -242,7 +308,7 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
 }
 
 Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {
-  Course course{instant, forcing, {}, {}, {}, {}, {}, {}, Block(mode.size())};
+  Course course{instant, forcing, {}, {}, {}, {}, {}, {}, Findings(mode.size()), {}};
   Decision& d = course.decision;
   d.visited.assign(mode.size(), false);
   d.jumped.assign(mode.size(), false);

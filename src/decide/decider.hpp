@@ -11,6 +11,7 @@
 // (decide/enumeration.hpp). If no mode is consistent the decision says so.
 #pragma once
 
+#include "decide/enumeration.hpp"
 #include "decide/touching.hpp"
 
 namespace signorini {
@@ -35,7 +36,9 @@ class Decider {
   [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
-  [[nodiscard]] bool react(Course& course) const;
+  [[nodiscard]] std::vector<Block> react(Course& course) const;
+  void stop(const std::vector<std::size_t>& turning, Course& course) const;
+  [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);
   [[nodiscard]] Refusal try_next(Course& course);
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
@@ -47,6 +50,8 @@ class Decider {
   JetMaker jets_;
   int max_rounds_;
   Touching touching_;
+  std::vector<Block> blocks_;
+  std::vector<std::size_t> block_of_;  // one a contact
   RoundListener listener_;
 };
 

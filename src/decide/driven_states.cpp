@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "contact/motion.hpp"
 #include "contact/transition.hpp"
 
@@ -32,8 +32,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
         s.anchor = slip_of(contact, m.ut, contact.initial_shear);
       } else if (contact.sticks_rigidly()) {
         const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
-        if (std::abs(m.vt) >
-            8.0 * std::numeric_limits<double>::epsilon() * size + forcing.surface_rounding(c, t))
+        if (std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))
           s.state = slip_along(m.vt);
       }
     }
@@ -67,9 +66,9 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
     if (std::abs(surface_jump) <= same_speed * (speed + model.scales.velocity)) surface_jump = 0.0;
-    const bool moves = std::abs(m.vt) > 64.0 * std::numeric_limits<double>::epsilon() *
-                                                (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
-                                            after.surface_rounding(c, t);
+    const bool moves =
+        std::abs(m.vt) > rounding::of_many * (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
+                             after.surface_rounding(c, t);
     if (s.is_open()) {
       s = {state_at_rest(contact), m.ut};
       if (contact.sticks_rigidly() && moves) s.state = slip_along(m.vt);

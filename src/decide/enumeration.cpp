@@ -3,46 +3,83 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact/motion.hpp"
 #include "decide/delassus.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
+namespace {
 
-bool Enumeration::Best::acceptable() const { return forgiveness <= std::max(1.0, condition); }
+// Accelerations that differ by less than this part of the greatest are equal: half of the digits, since
+// forces of a block of any condition that can be decided at all (1e8) share it.
+constexpr double same_acceleration = 1e-8;
 
-std::vector<State> Enumeration::choices(const Participant& who) const {
+/// The combination of a number, one digit a choice.
+void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mode& mode) {
+  for (const Enumeration::Choice& choice : choices) {
+    mode[choice.contact] = choice.states[code % choice.states.size()];
+    code /= choice.states.size();
+  }
+}
+
+}  // namespace
+
+bool Enumeration::Best::acceptable() const { return !ambiguous && forgiveness <= std::max(1.0, condition); }
+
+Enumeration::Choice Enumeration::choice(const Participant& who) const {
   const Contact& contact = model_.contacts[who.contact];
-  if (!contact.has_gap()) return {State::stick, State::slip_plus, State::slip_minus};
-  if (!contact.has_friction()) return {State::open, State::closed};
-  if (who.slipping) return {State::open, slip_along(who.sign)};
-  return {State::open, State::stick, State::slip_plus, State::slip_minus};
+  const ContactState open{State::open, 0.0}, closed{State::closed, 0.0}, stick{State::stick, 0.0},
+      plus{State::slip_plus, 0.0}, minus{State::slip_minus, 0.0};
+  if (!contact.has_gap()) return {who.contact, {stick, plus, minus}};
+  if (!contact.has_friction()) return {who.contact, {open, closed}};
+  if (who.slipping) return {who.contact, {open, who.sign > 0 ? plus : minus}};
+  return {who.contact, {open, stick, plus, minus}};
+}
+
+Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
+                                        const ContactMotion& before) const {
+  const Contact& contact = model_.contacts[c];
+  // What stuck keeps its anchor, what slipped sticks where it is.
+  const double anchor = state.state == State::stick ? state.anchor : slip_of(contact, before);
+  Choice result{c, {}};
+  if (contact.has_gap()) result.states.push_back({let_go(contact, before.gap), 0.0});
+  if (!contact.has_friction()) {
+    result.states.push_back({State::closed, 0.0});
+    return result;
+  }
+  for (const State s : {State::stick, State::slip_plus, State::slip_minus})
+    result.states.push_back({s, anchor});
+  return result;
 }
 
 /// Nothing: the rows of the mode are dependent.
-std::optional<double> Enumeration::forgiveness_of(const Instant& instant, const Forcing& forcing,
-                                                  const Block& block, const Mode& mode) {
+std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, const Forcing& forcing,
+                                                       const Block& block,
+                                                       const std::vector<KnownGuards>& known,
+                                                       const Mode& mode) {
   const ModeSystemPtr system = systems_.of(mode);
   if (!system) return std::nullopt;
   Vector u = instant.u, v = instant.v;
   hold(model_, *system, forcing, instant.t, u, v);
-  std::vector<MotionJet> jets;
-  (void)jets_.make(system, forcing, instant.t, u, v, jets);
-  double most = 0.0;
-  for (std::size_t c = 0; c < mode.size(); ++c)
+  std::vector<MotionJet> motions;
+  const Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
+  Weighed result{0.0, jet.a()};
+  for (const std::size_t c : block)
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
       if (guard.kind != Guard::none)
-        most = std::max(
-            most, forgiveness(guard.form, jets[c], instant, block.known[c].of_motion().of(guard.kind).zeros));
-  return most;
+        result.forgiveness =
+            std::max(result.forgiveness,
+                     forgiveness(guard.form, motions[c], instant, known[c].of_motion().of(guard.kind).zeros));
+  return result;
 }
 
-/// Of what the block's forces do to its accelerations when all of it is open.
-double Enumeration::condition(const Block& block, Mode mode) {
+/// Of what the forces do to the accelerations when all of them are open.
+double Enumeration::condition(const std::vector<Choice>& choices, Mode mode) {
   std::vector<std::size_t> contacts;
   CoulombProblem problem;
-  for (const Participant& who : block.participants) {
-    contacts.push_back(who.contact);
-    mode[who.contact] = {State::open, 0.0};
+  for (const Choice& choice : choices) {
+    contacts.push_back(choice.contact);
+    mode[choice.contact] = {State::open, 0.0};
   }
   const ModeSystemPtr system = systems_.of(mode);
   if (!system) return 1.0;
@@ -52,27 +89,31 @@ double Enumeration::condition(const Block& block, Mode mode) {
 }
 
 std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& instant, const Forcing& forcing,
-                                                            const Block& block, const Mode& mode) {
-  const std::vector<Participant>& who = block.participants;
-  if (who.empty() || who.size() > most_contacts) return std::nullopt;
-  std::vector<std::vector<State>> options;
+                                                            const Block& block,
+                                                            const std::vector<Choice>& choices,
+                                                            const std::vector<KnownGuards>& known,
+                                                            const Mode& mode) {
+  if (choices.empty() || choices.size() > most_contacts) return std::nullopt;
   std::size_t combinations = 1;
-  for (const Participant& participant : who) {
-    options.push_back(choices(participant));
-    combinations *= options.back().size();
-  }
+  for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<Best> best;
+  Vector a;
   for (std::size_t code = 0; code < combinations; ++code) {
     Mode tried = mode;
-    std::size_t rest = code;
-    for (std::size_t i = 0; i < who.size(); ++i) {
-      tried[who[i].contact].state = options[i][rest % options[i].size()];
-      rest /= options[i].size();
+    apply(choices, code, tried);
+    const auto weighed = weigh(instant, forcing, block, known, tried);
+    if (!weighed) continue;
+    // Two that hold must go on alike.
+    const bool differs = best && best->forgiveness == 0.0 && weighed->forgiveness == 0.0 &&
+                         !((weighed->a - a).norm() <= same_acceleration * (a.norm() + weighed->a.norm()));
+    if (best && weighed->forgiveness >= best->forgiveness) {
+      best->ambiguous = best->ambiguous || differs;
+      continue;
     }
-    const auto forgiven = forgiveness_of(instant, forcing, block, tried);
-    if (forgiven && (!best || *forgiven < best->forgiveness)) best = Best{std::move(tried), *forgiven, 1.0};
+    best = Best{std::move(tried), weighed->forgiveness, 1.0, false};
+    a = weighed->a;
   }
-  if (best) best->condition = condition(block, mode);
+  if (best) best->condition = condition(choices, mode);
   return best;
 }
 

@@ -1,8 +1,8 @@
 // enumeration.hpp: all combinations of the states of a block, weighed by how much of rounding must be
 // forgiven.
 //
-//   forgiveness of a mode = max over its guards of ( -g^(k) / zero^(k) )     where g^(k) is negative and no
-//                                                                            lower derivative is positive
+//   forgiveness of a mode = max over the block's guards of ( -g^(k) / zero^(k) )    where g^(k) is negative
+//                                                                   and no lower derivative is positive
 //
 // 0: every guard holds. A mode is acceptable if what must be forgiven is what the condition of the block
 // makes of a rounding. For blocks that rounding cannot decide; it costs a jet a combination.
@@ -19,23 +19,42 @@ class Enumeration {
   Enumeration(ModeSystems& systems, JetMaker& jets)
       : model_(systems.model()), systems_(systems), jets_(jets) {}
 
-  /// Contacts up to which all combinations are tried.
+  /// Contacts up to which all combinations are tried: 4^5 jets.
   static constexpr std::size_t most_contacts = 5;
+
+  /// A contact whose state is in question, and the states that it may take.
+  struct Choice {
+    std::size_t contact = 0;
+    std::vector<ContactState> states;
+  };
+  /// Of a contact that touches and is decided with others.
+  [[nodiscard]] Choice choice(const Participant& who) const;
+  /// Of any other; before: its state and motion up to the instant.
+  [[nodiscard]] Choice choice(std::size_t contact, const ContactState& state,
+                              const ContactMotion& before) const;
 
   struct Best {
     Mode mode;
-    double forgiveness = 0.0, condition = 1.0;
+    double forgiveness = 0.0;
+    double condition = 1.0;  ///< of what the chosen contacts' forces do to their accelerations
+    bool ambiguous = false;  ///< another mode holds as well, with other accelerations
     [[nodiscard]] bool acceptable() const;
   };
-  /// Of the block's participants; all others keep their states. Nothing: there are too many, or none.
+  /// All others keep their states in `mode`. known: one a contact. Nothing: there are too many choices, none,
+  /// or no combination has unique forces.
   [[nodiscard]] std::optional<Best> least_failing(const Instant& instant, const Forcing& forcing,
-                                                  const Block& block, const Mode& mode);
+                                                  const Block& block, const std::vector<Choice>& choices,
+                                                  const std::vector<KnownGuards>& known, const Mode& mode);
 
  private:
-  [[nodiscard]] std::vector<State> choices(const Participant& who) const;
-  [[nodiscard]] std::optional<double> forgiveness_of(const Instant& instant, const Forcing& forcing,
-                                                     const Block& block, const Mode& mode);
-  [[nodiscard]] double condition(const Block& block, Mode mode);
+  struct Weighed {
+    double forgiveness = 0.0;
+    Vector a;
+  };
+  [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const Forcing& forcing,
+                                             const Block& block, const std::vector<KnownGuards>& known,
+                                             const Mode& mode);
+  [[nodiscard]] double condition(const std::vector<Choice>& choices, Mode mode);
 
   const Model& model_;
   ModeSystems& systems_;

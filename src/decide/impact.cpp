@@ -5,14 +5,17 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
+#include "decide/coulomb_reading.hpp"
+#include "scene/quantities.hpp"
 
 namespace signorini {
 namespace {
 
-// Of the velocities before: slower than this an impulse leaves rest, or, where it is clearly inside its cone,
-// what the rounding of an elimination makes of rest.
-constexpr double at_rest = 1e-12, rounded_rest = 1e-9;
-constexpr double inside_cone = 1.0 - 1e-6;
+// Of the greatest of the energies in question: what rounding of velocities and impulses leaves is below, what
+// Newton's law gains is not. Chosen.
+constexpr double no_gain = 1e-9;
 
 /// All that could sticks rigidly let go: only then does the system's matrix say what an impulse does.
 Mode released(const Model& model, Mode mode) {
@@ -47,18 +50,26 @@ Vector Impacts::close(const Mode& mode, const std::vector<std::size_t>& touching
 Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& system,
                            const std::vector<std::size_t>& touching, const Vector& v) const {
   const auto m = static_cast<Eigen::Index>(touching.size());
-  Hit hit{delassus(model_, system, touching), {}, Eigen::VectorXd(2 * m), {}, Eigen::VectorXd(m), {}};
+  Hit hit{delassus(model_, system, touching),
+          {},
+          Eigen::VectorXd(2 * m),
+          Eigen::VectorXd(2 * m),
+          {},
+          Eigen::VectorXd(m),
+          {}};
   hit.problem.W = hit.d.W;
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const Contact& contact = model_.contacts[c];
     hit.before[2 * i] = contact.normal.dot(v);
     hit.before[2 * i + 1] = contact.tangent.dot(v) - forcing.surface(c, t, 1);
+    hit.size[2 * i] = contact.normal.magnitude(v);
+    hit.size[2 * i + 1] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
     hit.restitution[i] = contact.restitution;
     CoulombItem item;
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
-    item.static_friction = contact.friction.static_;
-    item.kinetic_friction = contact.friction.kinetic;
+    item.static_friction = static_friction(contact);
+    item.kinetic_friction = kinetic_friction(contact);
     hit.problem.items.push_back(item);
   }
   return hit;
@@ -89,21 +100,17 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
 /// Velocities that the solution makes known are exact.
 void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<std::size_t>& touching,
                            Hit& hit, Impact& impact) const {
-  const double size = hit.before.cwiseAbs().maxCoeff();
+  const CoulombReading reading(hit.problem, *hit.solution, rounding::of_many * hit.size);
   std::vector<Fixed> fixed;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::size_t c = touching[at];
-    const double n = hit.solution->force[2 * i], k = hit.solution->force[2 * i + 1];
-    if (!(n > 0.0)) continue;
+    if (!(hit.solution->force[2 * i] > 0.0)) continue;
     hit.after[2 * i] = -hit.restitution[i] * std::min(hit.before[2 * i], 0.0);
     fixed.push_back({2 * i, &model_.contacts[c].normal, hit.after[2 * i]});
     impact.impulses[c].rests = hit.after[2 * i] == 0.0;
     if (!model_.contacts[c].has_friction()) continue;
-    const CoulombItem& item = hit.problem.items[at];
-    const double f = hit.solution->kinetic[at] ? item.kinetic_friction : item.static_friction;
-    const double slip = std::abs(hit.after[2 * i + 1]);
-    if (slip > at_rest * size && (slip > rounded_rest * size || std::abs(k) > inside_cone * f * n)) continue;
+    if (!reading.is_inside_cone(at) && !reading.is_zero_response(2 * i + 1)) continue;
     hit.after[2 * i + 1] = 0.0;
     fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
     impact.impulses[c].sticks = true;
@@ -128,7 +135,7 @@ void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
     impact.surface_work += k * forcing.surface(c, t, 1);
     greatest = std::max({greatest, std::abs(n * hit.before[2 * i]), std::abs(k * hit.before[2 * i + 1])});
   }
-  impact.gains = impact.loss < -1e-9 * greatest;
+  impact.gains = impact.loss < -no_gain * greatest;
 }
 
 Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
@@ -146,10 +153,13 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
     impact.refusal = {Refusal::Kind::impact,
                       "the impact has no solution: its complementarity problem ends in a ray", touching,
                       condition_of(hit.problem)};
-    for (std::size_t i = 0; i < touching.size(); ++i)
-      impact.refusal.reason += fmt::format(
-          "; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
-          hit.before[static_cast<Eigen::Index>(2 * i)], hit.before[static_cast<Eigen::Index>(2 * i) + 1]);
+    const double shown = factor_of(unit::velocity, model_.unit);
+    for (std::size_t i = 0; i < touching.size(); ++i) {
+      const auto n = static_cast<Eigen::Index>(2 * i);
+      impact.refusal.reason +=
+          fmt::format("; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
+                      hit.before[n] * shown, hit.before[n + 1] * shown);
+    }
     return impact;
   }
   impact.u = closed(touching, hit.d, u);

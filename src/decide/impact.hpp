@@ -51,7 +51,7 @@ class Impacts {
   struct Hit {
     Delassus d;
     CoulombProblem problem;
-    Eigen::VectorXd before, after, restitution;
+    Eigen::VectorXd before, size, after, restitution;  // size: sum of the terms of `before`
     std::optional<CoulombSolution> solution;
   };
   [[nodiscard]] Hit meet(const Forcing& forcing, double t, const ModeSystem& system,

@@ -6,15 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "base/eigen_dense.hpp"
+#include "contact/friction.hpp"
+#include "decide/coulomb_reading.hpp"
+#include "scene/quantities.hpp"
 
 namespace signorini {
 namespace {
 
 using Kind = CoulombItem::Kind;
 
-constexpr std::size_t most_compared = 4;   // contacts up to which all solutions are looked for
-constexpr double noise_of_solution = 2.0;  // over that which its right side passes on
+constexpr std::size_t most_compared = 5;  // contacts up to which all solutions are looked for
 
 int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 
@@ -29,68 +30,6 @@ void hold_normals(CoulombProblem& p) {
   }
 }
 
-/// What noise in b makes of forces and responses, with the solution's own contacts in force.
-struct Noise {
-  Eigen::VectorXd force, response;
-};
-
-Noise pass_on(const CoulombProblem& p, const CoulombSolution& s, const Eigen::VectorXd& noise) {
-  const Eigen::Index n = noise.size();
-  // Columns: forces that answer to a response of zero; a slipping contact's k goes with its l.
-  std::vector<Eigen::Index> rows;
-  Eigen::MatrixXd columns(n, 0);
-  const auto answer = [&](Eigen::Index row, const Eigen::VectorXd& column) {
-    rows.push_back(row);
-    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-    columns.rightCols(1) = column;
-  };
-  for (std::size_t i = 0; i < p.items.size(); ++i) {
-    const CoulombItem& item = p.items[i];
-    const auto row = static_cast<Eigen::Index>(2 * i);
-    const double l = s.force[row], k = s.force[row + 1];
-    const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
-    const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
-    const bool sticks = item.kind == Kind::limit     ? k != 0.0
-                        : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
-                                                     : item.kind == Kind::frictional && std::abs(k) < f * l;
-    if (presses) answer(row, p.W.col(row) + (sticks ? 0.0 : k / l) * p.W.col(row + 1));
-    if (sticks) answer(row + 1, p.W.col(row + 1));
-  }
-  // The problem is solved to the rounding of its greatest entry, in units that make the diagonal of W one.
-  double greatest = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (p.W(i, i) > 0.0) greatest = std::max(greatest, std::abs(p.b[i]) / std::sqrt(p.W(i, i)));
-  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * greatest;
-  // At least what a contact alone would make of it.
-  Noise result{Eigen::VectorXd::Zero(n), noise};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!(p.W(i, i) > 0.0)) continue;
-    const double unit = std::sqrt(p.W(i, i));
-    result.response[i] += rounding * unit;
-    result.force[i] = noise[i] / p.W(i, i) + rounding / unit;
-  }
-  if (rows.empty()) return result;
-  const Eigen::MatrixXd inverse = pseudo_inverse(columns(rows, Eigen::all));
-  const Eigen::VectorXd forces = inverse.cwiseAbs() * noise(rows);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    result.force[rows[i]] = std::max(result.force[rows[i]], forces[static_cast<Eigen::Index>(i)]);
-  result.response += columns.cwiseAbs() * forces;
-  return result;
-}
-
-/// What a solution says within its noise.
-struct Reading {
-  const CoulombProblem& problem;
-  const CoulombSolution& solution;
-  Noise passed;
-  std::size_t order;
-
-  [[nodiscard]] bool is_zero_response(Eigen::Index i) const {
-    return std::abs(solution.response[i]) <= noise_of_solution * passed.response[i];
-  }
-  [[nodiscard]] double zero_force(Eigen::Index i) const { return noise_of_solution * passed.force[i]; }
-};
-
 enum class Verdict : unsigned char { open, limit, decided };  // open: an open question
 
 void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& guards) {
@@ -99,60 +38,57 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
 }
 
 /// A contact whose friction is at its limit: back into the cone, slip, or still undecided.
-Verdict leave_limit(const Reading& r, std::size_t i, ContactState& state, KnownGuards& guards) {
-  const int sign = r.problem.items[i].sign;
+Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, ContactState& state,
+                    KnownGuards& guards) {
+  const int sign = r.item(i).sign;
   const auto t = static_cast<Eigen::Index>(2 * i) + 1;
-  if (sign * r.solution.force[t] > r.zero_force(t)) {
+  if (sign * r.force(t) > r.zero_force(t)) {
     state.state = State::stick;
-    (sign > 0 ? guards.slip_plus : guards.slip_minus) = {r.order, true};
+    (sign > 0 ? guards.slip_plus : guards.slip_minus) = {order, true};
     return Verdict::decided;
   }
   if (r.is_zero_response(t)) return Verdict::open;
-  start_slip(sign, r.order, state, guards);
+  start_slip(sign, order, state, guards);
   return Verdict::decided;
 }
 
-/// Friction of a contact that presses and has not slipped before. Inside its cone it answers to rest,
-/// whatever rounding has left of that.
-Verdict settle_friction(const Reading& r, std::size_t i, Participant& who, ContactState& state,
-                        KnownGuards& guards) {
-  const CoulombItem& item = r.problem.items[i];
-  const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
-  const double l = item.kind == Kind::pressed ? item.pressing : r.solution.force[n];
-  const double k = r.solution.force[t];
-  const double f = r.solution.kinetic[i] ? item.kinetic_friction : item.static_friction;
+/// Friction of a contact that presses and has not slipped before.
+Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+                        ContactState& state, KnownGuards& guards) {
+  const CoulombItem& item = r.item(i);
+  const auto t = static_cast<Eigen::Index>(2 * i) + 1;
   state.state = State::stick;
-  if (f * l - std::abs(k) > r.zero_force(t) + f * r.zero_force(n)) return Verdict::decided;
+  if (r.is_inside_cone(i)) return Verdict::decided;
   if (!r.is_zero_response(t)) {
-    start_slip(sign_of(r.solution.response[t]), r.order, state, guards);
+    start_slip(sign_of(r.response(t)), order, state, guards);
     return Verdict::decided;
   }
-  if (item.static_friction != item.kinetic_friction || std::abs(k) <= r.zero_force(t))
+  if (item.static_friction != item.kinetic_friction || std::abs(r.force(t)) <= r.zero_force(t))
     return Verdict::decided;
   // At its limit: with one coefficient the next derivative decides; with two it sticks until the
   // guard of the static limit falls.
-  who.sign = -sign_of(k);
+  who.sign = -sign_of(r.force(t));
   state.state = slip_along(who.sign);
   return Verdict::limit;
 }
 
 /// A force that is not zero answers to a response of zero, whatever rounding has left of that.
-Verdict settle_contact(const Reading& r, std::size_t i, Participant& who, ContactState& state,
-                       KnownGuards& guards) {
-  const CoulombItem& item = r.problem.items[i];
+Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
+                       ContactState& state, KnownGuards& guards) {
+  const CoulombItem& item = r.item(i);
   const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
-  if (item.kind != Kind::pressed && !(r.solution.force[n] > r.zero_force(n))) {
-    if (!(r.solution.force[n] > 0.0) && !r.is_zero_response(n)) {
-      guards.closing = {r.order + 2, true};
+  if (item.kind != Kind::pressed && !(r.force(n) > r.zero_force(n))) {
+    if (!(r.force(n) > 0.0) && !r.is_zero_response(n)) {
+      guards.closing = {order + 2, true};
       return Verdict::decided;
     }
     if (item.kind == Kind::frictional && !r.is_zero_response(t)) {
       who.slipping = true;
-      who.sign = sign_of(r.solution.response[t]);
+      who.sign = sign_of(r.response(t));
     }
     return Verdict::open;
   }
-  if (item.kind != Kind::pressed) guards.separation = {r.order, true};
+  if (item.kind != Kind::pressed) guards.separation = {order, true};
   if (item.kind == Kind::normal) {
     state.state = State::closed;
     return Verdict::decided;
@@ -161,7 +97,15 @@ Verdict settle_contact(const Reading& r, std::size_t i, Participant& who, Contac
     state.state = slip_along(item.sign);
     return Verdict::decided;
   }
-  return settle_friction(r, i, who, state, guards);
+  return settle_friction(r, order, i, who, state, guards);
+}
+
+/// Those whose rows are in force.
+std::vector<std::size_t> in_force(const std::vector<Participant>& participants, const Mode& mode) {
+  std::vector<std::size_t> result;
+  for (const Participant& who : participants)
+    if (!mode[who.contact].is_open()) result.push_back(who.contact);
+  return result;
 }
 
 }  // namespace
@@ -169,7 +113,7 @@ Verdict settle_contact(const Reading& r, std::size_t i, Participant& who, Contac
 Refusal dependent_rows(std::vector<std::size_t> contacts) {
   return {Refusal::Kind::dependent,
           "the rows of the contacts that stick are linearly dependent, so their forces are not unique",
-          std::move(contacts)};
+          std::move(contacts), std::numeric_limits<double>::infinity()};
 }
 
 CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t) const {
@@ -178,7 +122,7 @@ CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t
   CoulombItem item;
   item.sign = entry.who.sign;
   item.kinetic_friction = entry.who.sliding_friction;
-  item.static_friction = entry.who.kinetic ? item.kinetic_friction : contact.friction.static_;
+  item.static_friction = entry.who.kinetic ? item.kinetic_friction : static_friction(contact);
   if (entry.standing == Standing::limit) {
     item.kind = Kind::limit;
   } else if (contact.is_pressed()) {
@@ -192,55 +136,48 @@ CoulombItem Levels::item_of(const Entry& entry, const Forcing& forcing, double t
   return item;
 }
 
-Refusal Levels::refusal(const Level& level, bool several) const {
+Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
   const CoulombProblem& problem = level.problem;
+  const bool several = all.solutions.size() > 1;
   Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
                  several
                      ? "several motions continue this one (Painleve's paradox: friction is so strong that "
                        "a contact may as well press as let go)"
                      : "no motion continues this one (Painleve's paradox: friction is so strong that "
                        "pressing a sliding contact pushes it into what it slides on)",
-                 level.contacts, condition_of(problem)};
+                 level.contacts, condition_of(problem), all.least_miss};
+  const double acceleration = factor_of(unit::acceleration, model_.unit);  // as the scene has it
+  const double per_force = acceleration / model_.unit.force;
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
     const auto n = static_cast<Eigen::Index>(2 * i);
     result.reason +=
         fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
-                    model_.contacts[level.contacts[i]].name, problem.b[n], problem.b[n + 1], problem.W(n, n));
+                    model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
+                    problem.b[n + 1] * acceleration, problem.W(n, n) * per_force);
+    const double sliding = problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1);
     if (item.kind == Kind::sliding)
-      result.reason += fmt::format(", with friction {:.6g} while it slips ({})",
-                                   problem.W(n, n) - item.sign * item.kinetic_friction * problem.W(n, n + 1),
+      result.reason += fmt::format(", with friction {:.6g} while it slips ({})", sliding * per_force,
                                    to_string(slip_along(item.sign)));
     else if (item.kind == Kind::frictional)
-      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}", problem.W(n, n + 1),
-                                   item.static_friction);
+      result.reason += fmt::format(", for a unit of -T = {:.6g}, friction {:.6g}",
+                                   problem.W(n, n + 1) * per_force, item.static_friction);
   }
   return result;
 }
 
-/// The problem of one order for all that are undecided. False: their rows are dependent.
-bool Levels::pose(const Instant& instant, const Forcing& forcing, std::size_t order,
-                  const std::vector<Entry>& entries, const Mode& mode, Level& level) {
-  level = {};
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    if (entries[i].standing != Standing::decided) {
-      level.entries.push_back(i);
-      level.contacts.push_back(entries[i].who.contact);
-    }
-  level.order = order;
-  if (level.entries.empty()) return true;
-  const ModeSystemPtr system = systems_.of(mode);
-  if (!system) return false;
-  std::vector<MotionJet> jets;
-  level.system = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
+/// Items, right side and its noise, from the motion under the forces decided so far.
+void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+                  const std::vector<MotionJet>& jets, Level& level) const {
   const auto size = static_cast<Eigen::Index>(2 * level.entries.size());
   level.problem.b = Eigen::VectorXd::Zero(size);
   level.noise.resize(size);
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     const MotionJet& jet = jets[level.contacts[i]];
-    const ContactMotion &now = jet.motion[order], &zero = jet.noise[order];
-    const bool last = order + 1 == MotionJet::orders;
-    const double an = last ? 0.0 : jet.motion[order + 1].an, at = last ? 0.0 : jet.motion[order + 1].at;
+    const ContactMotion &now = jet.motion[level.order], &zero = jet.noise[level.order];
+    const bool last = level.order + 1 == MotionJet::orders;
+    const double an = last ? 0.0 : jet.motion[level.order + 1].an,
+                 at = last ? 0.0 : jet.motion[level.order + 1].at;
     const auto n = static_cast<Eigen::Index>(2 * i);
     level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
     level.noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
@@ -248,21 +185,68 @@ bool Levels::pose(const Instant& instant, const Forcing& forcing, std::size_t or
     if (std::abs(now.at) > level.noise[n + 1]) level.problem.b[n + 1] = now.at;
     level.problem.items.push_back(item_of(entries[level.entries[i]], forcing, instant.t));
   }
+}
+
+/// The problems of the given levels (order, block) for all that are undecided. False: rows in force are
+/// dependent.
+bool Levels::pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+                  const Mode& mode, std::vector<Level>& levels) {
+  for (Level& level : levels) level = {level.order, level.block, {}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].standing == Standing::decided) continue;
+    const auto of = std::find_if(levels.begin(), levels.end(),
+                                 [&](const Level& level) { return level.block == entries[i].who.block; });
+    if (of == levels.end()) continue;
+    of->entries.push_back(i);
+    of->contacts.push_back(entries[i].who.contact);
+  }
+  std::erase_if(levels, [](const Level& level) { return level.entries.empty(); });
+  if (levels.empty()) return true;
+  const ModeSystemPtr system = systems_.of(mode);
+  if (!system) return false;
+  std::vector<MotionJet> jets;
+  const ModeSystemPtr at_slip = jets_.make(system, forcing, instant.t, instant.u, instant.v, jets).system;
+  for (Level& level : levels) {
+    level.system = at_slip;
+    fill(instant, forcing, entries, jets, level);
+  }
   return true;
+}
+
+/// No solution and no refusal: nothing acts at this order.
+Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& solution) const {
+  CoulombProblem& problem = level.problem;
+  const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
+                                   [](const CoulombItem& item) { return item.kind == Kind::pressed; });
+  if (problem.b.isZero(0.0) && !pressed) return {};
+  problem.W = delassus(model_, *level.system, level.contacts).W;
+  hold_normals(problem);
+  solution = solve(problem);
+  if (!solution) return refusal(level, all_solutions(problem));
+  if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
+  // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
+  CoulombProblem settled = problem;
+  for (std::size_t i = 0; i < settled.items.size(); ++i) {
+    CoulombItem& item = settled.items[i];
+    (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
+        solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+  }
+  const Enumerated all = all_solutions(settled);
+  return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};
 }
 
 /// Takes over what the solution decides. True: it decides somebody.
 bool Levels::settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
                     Mode& mode, std::vector<KnownGuards>& known) const {
-  const Reading reading{level.problem, solution, pass_on(level.problem, solution, level.noise), level.order};
+  const CoulombReading reading(level.problem, solution, level.noise);
   bool decides = false;
   for (std::size_t i = 0; i < level.entries.size(); ++i) {
     Entry& entry = entries[level.entries[i]];
     ContactState& state = mode[entry.who.contact];
     KnownGuards& guards = known[entry.who.contact];
     const Verdict verdict = level.problem.items[i].kind == Kind::limit
-                                ? leave_limit(reading, i, state, guards)
-                                : settle_contact(reading, i, entry.who, state, guards);
+                                ? leave_limit(reading, level.order, i, state, guards)
+                                : settle_contact(reading, level.order, i, entry.who, state, guards);
     if (verdict == Verdict::open) continue;
     entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
     decides = true;
@@ -278,34 +262,23 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
     entries.push_back({who});
     mode[who.contact] = {State::open, 0.0};
   }
-  // An order is solved again as long as it decides somebody: with the great forces in force the small ones
-  // stand out from the rounding.
-  for (std::size_t order = 0; order < MotionJet::orders;) {
-    Level level;
-    if (!pose(instant, forcing, order, entries, mode, level)) return dependent_rows(level.contacts);
-    if (level.entries.empty()) break;
-    CoulombProblem& problem = level.problem;
-    const bool pressed = std::any_of(problem.items.begin(), problem.items.end(),
-                                     [](const CoulombItem& item) { return item.kind == Kind::pressed; });
-    if (problem.b.isZero(0.0) && !pressed) {
-      ++order;
-      continue;
-    }
-    problem.W = delassus(model_, *level.system, level.contacts).W;
-    hold_normals(problem);
-    const auto solution = solve(problem);
-    if (!solution) return refusal(level, false);
-    if (level.entries.size() <= most_compared && may_have_many(problem)) {
-      // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
-      CoulombProblem settled = problem;
-      for (std::size_t i = 0; i < settled.items.size(); ++i) {
-        CoulombItem& item = settled.items[i];
-        (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
-            solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+  for (std::size_t order = 0; order < MotionJet::orders; ++order) {
+    std::vector<Level> levels;
+    for (const Participant& who : participants)
+      if (levels.empty() || levels.back().block != who.block)
+        levels.push_back({order, who.block, {}, {}, {}, {}, {}});
+    // An order of a block is solved again as long as it decides somebody: with the great forces in force the
+    // small ones stand out from the rounding.
+    while (!levels.empty()) {
+      if (!pose(instant, forcing, entries, mode, levels)) return dependent_rows(in_force(participants, mode));
+      std::vector<Level> again;
+      for (Level& level : levels) {
+        std::optional<CoulombSolution> solution;
+        if (Refusal why = solve_level(level, solution)) return why;
+        if (solution && settle(level, *solution, entries, mode, known)) again.push_back(std::move(level));
       }
-      if (all_solutions(settled).size() > 1) return refusal(level, true);
+      levels = std::move(again);
     }
-    if (!settle(level, *solution, entries, mode, known)) ++order;
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {

@@ -6,12 +6,15 @@
 // accelerations that is a Coulomb problem (decide/coulomb_problem.hpp) with the forces as unknowns. A contact
 // whose force and acceleration are both zero, or whose friction is just at its limit, stays undecided and
 // goes into the same problem of the next derivative, with all decided ones in force. What is undecided after
-// the last known derivative stays as it was.
+// the last known derivative stays as it was. Contacts that nothing couples have a problem a block.
 //
-// A problem without solution, or with several, is Painleve's: friction couples the tangent to the normal so
-// strongly that pressing a sliding contact pushes it into the ground. It is refused with its numbers.
+// A problem without solution, or with several that differ in their accelerations, is Painleve's: friction
+// couples the tangent to the normal so strongly that pressing a sliding contact pushes it into the ground. It
+// is refused with its numbers.
 // Source: Glocker 2001, chapters 4 to 6; Painleve 1895.
 #pragma once
+
+#include <optional>
 
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
@@ -28,6 +31,7 @@ struct Participant {
   int sign = 0;
   double sliding_friction = 0.0;  ///< coefficient while it slips, at its slip rate
   bool kinetic = false;           ///< its slip has begun at this instant: the static coefficient is gone
+  std::size_t block = 0;          ///< those of different blocks do not move each other
 };
 
 class Levels {
@@ -46,20 +50,23 @@ class Levels {
     Participant who;
     Standing standing = Standing::apex;
   };
-  /// The Coulomb problem of one order.
+  /// The Coulomb problem of one block and order.
   struct Level {
-    std::size_t order = 0;
+    std::size_t order = 0, block = 0;
     std::vector<std::size_t> entries, contacts;  // that are undecided, and their contacts
     CoulombProblem problem;
     Eigen::VectorXd noise;  // of problem.b
     ModeSystemPtr system;
   };
   [[nodiscard]] CoulombItem item_of(const Entry& entry, const Forcing& forcing, double t) const;
-  [[nodiscard]] bool pose(const Instant& instant, const Forcing& forcing, std::size_t order,
-                          const std::vector<Entry>& entries, const Mode& mode, Level& level);
+  void fill(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+            const std::vector<MotionJet>& jets, Level& level) const;
+  [[nodiscard]] bool pose(const Instant& instant, const Forcing& forcing, const std::vector<Entry>& entries,
+                          const Mode& mode, std::vector<Level>& levels);
+  [[nodiscard]] Refusal solve_level(Level& level, std::optional<CoulombSolution>& solution) const;
   [[nodiscard]] bool settle(const Level& level, const CoulombSolution& solution, std::vector<Entry>& entries,
                             Mode& mode, std::vector<KnownGuards>& known) const;
-  [[nodiscard]] Refusal refusal(const Level& level, bool several) const;
+  [[nodiscard]] Refusal refusal(const Level& level, const Enumerated& all) const;
 
   const Model& model_;
   ModeSystems& systems_;

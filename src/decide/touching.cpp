@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 #include "contact/friction.hpp"
 
@@ -12,12 +13,11 @@ namespace {
 /// The rounding of a form of the velocities. Where all of them are held at zero, what is left of them is the
 /// rounding of corrections, square against the motion of the rest.
 double rounding_of(const Combination& form, const Vector& v) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double fastest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
   double size = 0.0;
   for (const auto& [dof, factor] : form.terms)
-    size += std::abs(factor) * (std::abs(v[dof]) + epsilon * fastest);
-  return 64.0 * epsilon * size;
+    size += std::abs(factor) * (std::abs(v[dof]) + rounding::eps * fastest);
+  return rounding::of_many * size;
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity
 /// The rounding of t.v less the velocity of the surface.
 double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
   return rounding_of(model_.contacts[c].tangent, instant.v) +
-         64.0 * std::numeric_limits<double>::epsilon() * std::abs(forcing.surface(c, instant.t, 1)) +
+         rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
          forcing.surface_rounding(c, instant.t);
 }
 
@@ -52,9 +52,9 @@ double Touching::leaving_velocity(std::size_t c, const MotionJet& free, const In
 
 /// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
 /// lets N jump, T stays continuous: the element sticks at it unless its limit has fallen below.
-void Touching::follow_velocity(const Instant& instant, const Forcing& after,
+void Touching::follow_velocity(const Instant& instant, const Forcing& after, const Block& block,
                                const std::vector<ContactMotion>& before, Mode& mode) const {
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
       mode[c] = {State::stick, slip_of(contact, before[c])};
@@ -65,32 +65,53 @@ void Touching::follow_velocity(const Instant& instant, const Forcing& after,
 }
 
 /// What counts as zero becomes zero, for all contacts at once: setting one to zero moves the others.
-void Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
-                              const Met& met, Block& block) const {
+/// False: they were zero already.
+bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                              const Met& met, Findings& found) const {
   std::vector<Fixed> fixed;
   for (std::size_t i = 0; i < met.contacts.size(); ++i) {
     const std::size_t c = met.contacts[i];
     const Contact& contact = model_.contacts[c];
-    const auto who = std::find_if(block.participants.begin(), block.participants.end(),
+    const auto who = std::find_if(found.participants.begin(), found.participants.end(),
                                   [&](const Participant& p) { return p.contact == c; });
-    if (who == block.participants.end()) continue;
+    if (who == found.participants.end()) continue;
     const auto row = static_cast<Eigen::Index>(2 * i);
     fixed.push_back({row, &contact.normal, 0.0});
-    block.known[c].closing.zeros = 2;
+    found.known[c].closing.zeros = 2;
     if (!contact.has_friction() || who->slipping) continue;
     fixed.push_back({row + 1, &contact.tangent, forcing.surface(c, instant.t, 1)});
-    block.known[c].sliding.zeros = 1;
+    found.known[c].sliding.zeros = 1;
   }
-  if (!settled(fixed, instant.v)) settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  if (settled(fixed, instant.v)) return false;
+  settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  return true;
+}
+
+/// Where others were set to zero a contact may slide the other way. True: one of them rests now.
+bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
+                          Findings& found) const {
+  bool rests = false;
+  for (Participant& who : found.participants) {
+    const std::size_t c = who.contact;
+    if (!who.slipping || !std::binary_search(met.contacts.begin(), met.contacts.end(), c)) continue;
+    const Contact& contact = model_.contacts[c];
+    const double vt = contact.tangent.dot(instant.v) - forcing.surface(c, instant.t, 1);
+    who.sign = vt > 0.0 ? 1 : -1;
+    who.sliding_friction = sliding_friction(contact, std::abs(vt));
+    if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
+    who.slipping = false;
+    rests = true;
+  }
+  return rests;
 }
 
 Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                             const std::vector<Failure>& failed, const Mode& mode) const {
+                             const std::vector<Failure>& failed, const Block& block, const Mode& mode) const {
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
   Met met;
-  for (std::size_t c = 0; c < mode.size(); ++c) {
+  for (const std::size_t c : block) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
     // One whose gap has become negative touches, too: it fell with others, within the resolution of the
@@ -107,14 +128,16 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   return met;
 }
 
-Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, Block& block,
-                         Decision& decision, Mode& mode) {
+Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                         Findings& found, Decision& decision, Mode& mode) {
   const Impact result = impacts_.solve(forcing, instant.t, mode, met.contacts, instant.u, instant.v);
   if (result.refusal) return result.refusal;
   instant.u = result.u;
   instant.v = result.v;
-  block.stays.assign(mode.size(), false);
-  block.rests.assign(mode.size(), false);
+  for (const std::size_t c : block) {
+    found.stays[c] = found.rests[c] = false;
+    found.known[c].sliding = {};
+  }
   decision.impact_loss += result.loss;
   decision.impact_surface_work += result.surface_work;
   decision.impact_gains = decision.impact_gains || result.gains;
@@ -127,76 +150,90 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
     sum.rests = result.impulses[c].rests;
     sum.sticks = result.impulses[c].sticks;
   }
-  follow_velocity(instant, forcing, decision.before, mode);
+  follow_velocity(instant, forcing, block, decision.before, mode);
   return {};
 }
 
 /// Those that do not leave. free: the motion without forces at all that touch.
-std::vector<Participant> Touching::staying(const Instant& instant, const Forcing& forcing, const Met& met,
-                                           const std::vector<MotionJet>& free, const Decision& decision,
-                                           Block& block) const {
-  std::vector<Participant> participants;
+void Touching::add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
+                           const std::vector<MotionJet>& free, const Decision& decision,
+                           Findings& found) const {
   for (const std::size_t c : met.contacts) {
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
     const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
-    if (!struck.rests && !block.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
-    block.stays[c] = true;
+    if (!struck.rests && !found.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
+    found.stays[c] = true;
     const double zero =
         noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);
-    const bool rests = struck.sticks || block.rests[c] ||
+    const bool rests = struck.sticks || found.rests[c] ||
                        (!met.hit && instant.has_fired(c, Guard::sliding)) || std::abs(m.vt) <= zero;
     Participant who{c};
     who.slipping = contact.has_friction() && !rests;
     who.sign = m.vt > 0.0 ? 1 : -1;
     who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
-    who.kinetic = block.kinetic[c];
-    participants.push_back(who);
+    who.kinetic = found.kinetic[c];
+    found.participants.push_back(who);
   }
-  return participants;
 }
 
 /// Sliders whose friction has let go or has stopped them.
-void Touching::add_sliders(const Decision& decision, Block& block) const {
-  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+void Touching::add_sliders(const Block& block, const Decision& decision, Findings& found) const {
+  for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.has_gap() || !contact.sticks_rigidly() || !decision.visited[c]) continue;
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
-    who.kinetic = block.kinetic[c];
-    block.known[c] = {};
-    block.participants.push_back(who);
+    who.kinetic = found.kinetic[c];
+    found.known[c] = found.known[c].of_motion();
+    found.participants.push_back(who);
   }
 }
 
 Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
-                         const std::vector<Failure>& failed, Block& block, Decision& decision, Mode& mode) {
+                         const std::vector<Failure>& failed, const std::vector<Block>& blocks,
+                         Findings& found, Decision& decision, Mode& mode) {
   const Mode old = mode;
-  const Met met = meet(instant, jets, failed, mode);
-  block.hit = met.hit;
-  for (const std::size_t c : met.contacts) {
-    block.known[c] = {};
-    block.known[c].touches = true;
-    block.known[c].closing.zeros = 1;
+  std::vector<Met> all;
+  for (const Block& block : blocks) {
+    const Met& met = all.emplace_back(meet(instant, jets, failed, block, mode));
+    found.hit = found.hit || met.hit;
+    for (const std::size_t c : met.contacts) {
+      found.known[c] = {};
+      found.known[c].touches = true;
+      found.known[c].closing.zeros = 1;
+    }
   }
-  if (met.apart && !met.hit) instant.u = impacts_.close(mode, met.contacts, instant.u);
-  if (met.hit)
-    if (Refusal why = strike(instant, forcing, met, block, decision, mode)) return why;
-  for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const Met& met = all[b];
+    if (met.hit) {
+      if (Refusal why = strike(instant, forcing, met, blocks[b], found, decision, mode)) return why;
+    } else if (met.apart) {
+      instant.u = impacts_.close(mode, met.contacts, instant.u);
+    }
+  }
+  for (const Met& met : all)
+    for (const std::size_t c : met.contacts) mode[c] = {State::open, 0.0};
   const ModeSystemPtr system = systems_.of(mode);
   if (!system)
     return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
   std::vector<MotionJet> free;
   const Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
-  block.participants = staying(instant, forcing, met, free, decision, block);
+  found.participants.clear();
   const Vector moving = instant.v;
-  settle_resting(instant, forcing, *free_jet.system, met, block);
+  std::size_t placed = 0;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    add_staying(instant, forcing, all[b], free, decision, found);
+    while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
+      if (!slide_anew(instant, forcing, all[b], found)) break;
+    if (found.sliders) add_sliders(blocks[b], decision, found);
+    for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
+  }
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
   decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
-  if (block.sliders) add_sliders(decision, block);
-  Refusal refusal = levels_.decide(instant, forcing, block.participants, old, mode, block.known);
-  for (const Participant& who : block.participants) {
-    block.decided[who.contact] = true;
+  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  for (const Participant& who : found.participants) {
+    found.decided[who.contact] = true;
     if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;
   }
   return refusal;

@@ -6,6 +6,8 @@
 //
 // What is slower than an acceleration undoes within the resolution of the clock is zero. The acceleration is
 // known only once a state has been tried, so what is zero is found out in the course of a decision.
+//
+// Blocks of contacts that nothing couples are decided each on its own, at the price of one motion for all.
 #pragma once
 
 #include "decide/decision.hpp"
@@ -14,9 +16,12 @@
 
 namespace signorini {
 
+/// Contacts that move each other through M, C, K and contacts, ascending.
+using Block = std::vector<std::size_t>;
+
 /// What is known at an instant of the contacts whose forces may jump; lists: one entry a contact.
-struct Block {
-  explicit Block(std::size_t n)
+struct Findings {
+  explicit Findings(std::size_t n)
       : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), known(n) {}
   bool hit = false;                       ///< the last decision began with an impact
   bool sliders = false;                   ///< sliders that stick rigidly take part
@@ -32,29 +37,30 @@ class Touching {
   /// capture_velocity: of contacts that have none of their own.
   Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity);
 
-  /// Impacts where there are any, then the states. failed: the guards that led here.
+  /// Impacts where there are any, then the states of the given blocks. failed: the guards that led here.
   [[nodiscard]] Refusal decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
-                               const std::vector<Failure>& failed, Block& block, Decision& decision,
-                               Mode& mode);
+                               const std::vector<Failure>& failed, const std::vector<Block>& blocks,
+                               Findings& found, Decision& decision, Mode& mode);
 
  private:
-  /// Rigid contacts with g = 0.
+  /// Rigid contacts of a block with g = 0.
   struct Met {
-    std::vector<std::size_t> contacts;
+    Block contacts;
     bool hit = false, apart = false;  // one closes; a gap is not exactly zero
   };
   [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
-                         const std::vector<Failure>& failed, const Mode& mode) const;
-  [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, Block& block,
-                               Decision& decision, Mode& mode);
-  [[nodiscard]] std::vector<Participant> staying(const Instant& instant, const Forcing& forcing,
-                                                 const Met& met, const std::vector<MotionJet>& free,
-                                                 const Decision& decision, Block& block) const;
-  void add_sliders(const Decision& decision, Block& block) const;
-  void follow_velocity(const Instant& instant, const Forcing& forcing,
+                         const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
+  [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                               Findings& found, Decision& decision, Mode& mode);
+  void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
+                   const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
+  void add_sliders(const Block& block, const Decision& decision, Findings& found) const;
+  void follow_velocity(const Instant& instant, const Forcing& forcing, const Block& block,
                        const std::vector<ContactMotion>& before, Mode& mode) const;
-  void settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free, const Met& met,
-                      Block& block) const;
+  [[nodiscard]] bool settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
+                                    const Met& met, Findings& found) const;
+  [[nodiscard]] bool slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,
+                                Findings& found) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
                                          const Instant& instant) const;
   [[nodiscard]] double leaving_velocity(std::size_t contact, const MotionJet& free,

@@ -1,8 +1,8 @@
 #include "linear/klu.hpp"
 
-#include <limits>
 #include <stdexcept>
 
+#include "base/rounding.hpp"
 #include "linear/factor_reader.hpp"
 
 namespace signorini {
@@ -54,7 +54,7 @@ bool Klu::factor(const std::vector<double>& values) {
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
   fresh_rcond_ = h_->common.rcond;
   h_->reader.read(h_->symbolic, h_->numeric, &h_->common, true, h_->factors);
-  return fresh_rcond_ >= std::numeric_limits<double>::epsilon();
+  return fresh_rcond_ >= rounding::eps;
 }
 
 bool Klu::refactor(const std::vector<double>& values) {

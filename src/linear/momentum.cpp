@@ -1,7 +1,8 @@
 #include "linear/momentum.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 
@@ -12,7 +13,6 @@ Momentum::Momentum(const Model& model, const Structure& structure)
       column_(structure.row.size()),
       values_(2 * structure.row.size()),
       x_(2 * static_cast<std::size_t>(structure.size)) {
-  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   const auto n = static_cast<std::size_t>(structure.size);
   for (const int i : structure.row) ++row_start_[static_cast<std::size_t>(i) + 1];
   for (std::size_t i = 0; i < n; ++i) row_start_[i + 1] += row_start_[i];
@@ -27,7 +27,8 @@ Momentum::Momentum(const Model& model, const Structure& structure)
       values_[2 * at + 1] = structure.k[p];
       const double inertia = alpha_ * structure.m[p], elastic = beta_ * structure.k[p];
       const double rest = structure.c[p] - (inertia + elastic);
-      if (std::abs(rest) > rounding * (std::abs(inertia) + std::abs(elastic))) rest_.push_back({i, j, rest});
+      if (std::abs(rest) > rounding::of_few * (std::abs(inertia) + std::abs(elastic)))
+        rest_.push_back({i, j, rest});
     }
   if (!rest_.empty()) v_.resize(n);
 }

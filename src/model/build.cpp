@@ -1,7 +1,9 @@
 // build_model: the scene as matrices, in the order in which one thing needs the other:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
-//   -> doubts -> reduction -> shear elements
+//   -> doubts -> reduction, or undamped massless motions apart -> shear elements
+//
+// All of it in the machine's units, and then in the scene's: so a change of units changes no bit of it.
 #include <fmt/core.h>
 
 #include "model/assembly/assembly.hpp"
@@ -10,13 +12,16 @@
 #include "model/assembly/drawing.hpp"
 #include "model/doubts.hpp"
 #include "model/initial_state.hpp"
+#include "model/machine_units.hpp"
 #include "model/massless.hpp"
 #include "model/modes/modes.hpp"
 #include "model/reduce/reduction.hpp"
+#include "model/rescale.hpp"
 #include "model/rigid_contacts.hpp"
 #include "model/scales.hpp"
 #include "model/shear.hpp"
 #include "model/statics/statics.hpp"
+#include "model/undamped.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -74,10 +79,10 @@ void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& mo
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
-}  // namespace
-
-Model build_model(const Scene& scene) {
-  const DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+/// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
+Model assembled(const Scene& scene, const Factors& unit) {
+  DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
+  map.shown_length = unit.length;
   const SourcePlace place = scene.matrices ? scene.matrices->mass.place : SourcePlace{scene.file, 0, 0};
   if (map.size() == 0) throw SceneError(place, "", "the scene has no degree of freedom that could move");
   Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
@@ -85,6 +90,7 @@ Model build_model(const Scene& scene) {
   Model model;
   model.title = scene.title;
   model.units = scene.units;
+  model.unit = unit;
   model.dofs = map.dofs;
   model.columns = map.columns;
   mark_massless(assembly, model.dofs, place);
@@ -107,9 +113,25 @@ Model build_model(const Scene& scene) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
     model.omega_max = highest_frequency(model);
+  } else {
+    separate_undamped(model);
   }
   add_shear_elements(scene, model);
   return model;
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene) {
+  const Factors machine = machine_units(scene);
+  try {
+    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine), machine);
+    model.machine = machine;
+    return model;
+  } catch (const SceneError&) {
+    static_cast<void>(assembled(scene, {}));  // refuses it with numbers in the scene's units
+    throw;
+  }
 }
 
 }  // namespace signorini

@@ -7,6 +7,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/history/history_internal.hpp"
+#include "contact/friction.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
@@ -136,14 +137,15 @@ class Doubts {
         fmt::format("damping alpha = {:.4g} 1/{} drags free motions, too: what slides or flies "
                     "loses its velocity with the time constant 1/alpha = {:.4g} {}; beta alone "
                     "leaves it",
-                    model_.alpha, model_.units.time, 1.0 / model_.alpha, model_.units.time));
+                    model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
+                    model_.units.time));
   }
 
   void friction() {
     std::vector<std::size_t> high;
     double greatest = 0.0;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-      const double f = std::max(model_.contacts[k].friction.static_, model_.contacts[k].friction.kinetic);
+      const double f = std::max(static_friction(model_.contacts[k]), kinetic_friction(model_.contacts[k]));
       if (f > greatest_friction) high.push_back(k);
       greatest = std::max(greatest, f);
     }

@@ -80,14 +80,10 @@ void check_massless(const Model& model, const DofMap& map, const SourcePlace& pl
     if (massless) where.push_back(i);
   }
   if (where.empty()) return;
-  std::vector<LineSpring> springs;
-  for (const Contact& c : model.contacts) {
-    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
-    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
-  }
   const auto count = static_cast<int>(where.size());
   const Vector ones = Vector::Ones(model.size());
-  const SparseMatrix k = block(with_springs(model.stiffness, springs), position, count, ones);
+  const SparseMatrix k =
+      block(with_springs(model.stiffness, contact_springs(model.contacts)), position, count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
   // Either holds a motion, so any positive weights will do; these make both count.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/history/history_internal.hpp"
+#include "contact/friction.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/modes/held.hpp"
@@ -34,6 +35,32 @@ double force_factor(const Combination& direction, const DofMap& map) {
   return map.matrices() ? greatest : std::sqrt(square);
 }
 
+/// All of it, node by node; the same however the scene is turned.
+double weight_of(const Vector& p, const DofMap& map) {
+  if (map.matrices()) return p.cwiseAbs().sum();
+  const auto part = [&](int dof) { return dof >= 0 ? p[dof] : 0.0; };
+  double weight = 0.0;
+  for (const auto& dofs : map.number) weight += std::hypot(part(dofs[0]), part(dofs[1]));
+  return weight;
+}
+
+/// Of a node along the direction in which it has most; the same however the scene is turned.
+double greatest_mass(const Model& model, const DofMap& map) {
+  double greatest = 0.0;
+  if (map.matrices()) {
+    for (int i = 0; i < model.size(); ++i) greatest = std::max(greatest, model.mass.coeff(i, i));
+    return greatest;
+  }
+  for (const auto& dofs : map.number) {
+    const int x = dofs[0], y = dofs[1];
+    const double mx = x >= 0 ? model.mass.coeff(x, x) : 0.0, my = y >= 0 ? model.mass.coeff(y, y) : 0.0;
+    const double mxy = x >= 0 && y >= 0 ? model.mass.coeff(x, y) : 0.0;
+    const double most = mxy == 0.0 ? std::max(mx, my) : 0.5 * (mx + my) + std::hypot(0.5 * (mx - my), mxy);
+    greatest = std::max(greatest, most);
+  }
+  return greatest;
+}
+
 double force_of(const Model& model, const DofMap& map, double t_end) {
   double force = 0.0;
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
@@ -44,9 +71,7 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
   for (const Load& load : model.loads) {
     if (load.name == "gravity" || load.name == "base motion") {
       if (load.is_static && model.static_start) continue;
-      double weight = 0.0;
-      for (const auto& [i, p] : load.direction.terms)
-        if (!map.dofs[static_cast<std::size_t>(i)].rotation) weight += std::abs(p);
+      const double weight = weight_of(full(load.direction, model.size()), map);
       force = std::max(force, weight * magnitude(load.history, t_end));
     } else {
       force = std::max(force, force_factor(load.direction, map) * magnitude(load.history, t_end));
@@ -54,12 +79,9 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
   }
   if (usable(force)) return force;
   // Free vibration: the forces of the initial state, then those that would stop it.
-  const Vector elastic = model.stiffness * model.u0;
-  const Vector viscous = model.damping * model.v0;
-  force = std::max(elastic.size() ? elastic.cwiseAbs().maxCoeff() : 0.0,
-                   viscous.size() ? viscous.cwiseAbs().maxCoeff() : 0.0);
-  const Vector momentum = model.mass * model.v0;
-  return std::max(force, model.omega_max * (momentum.size() ? momentum.cwiseAbs().maxCoeff() : 0.0));
+  force = std::max(greatest_translation(model.stiffness * model.u0, map),
+                   greatest_translation(model.damping * model.v0, map));
+  return std::max(force, model.omega_max * greatest_translation(model.mass * model.v0, map));
 }
 
 /// Greatest static displacements under any one of some forces; 0 when the matrix is singular.
@@ -100,8 +122,8 @@ std::vector<Vector> amplitudes_of_loads(const Model& model, double t_end) {
 std::vector<Vector> limits_of_friction(const Model& model, double t_end) {
   std::vector<Vector> forces;
   for (const Contact& c : model.contacts)
-    if (const double limit = c.friction.static_ * magnitude(c.normal_force, t_end);
-        c.law == Law::slider && limit > 0.0)
+    if (const double limit = static_friction(c) * magnitude(c.normal_force, t_end);
+        c.is_pressed() && limit > 0.0)
       forces.emplace_back(full(c.tangent, model.size()) * limit);
   return forces;
 }
@@ -182,14 +204,11 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   if (!usable(displacement)) displacement = v0 * t_end;
   scales.displacement = first_usable(displacement, length);
 
-  double mass = 0.0;
-  for (int i = 0; i < model.size(); ++i)
-    if (!map.dofs[static_cast<std::size_t>(i)].rotation) mass = std::max(mass, model.mass.coeff(i, i));
+  const double mass = greatest_mass(model, map);
   scales.force = first_usable(force, mass * omega * omega * scales.displacement,
                               mass * scales.displacement / (t_end * t_end));
   // A state that the contacts cannot hold does not swing at omega1: energy bounds its velocity.
-  const Vector elastic = model.stiffness * model.u0;
-  const double driving = std::max(scales.force, elastic.cwiseAbs().maxCoeff());
+  const double driving = std::max(scales.force, greatest_translation(model.stiffness * model.u0, map));
   const double bound = std::sqrt(driving * scales.displacement / mass);
   double velocity = omega > 0.0 ? omega * scales.displacement : bound;
   if (usable(bound)) velocity = std::min(velocity, bound);

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // How many times the difference of two roundings still counts as noise: the two are one sample each.
-constexpr double noise_factor = 64.0;
+constexpr double noise_factor = rounding::of_many / rounding::eps;
 
 constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
 
@@ -88,7 +88,7 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
   result.resize(model_.contacts.size());
   // One sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
-    return noise_factor * (std::abs(x - y) + epsilon * size);
+    return noise_factor * (std::abs(x - y) + rounding::eps * size);
   };
   Derivatives a, b;
   for (std::size_t c = 0; c < result.size(); ++c) {
@@ -132,8 +132,8 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
       d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
       d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
       d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
-      d.pressing = noise_factor * epsilon * terms.pressing;
-      d.pressing_rate = noise_factor * epsilon * terms.pressing_rate;
+      d.pressing = rounding::of_many * terms.pressing;
+      d.pressing_rate = rounding::of_many * terms.pressing_rate;
     }
   }
 }

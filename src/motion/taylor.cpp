@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 
 double Disturbance::sign(std::size_t i) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return ((i * 2654435761u) >> 7) & 1u ? epsilon : -epsilon;
+  return ((i * 2654435761u) >> 7) & 1u ? rounding::eps : -rounding::eps;
 }
 
 Taylor::Taylor(ModeSystems& systems)

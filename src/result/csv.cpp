@@ -30,6 +30,12 @@ CsvBlock& CsvBlock::number(double value) {
 
 CsvBlock& CsvBlock::number(const std::optional<double>& value) { return value ? number(*value) : empty(); }
 
+CsvBlock& CsvBlock::raw(std::string_view cells) {
+  separate();
+  text_ += cells;
+  return *this;
+}
+
 CsvBlock& CsvBlock::text(std::string_view value) {
   separate();
   if (value.find_first_of(",\"\r\n") == std::string_view::npos) {

@@ -25,6 +25,8 @@ class CsvBlock {
   /// Quoted if it holds a comma, a quote or a line break.
   CsvBlock& text(std::string_view value);
   CsvBlock& empty();
+  /// Cells that are text of a table already, commas and all.
+  CsvBlock& raw(std::string_view cells);
   void end_row();
 
   [[nodiscard]] const std::string& str() const { return text_; }

@@ -48,7 +48,9 @@ std::string contact_rows(const PlottedRun& run, std::size_t k) {
 
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
-  const std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
+  std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
+  const bool shaded = picture.over_time && run.facts.certain_until && *run.facts.certain_until < run.to;
+  if (shaded) note += fmt::format(" (shaded: not certain, from t = {:.6g} on)", *run.facts.certain_until);
   std::string s = "# Draws " + picture.name + ".svg and " + picture.name +
                   ".png from the tables of the run. In this folder: gnuplot " + picture.name + ".gp\n";
   if (picture.over_time) {
@@ -72,6 +74,11 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
   s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
   s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";
   if (picture.over_time) s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\n";
+  if (shaded)
+    s += fmt::format(
+        "set object 1 rectangle from {},graph 0 to {},graph 1 front fillstyle "
+        "transparent solid 0.25 noborder fillcolor '#505050'\n",
+        shortest(std::max(*run.facts.certain_until, run.from)), shortest(run.to));
   s += "set y2range [0:1]\nunset y2tics\n";
   return s;
 }

@@ -91,11 +91,13 @@ inline constexpr std::array event_looks = {
     EventLook{EventType::impact, "#c0182b"},     EventLook{EventType::slip, "#e08214"},
     EventLook{EventType::reversal, "#7b3294"},   EventLook{EventType::stick, "#2e8b3d"},
 };
+static_assert(event_looks.size() + 1 == all_event_types.size(),
+              "every type but the jump of a load has a colour");
 /// The events of all contacts over time, a row a contact, a lane a type.
 [[nodiscard]] std::string raster_script(const PlottedRun& run);
 /// row,t,event,N,T for both: thinned to what a picture can resolve.
 [[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
-/// Colour of an event, "#rrggbb".
+/// The states of all contacts over time, a row a contact.
 [[nodiscard]] std::string states_script(const PlottedRun& run);
 /// Loads over time, and the base's acceleration; `columns`: of loads.csv. Empty when there are none.
 [[nodiscard]] std::string loads_script(const PlottedRun& run, const std::vector<std::string>& columns);

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
 #include "result/load_table.hpp"
@@ -18,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 10> run_files = {
-    "events.csv", "history.csv", "contacts.csv",       "motion.csv",   "loads.csv",
+constexpr std::array<std::string_view, 11> run_files = {
+    "events.csv", "history.csv", "errors.csv",         "contacts.csv", "motion.csv", "loads.csv",
     "energy.csv", "frames.csv",  "frame_contacts.csv", "summary.json", "run.toml"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
@@ -165,11 +166,14 @@ void RunDirectory::abandon(double t, const std::string& reason) {
   }
 }
 
-std::string RunDirectory::finish(const Report& report) {
+std::string RunDirectory::finish(const Report& report) { return finish({report, std::nullopt, ""}); }
+
+std::string RunDirectory::finish(const CertifiedReport& run) {
   writers();
+  if (run.certificate) write_certificate(path_, model_, *run.certificate);
   if (const std::string loads = load_table(model_, scene_.run.t_end); !loads.empty())
     write_file(path_ / "loads.csv", loads);
-  std::string text = summary_json(scene_, model_, report, options_.command_line);
+  std::string text = summary_json(scene_, model_, run, options_.command_line);
   write_file(path_ / "summary.json", text);
   return text;
 }

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "result/directory_lock.hpp"
-#include "signorini/result.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
@@ -39,8 +39,9 @@ class RunDirectory : public Recorder {
   [[nodiscard]] bool wants_motion() const override { return true; }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   bool progress(double t) override;
-  /// Writes the final summary.json and returns its text.
+  /// Writes the final summary.json and returns its text; of a certified run what its certificate says, too.
   std::string finish(const Report& report);
+  std::string finish(const CertifiedReport& run);
   /// After a FileError: summary.json says where and why the run stopped, if it can still be written.
   void abandon(double t, const std::string& reason);
 

@@ -9,6 +9,7 @@
 #include "base/version.hpp"
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
+#include "result/certificate_json.hpp"
 #include "result/energy_columns.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
@@ -73,7 +74,9 @@ Json model_json(const Model& model) {
   return json;
 }
 
-Json contact_json(const Model& model, std::size_t k, double capture_velocity, const Report* report) {
+/// `run`: null before its end.
+Json contact_json(const Model& model, std::size_t k, double capture_velocity, const CertifiedReport* run) {
+  const Report* report = run != nullptr ? &run->report : nullptr;
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
                {"law", to_string(contact.law)},
@@ -103,14 +106,18 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     const Peak& peak = report->peaks[k];
     json["peaks"] = {
         {"tangential", peak.horizontal}, {"normal", peak.vertical}, {"N", peak.N}, {"T", peak.T}};
+    if (run->certificate) json["peaks"]["errors"] = peak_errors_json(*run, k);
   }
   if (k < report->landings.size() && contact.has_gap()) {
     json["landings"] = Json::array();
-    for (const Landing& l : report->landings[k])
+    for (std::size_t i = 0; i < report->landings[k].size(); ++i) {
+      const Landing& l = report->landings[k][i];
       json["landings"].push_back({{"start", l.start},
                                   {"duration", l.end - l.start},
                                   {"peak_force", l.peak_force},
                                   {"impulse", l.impulse}});
+      if (run->certificate) json["landings"].back()["errors"] = landing_errors_json(*run, k, i);
+    }
   }
   return json;
 }
@@ -204,10 +211,22 @@ Json head_json(const Scene& scene, const Model& model, const std::vector<std::st
 
 // Names come from files in any encoding; a byte that is not UTF-8 must not cost the summary.
 
+/// Why states could not be decided. What is not known or infinite is written as null.
+Json refusal_json(const Model& model, const Refusal& refusal) {
+  Json contacts = Json::array();
+  for (const std::size_t c : refusal.contacts) contacts.push_back(model.contacts[c].name);
+  return {{"kind", to_string(refusal.kind)},
+          {"contacts", contacts},
+          {"cond", refusal.condition},
+          {"residual", refusal.residual},
+          {"reason", refusal.reason}};
+}
+
 }  // namespace
 
-std::string summary_json(const Scene& scene, const Model& model, const Report& report,
+std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                          const std::vector<std::string>& command_line) {
+  const Report& report = run.report;
   const Tolerance tolerance = tolerance_of(model, scene.run);
   Json json;
   json["outcome"] = {{"kind", to_string(report.outcome.kind)},
@@ -215,6 +234,8 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
                      {"t_end", scene.run.t_end},
                      {"reason", report.outcome.reason},
                      {"exit_code", exit_code(report.outcome.kind)}};
+  if (report.outcome.refusal) json["refusal"] = refusal_json(model, report.outcome.refusal);
+  json["undecided"] = report.undecided;
   json.update(head_json(scene, model, command_line));
   json["engine"] = to_string(report.method.engine);
   json["warnings"] = report.warnings;
@@ -223,6 +244,8 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
   long total = 0;
   for (const auto& [type, count] : report.events_by_type) total += count;
   json["events"] = {{"total", total}, {"by_type", report.events_by_type}};
+  json["certified"] = certificate_json(model, run);
+  if (!run.certificate && !run.why_not.empty()) json["not_certified"] = run.why_not;
   json["counters"] = counter_json(report.counters);
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
   json["audit"] = audit_json(model, report.audit);
@@ -231,7 +254,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Report& r
                     {"greatest_work_of_loads", report.audit.work_of_loads}};
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &report));
+    json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &run));
   }
   return json_text(json);
 }
@@ -281,6 +304,8 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
     facts.title = json.at("title");
     facts.outcome = json.at("outcome").at("kind");
     facts.t_end = json.at("outcome").at("t_end");
+    if (const auto found = json.find("certified"); found != json.end() && found->is_object())
+      if (!found->at("complete").get<bool>()) facts.certain_until = found->at("until").get<double>();
     facts.units = units_from(json.at("units"));
     std::set<std::string> names;
     for (const Json& contact : json.at("contacts")) {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "signorini/result.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
 
 /// summary.json of a run that has ended.
-[[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const Report& report,
+[[nodiscard]] std::string summary_json(const Scene& scene, const Model& model, const CertifiedReport& run,
                                        const std::vector<std::string>& command_line);
 
 /// What can be said at the start: outcome.kind is "running", nothing counted yet.
@@ -35,6 +35,7 @@ struct RunFacts {
   std::string title, outcome;
   Units units;
   double t_end = 0.0;
+  std::optional<double> certain_until;  ///< of a certified run whose sequence is not certain to its end
   std::vector<Contact> contacts;
 };
 

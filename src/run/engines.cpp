@@ -27,7 +27,7 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
     if (friction_varies(contact))
       refuse(run,
              fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
-                         "rate (stribeck_velocity); use \"ida\"",
+                         "rate; use \"ida\"",
                          contact.name));
 }
 

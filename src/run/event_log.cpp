@@ -6,10 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rounding.hpp"
+#include "run/physical.hpp"
+
 namespace signorini {
 namespace {
 
 constexpr int most_warnings = 5;  // of pairs of events without an order
+// Of the time reached. Chosen: data are rarely known so well; changing it moves tests/behaviour/awkward.cpp.
+constexpr double coincidence = 1e-9;
 
 bool is_hit(const Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
@@ -78,6 +83,29 @@ void EventLog::instant(const Instant& now, const Stepper& stepper) {
     if (!type && now.load_jumps && decision.jumped[k]) type = EventType::time;
     if (type) contact(now, k, *type, stepper);
   }
+  see_hits(now);
+}
+
+void EventLog::see_hits(const Instant& now) {
+  const Decision& decision = *now.decision;
+  for (std::size_t k = 0; k < decision.impulses.size(); ++k) {
+    if (!decision.impulses[k].hit) continue;
+    const double apart = now.t - last_hit_.t;
+    if (!last_hit_.moves.empty() && last_hit_.moves[k] && apart > now.resolution &&
+        apart < coincidence * now.t)
+      warn_of_order(
+          fmt::format("the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
+                      model_.contacts[last_hit_.contact].name, last_hit_.t * model_.unit.time,
+                      model_.contacts[k].name, apart * model_.unit.time));
+  }
+  Hit hit;
+  for (std::size_t k = 0; k < decision.impulses.size(); ++k)
+    if (decision.impulses[k].hit) hit = {now.t, k, std::vector<bool>(decision.impulses.size(), false)};
+  if (hit.moves.empty()) return;
+  const auto jump = [&](std::size_t k) { return std::abs(decision.after[k].vn - decision.before[k].vn); };
+  for (std::size_t k = 0; k < hit.moves.size(); ++k)
+    hit.moves[k] = !decision.impulses[k].hit && jump(k) > rounding::of_many * jump(hit.contact);
+  last_hit_ = std::move(hit);
 }
 
 void EventLog::finish() {
@@ -96,7 +124,7 @@ void EventLog::load_jump(const Instant& now) {
   recorder_.event(event);
   if (last_.contact >= 0 && now.t - last_.t < *last_.t_uncertainty)
     warn_of_order(fmt::format("the event of '{}' at {:.12g} and the jump of a load at {:.12g}",
-                              name_of_last(), last_.t, now.t));
+                              name_of_last(), last_.t * model_.unit.time, now.t * model_.unit.time));
 }
 
 void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
@@ -110,7 +138,8 @@ void EventLog::contact(const Instant& now, std::size_t k, EventType type, const 
 void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event) {
   const Crossing& crossing = now.decision->crossings[k];
   if (!crossing.failed) return;
-  event.guard_rate = crossing.derivatives[0];
+  event.guard_rate =
+      crossing.derivatives[0] * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time;
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
   const std::optional<double> off = time_uncertainty(crossing, error);
@@ -118,8 +147,9 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
   event.t_uncertainty = std::max(*off, now.resolution);
   if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > now.resolution &&
       event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
-    warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}", name_of_last(), last_.t,
-                              model_.contacts[k].name, event.t));
+    warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}", name_of_last(),
+                              last_.t * model_.unit.time, model_.contacts[k].name,
+                              event.t * model_.unit.time));
   last_ = event;
 }
 

@@ -11,7 +11,8 @@
 //
 // How sharp a time is: the guard moves by |g'| dt, so an error delta of the guard shifts the event by the
 // least of (m! delta / |g^(m)|)^(1/m); events closer than their uncertainties have no known order, and a
-// warning.
+// warning. So have hits of contacts that act on each other within what data are known to: errors carried
+// along are not in delta, and one hit after the other ends otherwise than both at once.
 #pragma once
 
 #include <optional>
@@ -26,6 +27,8 @@ namespace signorini {
 /// Of the instant at which a guard fell whose value is off by `error`; nothing where no derivative is known.
 [[nodiscard]] std::optional<double> time_uncertainty(const Crossing& crossing, double error);
 
+/// guard_rate, whose unit is that of the guard, goes out in the scene's units; all else in those of the
+/// model.
 class EventLog {
  public:
   /// Counts by type and warnings go to the report.
@@ -47,6 +50,7 @@ class EventLog {
   void load_jump(const Instant& now);
   void contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper);
   void add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event);
+  void see_hits(const Instant& now);
   void warn_of_order(const std::string& which);
   [[nodiscard]] const std::string& name_of_last() const;
 
@@ -54,6 +58,11 @@ class EventLog {
   Recorder& recorder_;
   Report& report_;
   Event last_;  // with a contact whose guard fell
+  struct Hit {
+    double t = 0.0;
+    std::size_t contact = 0;
+    std::vector<bool> moves;  ///< whose normal velocities it changed; empty: there is none
+  } last_hit_;
   long load_jumps_ = 0;
   int unordered_ = 0;
 };

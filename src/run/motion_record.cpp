@@ -7,13 +7,15 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_in_all = 200000, most_of_one = 8000, fewest_of_one = 400;
-constexpr double pieces_of_step = 8.0;   // a step is some three radians of the fastest motion
-constexpr double pieces_of_run = 600.0;  // about a pixel or two
+// A step is some three radians of the fastest motion, which a line of eight pieces shows; but a picture shows
+// no more than half a pixel, and must not be coarser than a pixel or two.
+constexpr double pieces_of_step = 8.0, most_pieces_of_run = 2000.0, fewest_pieces_of_run = 600.0;
 constexpr double most_pieces = 1000.0;
 
 }  // namespace
 
-MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder) : t_end_(t_end) {
+MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder)
+    : t_end_(t_end), spacing_(t_end / most_pieces_of_run) {
   if (!recorder.wants_motion() || model.contacts.empty()) return;
   tracks_.resize(model.contacts.size());
   most_rows_ = std::clamp(most_in_all / tracks_.size(), fewest_of_one, most_of_one);
@@ -25,7 +27,7 @@ const std::vector<MotionRecord::Moment>& MotionRecord::moments(double begin, dou
   for (const double t : turning_points) moments_.push_back({t, true});
   if (tracks_.empty()) return moments_;
   const double length = end - begin;
-  const double spacing = std::min(std::max(length / pieces_of_step, width_), t_end_ / pieces_of_run);
+  const double spacing = std::min(std::max(length / pieces_of_step, spacing_), t_end_ / fewest_pieces_of_run);
   const int pieces = spacing > 0.0 ? static_cast<int>(std::min(length / spacing, most_pieces)) : 1;
   if (pieces <= 1) return moments_;
   for (int i = 1; i < pieces; ++i) moments_.push_back({begin + length * i / pieces, false});
@@ -34,7 +36,7 @@ const std::vector<MotionRecord::Moment>& MotionRecord::moments(double begin, dou
 }
 
 bool MotionRecord::needs(double t) const {
-  return !tracks_.empty() && (width_ == 0.0 || std::floor(t / width_) != last_bin_);
+  return !tracks_.empty() && (t - last_ >= spacing_ || t >= t_end_);
 }
 
 void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
@@ -42,7 +44,7 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k)
     tracks_[k].push_back({t, auditor.sample(k, forcing, t, mode[k], point)});
-  if (width_ > 0.0) last_bin_ = std::floor(t / width_);
+  last_ = t;
   if (tracks_[0].size() <= most_rows_) return;
   // What has come since the last time may fit into bins as wide as they are.
   if (width_ == 0.0) width_ = t_end_ / static_cast<double>(most_rows_);
@@ -51,6 +53,7 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
     width_ *= 2.0;
     for (std::vector<MotionRow>& rows : tracks_) thin(rows);
   }
+  spacing_ = std::max(spacing_, width_);
 }
 
 void MotionRecord::thin(std::vector<MotionRow>& rows) const {

@@ -28,9 +28,9 @@ Sample Samples::sample(double t, const Forcing& forcing, const Mode& mode, const
   result.t = t;
   result.u = &point.u;
   result.v = &point.v;
-  if (model_.reduction) {
-    physical_u_ = model_.reduction->physical(point.u);
-    physical_v_ = model_.reduction->physical(point.v);
+  if (model_.reduction || model_.basis) {
+    physical_u_ = model_.physical(point.u);
+    physical_v_ = model_.physical(point.v);
     result.u = &physical_u_;
     result.v = &physical_v_;
   }

@@ -29,7 +29,7 @@ class Samples {
   Recorder& recorder_;
   std::vector<double> grid_;
   std::size_t next_row_ = 0, next_frame_ = 0;
-  Vector physical_u_, physical_v_;  // of a reduced model
+  Vector physical_u_, physical_v_;  // of a model with other unknowns
 };
 
 }  // namespace signorini

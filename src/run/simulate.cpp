@@ -7,6 +7,7 @@
 
 #include "decide/decider.hpp"
 #include "decide/driven_states.hpp"
+#include "model/rescale.hpp"
 #include "motion/clock.hpp"
 #include "run/audit.hpp"
 #include "run/breakpoints.hpp"
@@ -14,6 +15,7 @@
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
 #include "run/motion_record.hpp"
+#include "run/physical.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
 #include "run/warnings.hpp"
@@ -25,6 +27,8 @@ namespace {
 constexpr double shortest_stretch = 1e-100;
 constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
+/// Computes in the units of its model (Model::unit); the recorder takes them, the report has those of the
+/// scene.
 class Loop {
  public:
   Loop(const Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
@@ -41,7 +45,7 @@ class Loop {
         log_(model, recorder, report_),
         samples_(model, spec, auditor_, recorder),
         motion_(model, spec.t_end, recorder),
-        standstill_(spec.t_end, spec.max_events_at_once),
+        standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),
         forcing_(model, 0.0, Side::after) {
     report_.method = std::move(method);
@@ -66,6 +70,11 @@ class Loop {
     return false;
   }
 
+  bool refuse(const Refusal& refusal) {
+    report_.outcome.refusal = refusal;
+    return stop(refusal.reason);
+  }
+
   bool start() {
     Instant now;
     now.u = model_.u0;
@@ -75,7 +84,7 @@ class Loop {
     now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     const Mode guessed = now.mode;
     decision_ = decider_.decide(std::move(now), forcing_, forcing_);
-    if (!decision_.consistent) return stop(decision_.refusal.reason);
+    if (!decision_.consistent) return refuse(decision_.refusal);
     const std::vector<std::string> cut = cut_shears(model_, decision_);
     report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
     warn_of_gain();
@@ -156,7 +165,7 @@ class Loop {
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
-      return stop(next.refusal.reason);
+      return refuse(next.refusal);
     }
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
@@ -180,6 +189,7 @@ class Loop {
 
   /// From here on the motion is that of the decision; a row asked for at t_ shows it.
   void take_decision() {
+    if (decision_.undecided) ++report_.undecided;
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
@@ -194,7 +204,8 @@ class Loop {
 
   void warn_of_gain() {
     if (decision_.impact_gains && ++gains_ <= most_gains)
-      report_.warnings.push_back(impact_gain(t_, -decision_.impact_loss));
+      report_.warnings.push_back(
+          impact_gain(t_ * model_.unit.time, -decision_.impact_loss * factor_of(unit::energy, model_.unit)));
   }
 
   void finish() {
@@ -202,9 +213,11 @@ class Loop {
     engine_->count();
     report_.counters = engine_->counters;
     log_.finish();
+    if (motion_.last() < t_) motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
     motion_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
+    report_ = physical(std::move(report_), model_.unit);
     if (const auto sentence = energy_lost(report_.audit, report_.method))
       report_.warnings.push_back(*sentence);
   }
@@ -250,7 +263,11 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
   engine.refuse(model, spec);
   Method method = engine.method(model, spec);
   method.reason = choice.reason;
-  return Loop(model, spec, engine, std::move(method), recorder, listener).run();
+  const Factors to_machine = inverse(model.machine);
+  const Model computed = rescaled(model, to_machine);
+  spec = rescaled(std::move(spec), to_machine);
+  PhysicalRecorder in_scene(computed, recorder);
+  return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed)).run();
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

@@ -29,7 +29,8 @@ std::optional<std::string> Standstill::crawl(double t) {
   since_mark_ = 0;
   mark_ = t;
   if (advanced >= least_progress * t_end_) return std::nullopt;
-  return fmt::format("{} events within {:.3g} of time; the motion does not get on", watched_events, advanced);
+  return fmt::format("{} events within {:.3g} of time; the motion does not get on", watched_events,
+                     advanced * unit_);
 }
 
 }  // namespace signorini

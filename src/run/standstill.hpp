@@ -11,7 +11,9 @@ namespace signorini {
 
 class Standstill {
  public:
-  Standstill(double t_end, int most_at_once) : t_end_(t_end), most_at_once_(most_at_once) {}
+  /// unit: what one of the times here is where they are said.
+  Standstill(double t_end, int most_at_once, double unit = 1.0)
+      : t_end_(t_end), most_at_once_(most_at_once), unit_(unit) {}
 
   /// Counts an instant; times do not decrease. Why the run must not go on, or nothing.
   [[nodiscard]] std::optional<std::string> count(double t, double resolution);
@@ -21,6 +23,7 @@ class Standstill {
 
   double t_end_;
   int most_at_once_;
+  double unit_;
   double cluster_ = 0.0;  // time of the first event of those at one instant
   int at_once_ = 0;
   double mark_ = 0.0;  // time of the last look at progress

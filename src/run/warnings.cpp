@@ -19,7 +19,7 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
     if (!start.visited[k] || !start.jumped[k] || std::abs(found) >= std::abs(asked)) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
-        model.contacts[k].name, asked, found));
+        model.contacts[k].name, asked * model.unit.force, found * model.unit.force));
   }
   return sentences;
 }

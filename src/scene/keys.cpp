@@ -40,7 +40,7 @@ constexpr Key table_of_keys[] = {
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
-    {"run", "engine", choice, "", "\"auto\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
+    {"run", "engine", choice, "", "\"ida\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},
@@ -49,9 +49,11 @@ constexpr Key table_of_keys[] = {
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
     {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops."},
     {"run", "dt", positive, "time", "", "", "Time step of engines whose steps have a given length (newmark, friction-iteration), which need it; with step = \"doubling\" the greatest one."},
-    {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time."},
+    {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time (contacts without stiffness: as \"root\")."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},
     {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact, the motion between events: \"taylor\" as power series of the equations; \"modal\" in the modes of each contact state, at a cost that follows the motion and not the mesh, where they can follow all of the scene; auto: taylor."},
+    {"run", "certify", automatic_flag, "", "\"auto\"", "", "Whether a companion, computed beside the run, says how far off each event may be and until when the sequence is certain; auto: where it is expected to cost less than half of the run."},
+    {"run", "companion", choice, "", "\"auto\"", "auto exact finer", "What certifies the run: exact, or the run's engine with a finer setting (ida: rtol / 100; dt / 2; exact: every datum disturbed by about one rounding, two ways); auto: the cheaper."},
     {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: the part of the change of a limiting force that an iteration takes, at most 1."},
     {"run", "max_iterations", count, "", "100", "", "Engine friction-iteration: iterations of a step before the run stops."},
 
@@ -237,6 +239,8 @@ std::string describe_type(const Key& key) {
       return "tables under [[" + std::string(key.name) + "]]";
     case tolerance_order:
       return "\"auto\" or an integer from 1 to 5";
+    case automatic_flag:
+      return "\"auto\", true or false";
     case KeyType::elements:
       return "an integer >= 1, or an array of them, one a piece";
     case KeyType::initial:

@@ -32,6 +32,7 @@ enum class KeyType {
   table,
   tables,
   tolerance_order,
+  automatic_flag,
   elements,
   initial,
   friction,

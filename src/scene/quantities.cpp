@@ -5,38 +5,36 @@ namespace {
 
 using Visit = std::function<void(double&, const Unit&)>;
 
-constexpr Unit plain{}, force{1, 0, 0}, length{0, 1, 0}, duration{0, 0, 1}, rate{0, 0, -1};
-constexpr Unit velocity{0, 1, -1}, acceleration{0, 1, -2}, mass{1, -1, 2}, inertia{1, 1, 2};
-constexpr Unit stiffness{1, -1, 0}, damping{1, -1, 1};
+using namespace unit;
 
-void visit_optional(std::optional<double>& x, const Unit& unit, const Visit& visit) {
-  if (x) visit(*x, unit);
+void visit_optional(std::optional<double>& x, const Unit& of, const Visit& visit) {
+  if (x) visit(*x, of);
 }
 
 /// What is outside the shape has the unit of f; a load has it in its own amplitude.
-void visit_history(HistorySpec& f, const Unit& unit, const Visit& visit) {
-  visit(f.offset, unit);
-  visit(f.amplitude, unit);
-  visit(f.start, duration);
-  visit(f.end, duration);
+void visit_history(HistorySpec& f, const Unit& of, const Visit& visit) {
+  visit(f.offset, of);
+  visit(f.amplitude, of);
+  visit(f.start, time);
+  visit(f.end, time);
   visit(f.omega, rate);
   visit(f.phase, plain);
   for (std::size_t j = 0; j < f.coefficients.size(); ++j)
     visit(f.coefficients[j], Unit{0, 0, -static_cast<int>(j)});
-  for (double& t : f.times) visit(t, duration);
+  for (double& t : f.times) visit(t, time);
   for (double& x : f.values) visit(x, plain);
 }
 
 void visit_run(RunSpec& run, const Visit& visit) {
-  visit(run.t_end, duration);
+  visit(run.t_end, time);
   visit_optional(run.atol.displacement, length, visit);
   visit_optional(run.atol.velocity, velocity, visit);
   visit_optional(run.atol.force, force, visit);
-  visit_optional(run.output_dt, duration, visit);
+  visit_optional(run.output_dt, time, visit);
   if (run.output_times)
-    for (double& t : *run.output_times) visit(t, duration);
-  for (double& t : run.frames) visit(t, duration);
-  visit_optional(run.dt, duration, visit);
+    for (double& t : *run.output_times) visit(t, time);
+  for (double& t : run.frames) visit(t, time);
+  visit_optional(run.dt, time, visit);
 }
 
 void visit_initial(InitialSpec& initial, const Visit& visit) {
@@ -87,7 +85,7 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
 }
 
 /// x^n of a power of two is one, so products stay exact.
-double power(double x, int n) {
+double raised(double x, int n) {
   double result = 1.0;
   for (int i = 0; i < n; ++i) result *= x;
   for (int i = 0; i > n; --i) result /= x;
@@ -96,9 +94,12 @@ double power(double x, int n) {
 
 }  // namespace
 
-double factor_of(const Unit& unit, const Factors& factors) {
-  return power(factors.force, unit.force) * power(factors.length, unit.length) *
-         power(factors.time, unit.time);
+double factor_of(const Unit& of, const Factors& factors) {
+  return raised(factors.force, of.force) * raised(factors.length, of.length) * raised(factors.time, of.time);
+}
+
+Factors inverse(const Factors& factors) {
+  return {1.0 / factors.force, 1.0 / factors.length, 1.0 / factors.time};
 }
 
 void visit_quantities(Scene& scene, const Visit& visit) {
@@ -106,7 +107,7 @@ void visit_quantities(Scene& scene, const Visit& visit) {
   visit_run(scene.run, visit);
   visit_initial(scene.initial, visit);
   visit(scene.damping.alpha, rate);
-  visit(scene.damping.beta, duration);
+  visit(scene.damping.beta, time);
   visit_optional(scene.damping.alpha_over_omega1, plain, visit);
   if (scene.reduction) visit(scene.reduction->cutoff_omega, rate);
   visit_structure(scene, visit);
@@ -119,8 +120,13 @@ void visit_quantities(Scene& scene, const Visit& visit) {
 }
 
 Scene rescaled(Scene scene, const Factors& factors) {
-  visit_quantities(scene, [&](double& x, const Unit& unit) { x *= factor_of(unit, factors); });
+  visit_quantities(scene, [&](double& x, const Unit& of) { x *= factor_of(of, factors); });
   return scene;
+}
+
+RunSpec rescaled(RunSpec run, const Factors& factors) {
+  visit_run(run, [&](double& x, const Unit& of) { x *= factor_of(of, factors); });
+  return run;
 }
 
 }  // namespace signorini

@@ -19,13 +19,17 @@ namespace signorini {
 struct Unit {
   int force = 0, length = 0, time = 0;
 };
+namespace unit {
+inline constexpr Unit plain{}, force{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, rate{0, 0, -1};
+inline constexpr Unit velocity{0, 1, -1}, acceleration{0, 1, -2}, mass{1, -1, 2}, inertia{1, 1, 2};
+inline constexpr Unit stiffness{1, -1, 0}, damping{1, -1, 1}, impulse{1, 0, 1}, energy{1, 1, 0},
+    power{1, 1, -1};
+}  // namespace unit
 
-/// Of the units of force, length and time; positive and finite.
-struct Factors {
-  double force = 1.0, length = 1.0, time = 1.0;
-};
 /// What a quantity of this unit is multiplied by.
 [[nodiscard]] double factor_of(const Unit& unit, const Factors& factors);
+/// 1 / factors; exact for powers of two.
+[[nodiscard]] Factors inverse(const Factors& factors);
 
 /// Calls `visit` with all numbers that describe the motion, in an order that depends on the scene's structure
 /// alone. Coefficients of friction and restitution, unit vectors, tolerances without a unit, relaxation and
@@ -35,5 +39,6 @@ void visit_quantities(Scene& scene, const std::function<void(double&, const Unit
 /// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
 /// powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);
+[[nodiscard]] RunSpec rescaled(RunSpec run, const Factors& factors);
 
 }  // namespace signorini

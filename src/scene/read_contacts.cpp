@@ -61,7 +61,7 @@ void read_gap(Table& table, ContactSpec& contact, const Space& space, const std:
   table.require("normal", " (" + law + ")");
   contact.normal = read_direction(table, "normal", space);
   if (space.matrices) {
-    const bool needed = contact.friction.static_ > 0.0;
+    const bool needed = contact.friction.any();
     if (needed) table.require("tangent", " (needed with friction)");
     if (table.has("tangent")) contact.tangent = read_direction(table, "tangent", space);
   } else {
@@ -84,7 +84,7 @@ void read_seam(Table& table, ContactSpec& contact) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
     if (table.has(key)) table.fail(key, "stands beside seam, expected one of the two");
   Table seam = table.child("seam");
-  const bool friction = contact.friction.static_ > 0.0;
+  const bool friction = contact.friction.any();
   if (friction) seam.require("G", " (with friction)");
   const double E = seam.number("E"), thickness = seam.number("thickness"), area = seam.number("area");
   const std::optional<double> G = seam.optional_number("G");
@@ -107,7 +107,7 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
   table.require("normal_stiffness", " (compliant)");
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
-  if (contact.friction.static_ > 0.0) table.require("tangential_stiffness", " (compliant with friction)");
+  if (contact.friction.any()) table.require("tangential_stiffness", " (compliant with friction)");
 }
 
 /// What lies between the contact's node and the ground, or takes the ground's place.

@@ -72,6 +72,22 @@ void read_max_order(Table& table, RunSpec& run) {
   run.max_order = order;
 }
 
+void read_certification(Table& table, RunSpec& run) {
+  const toml::node* node = table.raw("certify");
+  if (!node || node->value<std::string>() == "auto") {
+    table.record("certify", "\"auto\"");
+  } else {
+    if (!node->is_boolean()) table.wrong("certify", "\"auto\", true or false");
+    const bool wanted = node->value_or(false);
+    run.certify = wanted ? Certify::yes : Certify::no;
+    table.record("certify", wanted ? "true" : "false");
+  }
+  const std::string companion = table.choice("companion");
+  run.companion = companion == "exact"   ? Companion::exact
+                  : companion == "finer" ? Companion::finer
+                                         : Companion::automatic;
+}
+
 /// Keys of the engines with steps of given length.
 void read_steps(Table& table, RunSpec& run) {
   const EngineName* engine = run.engine == Engine::automatic ? nullptr : &name_of(run.engine);
@@ -108,6 +124,7 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   read_frames(table, run, scene.matrices.has_value());
   read_max_order(table, run);
   run.max_events_at_once = table.integer("max_events_at_once");
+  read_certification(table, run);
   read_steps(table, run);
   table.finish();
   record.add("run", "[run]", table.record());

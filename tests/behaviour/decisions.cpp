@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "behaviour/engines.hpp"
+#include "behaviour/one_mass.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -115,6 +116,40 @@ TEST_CASE("a contact with a tangential dashpot on a node without mass") {
     CHECK(r.events.size() == 10);
     CHECK(r.report.audit.energy.value < 1e-6 * r.report.audit.energy_scale);
   }
+}
+
+TEST_CASE("a block turns where its load is just above friction") {
+  // v' = -(2 + eps) until v = 0, then v' = -eps: what locating leaves of v is far more than eps undoes in the
+  // resolution of the clock.
+  for (const std::string& engine : locating_engines)
+    for (const double eps : {1e-3, 1e-5, 1e-6, 1e-8, 1e-9})
+      for (const double v0 : {2.0, 200.3})
+        for (const double degrees : {0.0, 23.0}) {
+          CAPTURE(engine);
+          CAPTURE(eps);
+          CAPTURE(v0);
+          CAPTURE(degrees);
+          const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+          const std::string text = fmt::format(
+              "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n"
+              "[run]\nt_end = 200.0\noutput_dt = 200.0\ninitial = {{ block = {{ vx = {}, vy = {} }} }}\n"
+              "[nodes]\nblock = [0.0, 0.0]\n[[masses]]\nnode = \"block\"\nmass = 1.0\n"
+              "[[contacts]]\nname = \"floor\"\nnode = \"block\"\nlaw = \"slider\"\ntangent = [{}, {}]\n"
+              "normal_force = 1.0\nfriction = 1.0\n"
+              "[[loads]]\nnode = \"block\"\ndirection = [{}, {}]\namplitude = {}\n",
+              v0 * c, v0 * s, c, s, c, s, -(1.0 + eps));
+          const Result r = run_text(text, engine, "1e-10", "0.1");
+          INFO(r.report.outcome.reason);
+          REQUIRE(r.report.outcome.kind == Outcome::Kind::done);
+          CHECK(r.report.undecided == 0);
+          REQUIRE(r.events.size() == 1);
+          CHECK(r.events[0].from == State::slip_plus);
+          CHECK(r.events[0].to == State::slip_minus);
+          const double turns = v0 / (2.0 + eps);
+          CHECK(r.events[0].t == doctest::Approx(turns).epsilon(1e-9));
+          const Vector& v = r.rows.back().v;
+          CHECK(v[0] * c + v[1] * s == doctest::Approx(-eps * (200.0 - turns)).epsilon(1e-5));
+        }
 }
 
 TEST_SUITE_END();

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "differential/continuations.hpp"
+#include "differential/coupled.hpp"
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
 
@@ -34,6 +36,49 @@ TEST_SUITE("behaviour/differential") {
     }
     CHECK(agree >= 25);
     CHECK(events > 300);
+  }
+
+  TEST_CASE("coupled rigid contacts: each decision is the only motion that goes on") {
+    long confirmed = 0, instants = 0, stopped = 0;
+    for (std::uint64_t seed = 101; seed <= 500; ++seed) {
+      const CoupledFinding found = examine_coupled(parse_scene(draw_coupled_scene(seed), "drawn.toml"), 6);
+      CAPTURE(seed);
+      CAPTURE(found.cause);
+      CAPTURE(found.what);
+      CHECK(found.verdict != CoupledFinding::Verdict::refused);
+      CHECK(found.verdict != CoupledFinding::Verdict::unlike);
+      CHECK(found.verdict != CoupledFinding::Verdict::forbidden);
+      stopped += found.cause.empty() ? 0 : 1;
+      instants += found.instants;
+      confirmed += found.confirmed;
+    }
+    CHECK(stopped < 80);
+    CHECK(instants > 1000);
+    CHECK(confirmed > instants / 2);
+  }
+
+  TEST_CASE("continuations of Painleve's rod: one, none, two") {
+    // gn'' = b + w l with w = 1 - mu 0.9 s while it slides along s.
+    Question q{ExtendedMatrix(2, 2), Extended(2), Extended::Constant(2, 3.0L), {0.5}, {1}};
+    q.W << 1.0L, 0.9L, 0.9L, 1.0L;
+    q.b << -3.0L, 0.0L;
+    CHECK(continuations(q).responses.size() == 1);
+    CHECK(continuations(q).condition == doctest::Approx(19.0));
+    q.friction = {2.0};
+    CHECK(continuations(q).responses.empty());
+    q.b << 3.0L, 0.0L;
+    CHECK(continuations(q).responses.size() == 2);
+    q.friction = {0.5};
+    CHECK(continuations(q).responses.size() == 1);
+    // At rest and drawn aside by less than mu 3: it stays, and nothing else does.
+    q.sliding = {0};
+    q.W << 1.0L, 0.0L, 0.0L, 1.0L;
+    q.b << -3.0L, 1.4L;
+    REQUIRE(continuations(q).responses.size() == 1);
+    CHECK(continuations(q).responses[0].cwiseAbs().maxCoeff() < 1e-15L);
+    q.b << -3.0L, 1.6L;
+    REQUIRE(continuations(q).responses.size() == 1);
+    CHECK(static_cast<double>(continuations(q).responses[0][1]) == doctest::Approx(0.1));
   }
 
   TEST_CASE("scenes on which engines once disagreed") {

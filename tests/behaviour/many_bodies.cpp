@@ -85,6 +85,30 @@ TEST_CASE("a block among many moves as if it were alone") {
   }
 }
 
+TEST_CASE("an event of one body decides that body, whatever rests beside it") {
+  // Contacts that rounds take together: with 300 bodies of which more and more have come to rest, an event
+  // would take all of them.
+  for (const int count : {30, 300}) {
+    CAPTURE(count);
+    std::string text = blocks("rigid", count);
+    const std::string bounces = "restitution = 0.5";
+    for (std::size_t at = text.find(bounces); at != std::string::npos; at = text.find(bounces))
+      text.replace(at, bounces.size(), "restitution = 0");
+    const Scene scene = parse_scene(text, "blocks.toml", {{"run.engine", "exact"}});
+    long rounds = 0, together = 0;
+    Result result;
+    result.report = simulate(build_model(scene), scene.run, result, [&](const Round& round) {
+      ++rounds;
+      together += static_cast<long>(round.touching.size());
+    });
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    const auto events = static_cast<long>(result.events.size());
+    CHECK(events >= count / 2);
+    CHECK(together <= 4 * events);
+    CHECK(rounds <= 6 * events);
+  }
+}
+
 TEST_SUITE_END();
 
 TEST_SUITE("slow/behaviour/many_bodies") {

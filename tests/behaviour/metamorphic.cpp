@@ -2,7 +2,6 @@
 // The rest of them: signorini_differential --transformed.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -13,11 +12,6 @@ using namespace signorini;
 using namespace signorini::differential;
 
 namespace {
-
-bool is_far(const Factors& factors) {
-  return std::max({std::abs(std::log10(factors.force)), std::abs(std::log10(factors.length)),
-                   std::abs(std::log10(factors.time))}) > 6.0;
-}
 
 struct Sums {
   int scenes = 0, ways = 0;
@@ -32,7 +26,6 @@ void check_ways(const Scene& scene, std::uint64_t seed, Engine engine, Sums& sum
   if (!judge.hindrance().empty()) return;
   ++sums.scenes;
   for (const Transformed& other : transformations(scene, seed)) {
-    if (is_far(other.factors)) continue;
     const Sameness found = judge.compare(other);
     CAPTURE(scene.title);
     CAPTURE(other.name);
@@ -43,8 +36,9 @@ void check_ways(const Scene& scene, std::uint64_t seed, Engine engine, Sums& sum
   }
 }
 
-Scene model(const std::string& name) {
-  return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", {{"run.output_dt", "0.1"}});
+Scene model(const std::string& name, std::vector<Override> changes = {}) {
+  changes.push_back({"run.output_dt", "0.1"});
+  return read_scene(std::string(SIGNORINI_MODELS) + "/" + name + ".toml", changes);
 }
 
 }  // namespace
@@ -55,8 +49,10 @@ TEST_SUITE("behaviour/metamorphic") {
     for (const char* name :
          {"belt", "coulomb-pad", "den-hartog", "lift-off", "matrices", "oscillator", "pipeline"})
       check_ways(model(name), 1, Engine::exact, sums);
-    CHECK(sums.scenes == 7);
-    CHECK(sums.ways > 80);
+    // a hundred of its events; all of them: signorini_differential --angles 360 --scales 100
+    check_ways(model("rigid-frame", {{"run.t_end", "0.3"}}), 1, Engine::exact, sums);
+    CHECK(sums.scenes == 8);
+    CHECK(sums.ways > 150);
     CHECK(sums.events > 3000);
   }
 
@@ -69,7 +65,9 @@ TEST_SUITE("behaviour/metamorphic") {
 
   TEST_CASE("random scenes of all laws, exact") {
     Sums sums;
-    for (std::uint64_t seed = 101; seed <= 112; ++seed)
+    std::vector<std::uint64_t> seeds{3, 19};  // 38: validation/differential/README.md
+    for (std::uint64_t seed = 101; seed <= 112; ++seed) seeds.push_back(seed);
+    for (const std::uint64_t seed : seeds)
       check_ways(parse_scene(draw_scene(seed), "drawn.toml"), seed, Engine::exact, sums);
     CHECK(sums.scenes >= 10);
     CHECK(sums.events > 1000);
@@ -93,5 +91,9 @@ TEST_SUITE("behaviour/metamorphic") {
     CHECK_FALSE(in_units(model("matrices"), {1.0, 2.0, 1.0}));
     CHECK_FALSE(reversed(model("oscillator")));
     CHECK(turned(model("rigid-frame"), 0.5));
+    const std::optional<Transformed> quarter = turned(model("oscillator"), 90.0);
+    REQUIRE(quarter);  // which the scene can say: what held uy holds ux
+    CHECK(quarter->scene.supports[0].ux == model("oscillator").supports[0].uy);
+    CHECK(quarter->scene.supports[0].uy == model("oscillator").supports[0].ux);
   }
 }

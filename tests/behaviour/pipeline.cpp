@@ -66,6 +66,13 @@ TEST_CASE("static start, damping and free motion") {
   CHECK(model.statics.free_motions[0].find("horizontal") != std::string::npos);
 }
 
+// Its flight was once taken for a touch: the run went on into the ground and stopped.
+TEST_CASE("a flight of a few tolerances ends with a landing: f = 1.3 at rtol 1e-6") {
+  const Result result = run(1.3, "1e-6", "0.15");
+  INFO(result.report.outcome.reason);
+  CHECK(result.report.outcome.kind == Outcome::Kind::done);
+}
+
 TEST_CASE("the load that ends is one time row, and no step crosses it") {
   const Result result = run(0.3, "1e-6", "0.102");
   int rows = 0;

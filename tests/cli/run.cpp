@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -48,6 +49,42 @@ TEST_CASE("cli run: run.toml gives the same bytes of events.csv") {
   CHECK(lines(shell.read("again/events.csv")) > 1);
   CHECK(shell.read("again/events.csv") == shell.read("belt-run/events.csv"));
   CHECK(shell.read("again/run.toml") == shell.read("belt-run/run.toml"));
+}
+
+TEST_CASE("cli run: where no states can be decided summary.json says why") {
+  const Shell shell;
+  // Painleve's rod, as in tests/behaviour/rigid.cpp: sliding with this friction, pressing digs it in.
+  const auto rod = [](const char* load) {
+    return std::string(
+               "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n") +
+           "[run]\nt_end = 1.0\ninitial = { u = [0.0, 0.0], v = [1.0, 0.0] }\n[matrices]\n"
+           "mass = [[0.34847735667203295, 0.2532986927066816], [0.2532986927066816, 0.9015226433279672]]\n"
+           "stiffness = [[0.0, 0.0], [0.0, 0.0]]\n[[contacts]]\nname = \"tip\"\nlaw = \"rigid\"\n"
+           "normal = { d1 = -1.0 }\ntangent = { d0 = 1.0 }\nfriction = 4.0\n[[loads]]\n"
+           "direction = { d0 = 0.2532986927066816, d1 = 0.9015226433279672 }\namplitude = " +
+           load + "\n";
+  };
+  shell.write("none.toml", rod("10.0"));
+  CHECK(shell.run({"run", "none.toml", "--no-plots"}).code == 4);
+  const json none = json::parse(shell.read("none-run/summary.json"));
+  CHECK(none["refusal"]["kind"] == "paradox");
+  CHECK(none["refusal"]["contacts"] == json::array({"tip"}));
+  CHECK(none["refusal"]["reason"] == none["outcome"]["reason"]);
+  // W = [[a, b], [b, c]] of M^-1: in units of its diagonal 1 and r = b/sqrt(a c), (1 + r)/(1 - r)
+  const double r = 0.2532986927066816 / std::sqrt(0.34847735667203295 * 0.9015226433279672);
+  CHECK(none["refusal"]["cond"].get<double>() == doctest::Approx((1.0 + r) / (1.0 - r)));
+  CHECK(none["refusal"]["residual"].get<double>() > 1e12);
+  CHECK(none["undecided"] == 0);
+  shell.write("several.toml", rod("-10.0"));
+  CHECK(shell.run({"run", "several.toml", "--no-plots"}).code == 4);
+  const json several = json::parse(shell.read("several-run/summary.json"));
+  CHECK(several["refusal"]["kind"] == "ambiguous");
+  CHECK(several["refusal"]["residual"] == 0.0);
+  shell.write("belt.toml", belt(5));
+  CHECK(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  const json done = json::parse(shell.read("belt-run/summary.json"));
+  CHECK(done["undecided"] == 0);
+  CHECK_FALSE(done.contains("refusal"));
 }
 
 TEST_CASE("cli run: --json prints summary.json, --quiet nothing") {

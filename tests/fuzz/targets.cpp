@@ -90,32 +90,6 @@ void tolerate_errors(const Work& work) {
   }
 }
 
-const char small_scene[] = R"(schema = 1
-units = { force = "N", mass = "kg", length = "m", time = "s" }
-[run]
-t_end = 1.0
-[nodes]
-block = [0.0, 0.0]
-[[masses]]
-node = "block"
-mass = 1.0
-[[supports]]
-node = "block"
-fix = ["uy"]
-[[contacts]]
-name = "plate"
-node = "block"
-law = "slider"
-tangent = [1.0, 0.0]
-normal_force = 10.0
-friction = 0.3
-[[loads]]
-node = "block"
-direction = [1.0, 0.0]
-amplitude = 6.0
-history = { type = "rectangle", start = 0.5, end = 1.0 }
-)";
-
 }  // namespace
 
 void scene(std::string_view bytes) {
@@ -139,7 +113,7 @@ void setting(std::string_view bytes) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) return;
   const Override change{text.substr(0, equals), text.substr(equals + 1)};
-  tolerate_errors([&] { build_and_check(parse_scene(small_scene, "fuzz.toml", {change})); });
+  tolerate_errors([&] { build_and_check(read_scene(SIGNORINI_MODELS "/belt.toml", {change})); });
   tolerate_errors([&] { (void)parse_vary(text); });
 }
 

@@ -4,6 +4,8 @@
 //   signorini_differential --seed 17 --shrink --keep disagreements
 //   signorini_differential --scene disagreements/seed-17.toml
 //   signorini_differential --transformed exact --from 1 --count 1000      (metamorphic.hpp)
+//   signorini_differential --transformed ida --angles 360 --scales 100 --scene models/rigid-frame.toml
+//   signorini_differential --coupled --from 1 --count 10000               (coupled.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -16,6 +18,7 @@
 #include <fstream>
 #include <map>
 
+#include "differential/coupled.hpp"
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
 #include "differential/metamorphic.hpp"
@@ -31,11 +34,28 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false;
+  bool shrink = false, print = false, coupled = false;
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
   std::uint64_t seed_of_ways = 1;
+  int angles = 0, scales = 0;  ///< in place of the drawn ways
+  std::vector<std::string> changes;
+
+  [[nodiscard]] Engine engine_of_ways() const {
+    for (const EngineName& engine : all_engines)
+      if (engine.name == transformed) return engine.engine;
+    return Engine::exact;
+  }
 };
+
+std::vector<Override> overrides(const std::vector<std::string>& changes) {
+  std::vector<Override> list;
+  for (const std::string& change : changes) {
+    const std::size_t at = change.find('=');
+    list.push_back({change.substr(0, at), at == std::string::npos ? "" : change.substr(at + 1)});
+  }
+  return list;
+}
 
 std::string describe(const Judgement& judgement) {
   std::string text = fmt::format("{:<15} {:4} events", to_string(judgement.verdict), judgement.events);
@@ -146,36 +166,41 @@ void examine(const std::string& name, const std::string& text, const Asked& aske
 
 /// Of scenes written in other ways.
 struct Ways {
-  long scenes = 0, compared = 0, same = 0, unlike = 0, refused = 0, to_end = 0;
+  long scenes = 0, compared = 0, same = 0, unlike = 0, refused = 0, to_end = 0, stopped = 0;
   std::size_t events = 0;
   double worst = 0.0;
 
   void print() const {
     fmt::print(
-        "\n| scenes | written otherwise | same | to the end | UNLIKE | REFUSED | events | error/allowed |\n");
-    fmt::print("|---|---|---|---|---|---|---|---|\n| {} | {} | {} | {} | {} | {} | {} | {:.2g} |\n", scenes,
-               compared, same, to_end, unlike, refused, events, worst);
+        "\n| scenes | written otherwise | same | to the end | UNLIKE | REFUSED | ended otherwise | events | "
+        "error/allowed |\n");
+    fmt::print("|---|---|---|---|---|---|---|---|---|\n| {} | {} | {} | {} | {} | {} | {} | {} | {:.2g} |\n",
+               scenes, compared, same, to_end, unlike, refused, stopped, events, worst);
   }
   [[nodiscard]] int exit_code() const { return unlike + refused > 0 ? 1 : 0; }
 };
 
 void rewrite(const std::string& name, const std::string& text, const Asked& asked, Ways& ways) {
   MetamorphicSettings settings;
-  settings.engine = asked.transformed == "ida" ? Engine::ida : Engine::exact;
+  settings.engine = asked.engine_of_ways();
   settings.bounds.steps = asked.run_steps;
   settings.bounds.seconds = JudgeSettings{}.seconds;
-  const Scene scene = parse_scene(text, asked.scene.empty() ? name + ".toml" : asked.scene);
+  const Scene scene =
+      parse_scene(text, asked.scene.empty() ? name + ".toml" : asked.scene, overrides(asked.changes));
   const Metamorphic judge(scene, settings);
   if (!judge.hindrance().empty()) {
     fmt::print("{}: not for this: {}\n", name, judge.hindrance());
     return;
   }
   ++ways.scenes;
-  for (const Transformed& other : transformations(scene, asked.seed_of_ways)) {
+  const bool campaign = asked.angles > 0 || asked.scales > 0;
+  for (const Transformed& other : campaign ? angles_and_scales(scene, asked.angles, asked.scales)
+                                           : transformations(scene, asked.seed_of_ways)) {
     const Sameness found = judge.compare(other);
     ++ways.compared;
     ways.events += found.events;
     ways.to_end += found.to_end ? 1 : 0;
+    ways.stopped += found.ended ? 0 : 1;
     const bool same = found.verdict == Sameness::Verdict::same;
     const bool refused = found.verdict == Sameness::Verdict::refused;
     ++(same ? ways.same : refused ? ways.refused : ways.unlike);
@@ -184,10 +209,54 @@ void rewrite(const std::string& name, const std::string& text, const Asked& aske
                same      ? "same"
                : refused ? "REFUSED"
                          : "UNLIKE",
-               found.events, found.worst, found.to_end ? "" : ", not to the end",
+               found.events, found.worst,
+               !found.ended    ? ", ENDED OTHERWISE"
+               : !found.to_end ? ", not to the end"
+                               : "",
                found.what.empty() ? "" : "  -- " + found.what);
     std::fflush(stdout);
   }
+}
+
+/// Of rigid contacts that move each other.
+struct Decisions {
+  std::map<std::string, long> scenes, causes;
+  long instants = 0, confirmed = 0, unclear = 0, undecided = 0;
+  double worst = 0.0;
+
+  void print() const {
+    fmt::print("\n| verdict | scenes |\n|---|---|\n");
+    for (const auto& [verdict, count] : scenes) fmt::print("| {} | {} |\n", verdict, count);
+    fmt::print("\n| why a run stops: what could follow | scenes |\n|---|---|\n");
+    for (const auto& [cause, count] : causes) fmt::print("| {} | {} |\n", cause, count);
+    fmt::print(
+        "\n{} instants: {} with one continuation, which the run follows to {:.2g} at worst; {} unclear; {} "
+        "left "
+        "open by rounding\n",
+        instants, confirmed, worst, unclear, undecided);
+  }
+  [[nodiscard]] int exit_code() const {
+    using Verdict = CoupledFinding::Verdict;
+    return scenes.count(to_string(Verdict::refused)) + scenes.count(to_string(Verdict::unlike)) > 0 ? 1 : 0;
+  }
+};
+
+void look_at_decisions(const std::string& name, const std::string& text, Decisions& decisions) {
+  using Verdict = CoupledFinding::Verdict;
+  const CoupledFinding found = examine_coupled(parse_scene(text, name + ".toml"));
+  ++decisions.scenes[to_string(found.verdict)];
+  if (!found.cause.empty())
+    ++decisions.causes[found.verdict == Verdict::refused ? found.cause.substr(0, found.cause.find(','))
+                                                         : found.cause];
+  decisions.instants += found.instants;
+  decisions.confirmed += found.confirmed;
+  decisions.unclear += found.unclear;
+  decisions.undecided += found.undecided;
+  decisions.worst = std::max(decisions.worst, found.worst);
+  if (found.verdict == Verdict::agrees && found.undecided == 0) return;
+  fmt::print("{}: {} at t = {:.9g}, {} undecided; {} -- {}\n", name, to_string(found.verdict), found.t,
+             found.undecided, found.cause, found.what);
+  std::fflush(stdout);
 }
 
 Asked read_command_line(int argc, char** argv, CLI::App& app) {
@@ -203,7 +272,15 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
   app.add_flag("--print", asked.print, "print the scenes, run nothing");
   app.add_option("--scene", asked.scene, "judge a scene file instead of drawn ones")->excludes(one);
   app.add_option("--transformed", asked.transformed, "write each scene in other ways, too, and run it with")
-      ->check(CLI::IsMember({"exact", "ida"}));
+      ->check(CLI::IsMember({"exact", "ida", "newmark"}));
+  app.add_option("--angles", asked.angles, "of --transformed: so many turns around, in place of drawn ways");
+  app.add_option("--scales", asked.scales, "and so many scales of force, length and time over 40 decades");
+  app.add_option("--set", asked.changes, "PATH=VALUE in each scene that is transformed")
+      ->allow_extra_args(false);
+  app.add_flag(
+         "--coupled", asked.coupled,
+         "draw rigid contacts that move each other, and hold each decision against all that could follow")
+      ->excludes("--transformed");
   app.add_option("--ways", asked.seed_of_ways, "seed of angles, orders and scales");
   app.parse(argc, argv);
   if (*one) {
@@ -226,18 +303,23 @@ int main(int argc, char** argv) {
   }
   Tally tally;
   Ways ways;
+  Decisions decisions;
   const auto look_at = [&](const std::string& name, const std::string& text) {
-    if (asked.transformed.empty())
+    if (asked.coupled)
+      look_at_decisions(name, text, decisions);
+    else if (asked.transformed.empty())
       examine(name, text, asked, tally);
     else
       rewrite(name, text, asked, ways);
   };
   const auto finish = [&] {
-    if (!asked.transformed.empty())
+    if (asked.coupled)
+      decisions.print();
+    else if (!asked.transformed.empty())
       ways.print();
     else if (asked.scene.empty())
       tally.print();
-    return std::max(tally.exit_code(), ways.exit_code());
+    return std::max({tally.exit_code(), ways.exit_code(), decisions.exit_code()});
   };
   if (!asked.scene.empty()) {
     std::ifstream file(asked.scene);
@@ -248,7 +330,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   for (long i = 0; i < asked.count; ++i) {
     const std::uint64_t seed = asked.from + static_cast<std::uint64_t>(i);
-    const std::string text = draw_scene(seed);
+    const std::string text = asked.coupled ? draw_coupled_scene(seed) : draw_scene(seed);
     if (asked.print) {
       fmt::print("{}\n", text);
       continue;

@@ -104,12 +104,22 @@ void disturb(MatrixSpec& matrix, Random& draw) {
 
 }  // namespace
 
-std::optional<Transformed> turned(const Scene& scene, double angle) {
+std::optional<Transformed> turned(const Scene& scene, double degrees) {
   if (scene.matrices) return std::nullopt;
-  for (const Support& support : scene.supports)
-    if (support.ux != support.uy) return std::nullopt;
-  Transformed result{fmt::format("turned by {:.10g} degrees", angle * 180.0 / std::numbers::pi), scene, {}};
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double quarters = degrees / 90.0;
+  const bool quarter = quarters == std::round(quarters);
+  if (!quarter)
+    for (const Support& support : scene.supports)
+      if (support.ux != support.uy) return std::nullopt;
+  Transformed result{fmt::format("turned by {:.10g} degrees", degrees), scene, {}};
+  const double angle = degrees * std::numbers::pi / 180.0;
+  double c = std::cos(angle), s = std::sin(angle);
+  if (quarter) {  // exactly
+    c = std::round(c);
+    s = std::round(s);
+    if (s != 0.0)
+      for (Support& support : result.scene.supports) std::swap(support.ux, support.uy);
+  }
   move(result.scene, {c, -s, s, c, 1.0});
   return result;
 }

@@ -27,8 +27,9 @@ struct Transformed {
   bool mirrored = false;
 };
 
-/// Angle in rad. Nothing for [matrices], and where a support holds one translation of a node only.
-[[nodiscard]] std::optional<Transformed> turned(const Scene& scene, double angle);
+/// Angle in degrees. Nothing for [matrices], and where a support holds one translation of a node only unless
+/// by a multiple of 90.
+[[nodiscard]] std::optional<Transformed> turned(const Scene& scene, double degrees);
 /// Nothing for [matrices].
 [[nodiscard]] std::optional<Transformed> mirrored(const Scene& scene);
 /// Contacts stay in order where the static start leaves a motion free: the first one that can holds it.

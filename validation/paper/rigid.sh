@@ -29,9 +29,9 @@ def rows_of(folder, file):
 class Run:
     """One run: rows, events without the load's, counters, processor seconds."""
 
-    def __init__(self, supports, f, name, engine, *sets):
-        folder = os.path.join(out, '%s-%s-%s' % (supports, f, name))
-        changes = [s for key in ('contacts.*.friction=' + f,) + sets for s in ('--set', key)]
+    def __init__(self, supports, f, name, engine, *sets, certify='false'):
+        folder = os.path.join(out, '%s-%s-%s%s' % (supports, f, name, ', certified' if certify == 'true' else ''))
+        changes = [s for key in ('contacts.*.friction=' + f, 'run.certify=' + certify) + sets for s in ('--set', key)]
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = subprocess.run([program, 'run', scenes[supports], '-o', folder, '--engine', engine, '--quiet', '--no-plots']
                               + changes, stderr=subprocess.PIPE, text=True)
@@ -41,6 +41,7 @@ class Run:
         with open(os.path.join(folder, 'summary.json')) as s:
             summary = json.load(s)
         self.done, self.counters, self.audit = done.returncode == 0, summary['counters'], summary['audit']
+        self.certified = summary['certified']
         self.name = name
         self.history = [[float(r['t'])] + [float(r[c]) for c in columns] for r in rows_of(folder, 'history.csv')]
         self.events = [r for r in rows_of(folder, 'events.csv') if r['event'] != 'time']
@@ -106,6 +107,21 @@ for supports in scenes:
         table('%s supports, f = %s:' % (supports.capitalize(), f),
               ['engine, rtol or dt in s', 'events', 'as in exact', 'until, s', 'off in time by, s', 'displacements to 0.15 s',
                'to 1.2 s', 'energy balance', 'steps', 'solves', 'processor, s'], rows)
+
+# Certified horizons: IDA beside the exact flow, newmark beside half its step, exact beside itself, disturbed.
+rows = []
+for supports in scenes:
+    for f in ('0.3', '1.3'):
+        for name, engine, companion, sets in (
+                [('exact', 'exact', 'finer', [])] +
+                [('ida, ' + r, 'ida', 'exact', ['run.rtol=' + r]) for r in ('1e-6', '1e-8', '1e-10')] +
+                [('newmark, ' + dt, 'newmark', 'finer', ['run.dt=' + dt]) for dt in steps]):
+            r = Run(supports, f, name, engine, 'run.companion=' + companion, *sets, certify='true')
+            c = r.certified
+            rows.append([supports, f, name, c['companion'], '%.4f' % c['until'], c['events'],
+                         sum(1 for e in r.events), c['reason'].split(',')[0] or 'to the end'])
+table('Until when the sequence of events is certain:',
+      ['supports', 'f', 'engine', 'companion', 'certain until, s', 'rows of events certain', 'events', 'why no further'], rows)
 
 rows = []
 for supports in scenes:

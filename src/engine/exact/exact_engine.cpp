@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "base/rounding.hpp"
 #include "model/decay.hpp"
 #include "motion/clock.hpp"
 #include "motion/equilibrium.hpp"
@@ -15,7 +16,6 @@
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int fewest_levels = 12, more_levels = 6;
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
@@ -132,7 +132,7 @@ bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
   for (std::size_t k = 0; k <= last; ++k, power *= x) {
     const double term = std::abs(a[k]) * power;
     if (k > degree_) {
-      if (term > 0.25 * epsilon * first) return false;
+      if (term > 0.25 * rounding::eps * first) return false;
       continue;
     }
     if (begin > last && term > 0.0) begin = k;
@@ -188,7 +188,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const State state = segment_.decision->mode[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
-    T = contact.friction.kinetic * N;
+    T = kinetic_friction(contact) * N;
   else if (contact.tangential_stiffness)
     T = *contact.tangential_stiffness * ut;
   else if (state == State::stick && norm_.tangent(c) > 0.0)
@@ -207,11 +207,11 @@ FirstFall ExactEngine::fall_of(std::size_t slot, double x, double rest) {
     guard_[k] *= power;
     terms += std::abs(guard_[k]);
   }
-  const double rounding = 4.0 * epsilon * terms;
+  const double rounding = rounding::of_few * terms;
   const double slack = rest_of(guard.form, c, x, rest) + rounding + rounding_of_guard * guard.noise;
   if (arming_.armed(slot)) return first_fall(guard_.data(), degree_, slack);
   if (const std::size_t m = arming_.leading(slot); m > 0)  // the decision found what is below to be zero
-    return first_fall(guard_.data() + m, degree_ - m, 4.0 * epsilon * std::abs(guard_[m]));
+    return first_fall(guard_.data() + m, degree_ - m, rounding::of_few * std::abs(guard_[m]));
   guard_[0] += guard.noise + slack;
   return first_fall(guard_.data(), degree_, 0.0);
 }
@@ -229,7 +229,7 @@ std::string ExactEngine::hindrance(double scale) const {
   if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
         "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this time",
-        growth_now_ / growth_margin);
+        growth_now_ / growth_margin / model_.unit.time);
   if (!end_.u.allFinite()) return overflow;
   if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
   return {};
@@ -237,7 +237,7 @@ std::string ExactEngine::hindrance(double scale) const {
 
 /// Bound on what all displacements leave out on [0, x], in norm_: from |x_k| on the series is below a
 /// geometric one with ratio 1/2.
-double ExactEngine::rest_of_series(double x) const {
+double ExactEngine::rest_of_series(double x) {
   double rest = 0.0;
   for (int k = 1; k <= 2; ++k) {
     const auto order = static_cast<Eigen::Index>(degree_) + k;
@@ -272,10 +272,11 @@ ExactEngine::Earliest ExactEngine::earliest_fall(double x) {
 void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   ++touches_;
   if (touches_ <= most_touches)
-    warnings.push_back(fmt::format(
-        "contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
-        "at this precision, and it was taken not to",
-        model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind), t));
+    warnings.push_back(
+        fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
+                    "at this precision, and it was taken not to",
+                    model_.contacts[contact_of_guard(slot)].name,
+                    to_string(segment_.decision->guards[slot].kind), t * model_.unit.time));
   else if (touches_ == most_touches + 1)
     warnings.emplace_back("more guards touch zero; these are not listed");
 }

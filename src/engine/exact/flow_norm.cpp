@@ -9,13 +9,8 @@ namespace signorini {
 FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   const double w = model.omega_max > 0.0 ? model.omega_max : 1.0;
   const int n = model.size();
-  std::vector<LineSpring> springs;
-  for (const Contact& c : model.contacts) {
-    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
-    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
-  }
   const SparseMatrix damping = 0.5 * (model.damping + SparseMatrix(model.damping.transpose()));
-  g_ = model.mass + damping / w + with_springs(model.stiffness, springs) / (w * w);
+  g_ = model.mass + damping / w + with_springs(model.stiffness, contact_springs(model.contacts)) / (w * w);
   SymmetricSolver solver(g_);
   if (!solver.ok() || !(solver.smallest_pivot() > 0.0)) {
     // A stiffness or damping that is not positive: the diagonal's magnitudes make a norm all the same.
@@ -36,7 +31,7 @@ FlowNorm::FlowNorm(const Model& model) : product_(Vector::Zero(model.size())) {
   }
 }
 
-double FlowNorm::of(const Eigen::Ref<const Vector>& x) const {
+double FlowNorm::of(const Eigen::Ref<const Vector>& x) {
   const double size = x.cwiseAbs().maxCoeff();  // squares must not overflow
   if (!(size > 0.0) || !std::isfinite(size)) return size;
   product_.noalias() = g_ * (x / size);

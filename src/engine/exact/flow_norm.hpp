@@ -6,8 +6,6 @@
 // K_c holds all contact springs, so that G is regular wherever the motion is decided.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-
 #include "contact/mode.hpp"
 #include "signorini/model.hpp"
 
@@ -17,7 +15,7 @@ class FlowNorm {
  public:
   explicit FlowNorm(const Model& model);
 
-  [[nodiscard]] double of(const Eigen::Ref<const Vector>& x) const;
+  [[nodiscard]] double of(const Eigen::Ref<const Vector>& x);
   /// Of contact k: greatest |n . x| and |t . x| among |x| = 1.
   [[nodiscard]] double normal(std::size_t k) const { return normal_[k]; }
   [[nodiscard]] double tangent(std::size_t k) const { return tangent_[k]; }
@@ -25,7 +23,7 @@ class FlowNorm {
  private:
   SparseMatrix g_;
   std::vector<double> normal_, tangent_;
-  mutable Vector product_;
+  Vector product_;
 };
 
 }  // namespace signorini

@@ -24,6 +24,8 @@ class Arming {
   /// The guard is x^leading times a polynomial that is positive at 0; 0: it is armed, or nothing is known.
   [[nodiscard]] std::size_t leading(std::size_t slot) const { return guards_[slot].leading; }
 
+  /// What its derivatives at the start said has been refuted.
+  void doubt(std::size_t slot) { guards_[slot].leading = 0; }
   void arm(std::size_t slot) { guards_[slot] = {Standing::armed, 0}; }
   /// Its value at the end of a step without an event: what started at zero is armed above the level, and
   /// its derivatives at the start say no more.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "contact/friction.hpp"
@@ -30,11 +31,24 @@ void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed ({})", what, flag));
 }
 
+/// IDA names its times "t = 0.5" and "h = 1e-9": in the scene's unit of time.
+std::string with_times_in(std::string text, double unit) {
+  for (const char* name : {"t = ", "h = "}) {
+    const std::size_t at = text.find(name);
+    if (at == std::string::npos) continue;
+    const char* const begin = text.c_str() + at + 4;
+    char* end = nullptr;
+    const double time = std::strtod(begin, &end);
+    text.replace(at + 4, static_cast<std::size_t>(end - begin), fmt::format("{:.9g}", time * unit));
+  }
+  return text;
+}
+
 }  // namespace
 
 struct BdfIntegrator::Memory {
   Memory(const Model& model, const Structure& structure, const Tolerance& tolerance, int max_order)
-      : problem(model, structure, tolerance) {
+      : problem(model, structure, tolerance), unit_of_time(model.unit.time) {
     SUNContext_Create(nullptr, &context);
     const auto size = static_cast<sunindextype>(problem.layout().size());
     for (N_Vector* v : {&y, &yp, &work}) *v = make_vector(size, context);
@@ -196,6 +210,7 @@ struct BdfIntegrator::Memory {
   std::vector<int> directions;
   Segment segment;
   std::string message;
+  double unit_of_time;
   double t_previous = 0.0;    // beginning of the last accepted step
   double reported_end = 0.0;  // end of the last step that was returned
   double held_time = 0.0;     // time of what y and yp hold
@@ -242,7 +257,7 @@ BdfStep BdfIntegrator::advance() {
     char* name = IDAGetReturnFlagName(flag);
     step.kind = BdfStep::Kind::failed;
     step.begin = step.end = m_->reported_end;
-    step.reason = fmt::format("IDA cannot go on: {}: {}", name, m_->message);
+    step.reason = fmt::format("IDA cannot go on: {}: {}", name, with_times_in(m_->message, m_->unit_of_time));
     std::free(name);
     return step;
   }

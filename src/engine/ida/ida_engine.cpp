@@ -134,7 +134,8 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
       warnings.push_back(fmt::format(
           "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than the tolerances of "
           "its steps; it was taken not to fall there, nor where it does so again",
-          model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind), c.time));
+          model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind),
+          c.time * model_.unit.time));
     return true;
   });
   if (candidates.empty()) return std::nullopt;
@@ -150,10 +151,10 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
 
 /// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
 /// at its limit, on its own spring). How deep it sinks then is what the steps were off: each by one tolerance
-/// at most.
+/// at most. A gap that opened and comes back to zero is a landing, however short its flight was.
 bool IdaEngine::only_touches(std::size_t slot, double x) const {
   const GuardStart& guard = segment_.decision->guards[slot];
-  if (!guard.at_zero || !watch_.armed(slot)) return false;
+  if (guard.kind == Guard::closing || !guard.at_zero || !watch_.armed(slot)) return false;
   const Bernstein p = history_.polynomial(slot), slope = p.derivative();
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;

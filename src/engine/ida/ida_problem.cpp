@@ -53,6 +53,23 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
   for (std::size_t g : group) members[g] += 1.0;
   for (std::size_t i = 0; i < size; ++i)
     factor_.push_back(std::sqrt(static_cast<double>(size) / members[group[i]]) / local_part);
+  for (int i = 0; i < layout_.dofs; ++i) {
+    if (layout_.velocity[static_cast<std::size_t>(i)] >= 0) continue;
+    Massless own{i, model.stiffness.coeff(i, i), {}};
+    for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+      const Contact& contact = model.contacts[k];
+      const auto carry = [&](const Combination& form, int force, double stiffness) {
+        for (const auto& [dof, factor] : form.terms) {
+          if (dof != i) continue;
+          own.stiffness += factor * factor * stiffness;
+          own.forces.emplace_back(force, std::abs(factor));
+        }
+      };
+      carry(contact.normal, layout_.force(k), contact.normal_stiffness);
+      carry(contact.tangent, layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0));
+    }
+    if (own.stiffness > 0.0) massless_.push_back(std::move(own));
+  }
 }
 
 void IdaProblem::start(const Segment& segment, const Watch& watch) {
@@ -154,6 +171,29 @@ void IdaProblem::weights(const double* y, double* w) const {
     };
     limit(layout_.force(k), contact.normal_stiffness * gap);
     limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
+  }
+  widen_massless(y, w);
+}
+
+void IdaProblem::widen_massless(const double* y, double* w) const {
+  const auto limit = [&](int index, double rounding) {
+    const auto i = static_cast<std::size_t>(index);
+    if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
+  };
+  // One noise for all: contacts and rows that rounding alone fills hand it on. Rotations count as lengths, by
+  // the unit of the machine, the extent of the structure.
+  double length = 0.0, greatest = 0.0;
+  for (const Massless& own : massless_) {
+    double force = 0.0;
+    for (SparseMatrix::InnerIterator it(model_.stiffness, own.dof); it; ++it)
+      force += std::abs(it.value() * y[it.row()]);
+    greatest = std::max(greatest, force);
+    length = std::max(length, force / own.stiffness);
+  }
+  const double part = rounding::of_many / local_part;
+  for (const Massless& own : massless_) {
+    limit(own.dof, part * length);
+    for (const auto& [unknown, factor] : own.forces) limit(unknown, part * factor * greatest);
   }
 }
 

@@ -60,6 +60,10 @@ class IdaProblem {
     return {layout_, f};
   }
 
+  /// No tolerance below the rounding of what determines massless degrees of freedom, and the contact forces
+  /// that they carry.
+  void widen_massless(const double* y, double* w) const;
+
   const Model& model_;
   const Structure& structure_;
   Layout layout_;
@@ -71,6 +75,14 @@ class IdaProblem {
   // degrees of freedom another, all others one more, and the mean of every group counts in full: a large
   // structure does not dilute the few contacts.
   std::vector<double> factor_, atol_;
+  // Degrees of freedom without mass follow from forces K u alone, which may be differences of large numbers:
+  // what slides far takes rounding along. Stiffness: of K and of closed contacts.
+  struct Massless {
+    int dof = 0;
+    double stiffness = 0.0;
+    std::vector<std::pair<int, double>> forces;  ///< of contacts on it: unknown, factor
+  };
+  std::vector<Massless> massless_;
   std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
   Momentum momentum_;
   std::vector<double> forces_;  // of all degrees of freedom, where some have no mass

@@ -65,7 +65,7 @@ void FrictionIteration::put_in_force() {
     Form& tangent = rows[k].tangent;
     if (const int s = slip_sign(side.state); s != 0) {
       tangent = sliding_row(s, 0.0);  // T is a load, of the last iterate's bound
-      tangent.constant = -s * contact.friction.kinetic * side.pressed;
+      tangent.constant = -s * kinetic_friction(contact) * side.pressed;
       key_[k] = slips;
     } else if (side.state == State::stick && !contact.tangential_stiffness &&
                mode_[k].state != State::stick) {
@@ -95,7 +95,8 @@ State FrictionIteration::state_of(std::size_t k) const {
     return s * (slip_of(contact, m) - side.anchor) < -rounding::of_many * terms ? State::stick : side.state;
   }
   // What slips goes on slipping; what does not is held by static friction.
-  const double friction = slip_sign(mode_[k].state) != 0 ? contact.friction.kinetic : contact.friction.static_;
+  const double friction =
+      slip_sign(mode_[k].state) != 0 ? kinetic_friction(contact) : static_friction(contact);
   if (std::abs(m.T) <= friction * side.pressed) return State::stick;
   return slip_along(m.T);
 }
@@ -133,8 +134,8 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       const double N = end_.N(k), T = end_.T(k);
       force = std::max({force, std::abs(N), std::abs(T)});
       const double by = std::max(0.0, -N) - side.pressed;
-      if (slip_sign(side.state) != 0 && contact.friction.kinetic * std::abs(by) > change) {
-        change = contact.friction.kinetic * std::abs(by);
+      if (slip_sign(side.state) != 0 && kinetic_friction(contact) * std::abs(by) > change) {
+        change = kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
       const double terms = std::abs(contact.gap) + contact.normal.magnitude(end_.u);
@@ -158,7 +159,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
       switching
           ? "states still change"
           : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
-                        change, force > 0.0 ? change / force : 0.0),
+                        change * model_.unit.force, force > 0.0 ? change / force : 0.0),
       what, relaxation_);
 }
 
@@ -184,7 +185,7 @@ Step FrictionIteration::advance() {
   step_.count(counters);
   if (!failure.empty()) {
     step.kind = Step::Kind::failed;
-    step.reason = fmt::format("at t = {:.9g}: {}", t1_, failure);
+    step.reason = fmt::format("at t = {:.9g}: {}", t1_ * model_.unit.time, failure);
     return step;
   }
   step.end = t1_;

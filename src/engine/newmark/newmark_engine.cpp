@@ -157,6 +157,14 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
   return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
 }
 
+/// Contacts without an element have forces that follow accelerations, and what interpolation leaves of a gap,
+/// a slip rate or a force of theirs the decision takes out at once: modes above the step keep that blow, and
+/// blows make the next events.
+bool NewmarkEngine::interpolates(std::size_t slot) const {
+  const Contact& contact = model_.contacts[contact_of_guard(slot)];
+  return linear_ && !contact.takes_impulses() && !contact.sticks_rigidly();
+}
+
 /// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
 /// twice the next interpolation, until it has.
 double NewmarkEngine::linear_fall(std::size_t slot, double hi) {
@@ -200,7 +208,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
     case Candidate::Kind::none:
       return false;
     case Candidate::Kind::fall:
-      h = linear_ ? linear_fall(slot, h) : fall_between(slot, 0.0, w.g0, h, g1);
+      h = interpolates(slot) ? linear_fall(slot, h) : fall_between(slot, 0.0, w.g0, h, g1);
       return true;
     case Candidate::Kind::dip: {
       // Down and up again within the step: the step redone to the least value tells.
@@ -211,7 +219,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         w.dismissed = true;
         return false;
       }
-      h = linear_ ? x : fall_between(slot, 0.0, w.g0, x, g);
+      h = interpolates(slot) ? x : fall_between(slot, 0.0, w.g0, x, g);
       return true;
     }
     case Candidate::Kind::sink: {
@@ -223,7 +231,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
         const double g = value_after(slot, lo);
         if (!std::isfinite(g)) break;
         if (g > 0.0) {
-          h = linear_ ? hi : fall_between(slot, lo, g, hi, g_hi);
+          h = interpolates(slot) ? hi : fall_between(slot, lo, g, hi, g_hi);
           return true;
         }
         hi = lo;

@@ -4,7 +4,8 @@
 //   -> the step redone to the time of the fall -> event
 //
 //   refine = "root"    redone with shorter steps until the guard at their end is zero to the clock (Brent)
-//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if it did not fire
+//   refine = "linear"  redone once to the interpolated time, (8) to (10); again only if it did not fire;
+//                      contacts without an element as with "root"
 //
 // After an event the next step has the full length again: its factorisation is kept by states and length, so
 // only the modes themselves cost one. Between the ends of a step the solution is the step redone to that
@@ -64,6 +65,7 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
+  [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
   /// Narrows the step to the candidate. False: it is none.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);

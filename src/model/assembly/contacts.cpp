@@ -18,7 +18,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only = has_gap(spec.law) && spec.friction.static_ == 0.0;
+  const bool measures_only = has_gap(spec.law) && !spec.friction.any();
   return combination(map, direction, key + ".tangent", true, measures_only);
 }
 

@@ -49,7 +49,7 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
     };
     if (c.normal && has_gap(c.law)) need_all(*c.normal, clean_direction(c.normal->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
-    if (is_pressed(c.law) || c.friction.static_ > 0.0) {
+    if (is_pressed(c.law) || c.friction.any()) {
       const Direction* at = c.tangent ? &*c.tangent : c.normal ? &*c.normal : nullptr;
       if (at != nullptr && !at->node.empty()) need_all(*at, sliding_direction(c));
     }

@@ -25,6 +25,7 @@ struct DofMap {
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
   std::vector<Column> columns;
+  double shown_length = 1.0;  ///< what one of the lengths here is in the names of motions
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool matrices() const { return number.empty(); }

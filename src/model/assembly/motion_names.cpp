@@ -53,7 +53,7 @@ std::string largest_name(const Vector& motion, const DofMap& map, double size, b
 }
 
 /// theta and the centre of the rigid rotation that all nodes follow, if they do.
-bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, std::string& name) {
+bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double shown, std::string& name) {
   double theta = 0.0;
   for (const NodeMotion& m : nodes)
     if (m.turns && std::abs(m.turn) > std::abs(theta)) theta = m.turn;
@@ -69,7 +69,8 @@ bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, std::stri
   }
   double extent = 0.0;
   for (const NodeMotion& m : nodes) extent = std::max(extent, std::hypot(m.node->x - cx, m.node->y - cy));
-  name = fmt::format("rotation about ({:.4g}, {:.4g})", rounded(cx, extent), rounded(cy, extent));
+  name = fmt::format("rotation about ({:.4g}, {:.4g})", rounded(cx, extent) * shown,
+                     rounded(cy, extent) * shown);
   return true;
 }
 
@@ -92,7 +93,7 @@ bool is_rigid(const Vector& motion, const DofMap& map) {
   if (map.matrices() || !(size > 0.0)) return false;
   const auto nodes = node_motions(motion, map);
   std::string name;
-  return translates(nodes, size) || rigid_rotation(nodes, size, name);
+  return translates(nodes, size) || rigid_rotation(nodes, size, map.shown_length, name);
 }
 
 double greatest_translation(const Vector& motion, const DofMap& map) {
@@ -117,7 +118,7 @@ std::string describe_motion(const Vector& motion, const DofMap& map) {
     return nodes.size() == 1 ? fmt::format("{} of node '{}'", name, mover->node->name) : name;
   }
   std::string name;
-  if (rigid_rotation(nodes, size, name)) return name;
+  if (rigid_rotation(nodes, size, map.shown_length, name)) return name;
   if (moving == 1)
     return fmt::format("{} of node '{}'", direction_name(mover->x, mover->y), mover->node->name);
   return largest_name(motion, map, size, false);

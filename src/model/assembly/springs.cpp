@@ -14,6 +14,15 @@ SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& 
   return k + added;
 }
 
+std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts) {
+  std::vector<LineSpring> springs;
+  for (const Contact& c : contacts) {
+    if (c.has_spring()) springs.push_back({c.normal, c.normal_stiffness});
+    if (c.tangential_stiffness) springs.push_back({c.tangent, *c.tangential_stiffness});
+  }
+  return springs;
+}
+
 Vector full(const Combination& form, int n) {
   Vector v = Vector::Zero(n);
   form.add_to(v, 1.0);
@@ -61,10 +70,6 @@ bool CholeskyFactor::ok() const { return impl_->llt.info() == Eigen::Success; }
 Vector CholeskyFactor::times(const Vector& x) const {
   const Vector y = impl_->llt.matrixL() * x;
   return impl_->llt.permutationPinv() * y;
-}
-Vector CholeskyFactor::transposed_times(const Vector& x) const {
-  const Vector y = impl_->llt.permutationP() * x;
-  return impl_->llt.matrixU() * y;
 }
 Vector CholeskyFactor::solve_factor(const Vector& x) const {
   const Vector y = impl_->llt.permutationP() * x;

@@ -19,6 +19,9 @@ struct LineSpring {
 
 [[nodiscard]] SparseMatrix with_springs(const SparseMatrix& k, const std::vector<LineSpring>& springs);
 
+/// Of all contacts, as if closed and sticking.
+[[nodiscard]] std::vector<LineSpring> contact_springs(const std::vector<Contact>& contacts);
+
 /// The form as a full vector of length n.
 [[nodiscard]] Vector full(const Combination& form, int n);
 
@@ -53,7 +56,6 @@ class CholeskyFactor {
   ~CholeskyFactor();
   [[nodiscard]] bool ok() const;
   [[nodiscard]] Vector times(const Vector& x) const;                    ///< F x
-  [[nodiscard]] Vector transposed_times(const Vector& x) const;         ///< F^T x
   [[nodiscard]] Vector solve_factor(const Vector& x) const;             ///< F^-1 x
   [[nodiscard]] Vector solve_transposed_factor(const Vector& x) const;  ///< F^-T x
 

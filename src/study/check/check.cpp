@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "run/expected.hpp"
 #include "study/check/check_parts.hpp"
 
 namespace signorini {
@@ -78,6 +79,10 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
   report.cost = checks::cost_of(model, scene.run, report.method);
+  RunSpec chosen = scene.run;
+  chosen.engine = report.method.engine;
+  if (std::string patience = warn_of_patience(model, chosen, scene.file); !patience.empty())
+    report.warnings.push_back(std::move(patience));
   return report;
 }
 

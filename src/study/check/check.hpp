@@ -43,6 +43,7 @@ struct Cost {
   long unknowns = 0;
   double omega_max = 0.0;  ///< of the structure with its contacts stuck, and of harmonic loads
   Effort effort;
+  std::optional<double> exact;  ///< seconds that exact would take instead of ida
 };
 
 /// Of the structure as the scene has it, also where the run is to use a reduced model of it; frequencies,

@@ -1,5 +1,6 @@
 #include "base/json.hpp"
 
+#include "contact/friction.hpp"
 #include "contact/law.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
@@ -23,7 +24,7 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
-  json["limit"] = -contact.friction.static_ * sample.N;
+  json["limit"] = -static_friction(contact) * sample.N;
   return json;
 }
 
@@ -72,6 +73,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   if (report.cost.effort.steps > 0.0) {
     json["run"]["steps_about"] = report.cost.effort.steps;
     json["run"]["seconds_about"] = report.cost.effort.seconds;
+    if (report.cost.exact) json["run"]["seconds_with_exact_about"] = *report.cost.exact;
   }
   Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/engines.hpp"
+#include "run/expected.hpp"
 #include "study/check/check_parts.hpp"
 
 namespace signorini::checks {
@@ -34,16 +34,10 @@ std::vector<Discontinuity> discontinuities(const Model& model, double t_end) {
 }
 
 Cost cost_of(const Model& model, const RunSpec& run, const Method& method) {
-  Cost cost;
-  for (const Dof& dof : model.dofs) cost.unknowns += dof.massless ? 1 : 2;
-  cost.unknowns += 2 * static_cast<long>(model.contacts.size());
-  cost.omega_max = model.omega_max;
-  for (const Load& load : model.loads)
-    for (const Piece& piece : load.history.pieces())
-      if (piece.amplitude != 0.0) cost.omega_max = std::max(cost.omega_max, piece.omega);
-  if (cost.omega_max > 0.0)
-    cost.effort = engine_row(method.engine).effort({model, run, method, cost.omega_max, cost.unknowns});
-  return cost;
+  RunSpec chosen = run;
+  chosen.engine = method.engine;
+  const Expected found = expected(model, run, method);
+  return {found.unknowns, found.omega_max, found.effort, exact_instead(model, chosen)};
 }
 
 }  // namespace signorini::checks

@@ -151,7 +151,7 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
   for (int trial = 0; trial < 4000; ++trial) {
     const auto m = static_cast<std::size_t>(1 + trial % 3);
     const CoulombProblem p = random_problem(random, m, 2.0, false);
-    const std::vector<CoulombSolution> all = all_solutions(p);
+    const std::vector<CoulombSolution> all = all_solutions(p).solutions;
     const auto one = solve(p);
     CHECK(one.has_value() == !all.empty());
     (all.empty() ? none : all.size() == 1 ? unique : several) += 1;
@@ -202,9 +202,9 @@ TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where
   p.W << 1.0, 0.9, 0.9, 1.2;
   p.b << -1.0, 0.0;
   CHECK(!solve(p).has_value());
-  CHECK(all_solutions(p).empty());
+  CHECK(all_solutions(p).solutions.empty());
   p.b << 1.0, 0.0;
-  CHECK(all_solutions(p).size() == 2);
+  CHECK(all_solutions(p).solutions.size() == 2);
   CHECK(may_have_many(p));
 }
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include "result/certificate_files.hpp"
 #include "signorini/event.hpp"
 #include "unit/result/made_up.hpp"
 
@@ -13,11 +14,14 @@ TEST_CASE("docs/output.md: the columns of events.csv, and the types of events") 
   std::string columns = "| column | unit | meaning |\n|---|---|---|\n";
   for (const EventColumn& c : event_columns)
     columns += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
+  std::string certified = "| column | unit | meaning |\n|---|---|---|\n";
+  for (const CertificateColumn& c : certificate_columns)
+    certified += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning);
   std::string types = "| event | what happens |\n|---|---|\n";
   for (const EventTypeName& type : all_event_types)
     types += fmt::format("| `{}` | {} |\n", type.name, type.meaning);
   const std::string text = made_up::slurp(SIGNORINI_MODELS "/../docs/output.md");
-  for (const std::string& table : {columns, types}) {
+  for (const std::string& table : {columns, certified, types}) {
     INFO("docs/output.md should hold:\n", table);
     CHECK(text.find("\n\n" + table + "\n") != std::string::npos);
   }

@@ -58,12 +58,12 @@ inline Model model() {
   foot.name = "foot";
   foot.normal_stiffness = 1e6;
   foot.tangential_stiffness = 1e6;
-  foot.static_friction = foot.kinetic_friction = 0.3;
+  foot.friction.static_ = foot.friction.kinetic = 0.3;
   Contact pad;
   pad.name = "pad, left";
   pad.law = Law::slider;
-  pad.static_friction = 0.4;
-  pad.kinetic_friction = 0.3;
+  pad.friction.static_ = 0.4;
+  pad.friction.kinetic = 0.3;
   m.contacts = {foot, pad};
   m.static_start = true;
   m.statics = {{58.86, 0.0}, {"horizontal motion held at contact 'foot'"}};

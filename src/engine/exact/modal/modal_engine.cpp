@@ -29,7 +29,7 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
 std::string ModalEngine::obstacle(const Segment& segment) {
   if (!system_.failure().empty()) return system_.failure();
   if (segment.forcing->varies()) return "forces or surfaces that change";
-  state_ = &system_.state(segment.decision->mode);
+  state_ = system_.state(segment.decision->mode);
   if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
   if (!ModalWorks::suits(state_->spectrum, t_end_))
     return "frequencies that are neither zero nor fast beside the run";
@@ -63,7 +63,7 @@ void ModalEngine::start(const Segment& segment) {
   if (!modal_) {
     if (fallbacks_++ == 0)
       warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
-                                     segment.decision->jet.t, why));
+                                     segment.decision->jet.t * model_.unit.time, why));
     taylor_.start(segment);
     return;
   }
@@ -94,7 +94,7 @@ void ModalEngine::see_touches(const Passage& passage, double begin) {
           "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
           "at this precision, and it was taken not to",
           model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind),
-          begin));
+          begin * model_.unit.time));
 }
 
 /// Peaks are looked for only where one may exceed all before.
@@ -230,7 +230,7 @@ void ModalEngine::count() {
   counters = taylor_.counters;
   counters.steps += steps_;
   counters.restarts += restarts_;
-  counters.contact_states = static_cast<long>(system_.states());
+  counters.contact_states = system_.made();
   counters.proof_steps = proofs_;
   counters.fallbacks = fallbacks_;
   warnings.insert(warnings.end(), taylor_.warnings.begin(), taylor_.warnings.end());

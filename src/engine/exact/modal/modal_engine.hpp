@@ -1,7 +1,8 @@
 // modal_engine.hpp: engine `exact` whose flow follows the motion, not the mesh.
 //
-//   start: q = Phi^T M u, z = Y q      advance: proof of a stretch, z in closed form      event: q = X z, u =
-//   Phi q
+//   start     q = Phi^T M u,  z = Y q
+//   advance   proof of a stretch, z in closed form
+//   event     q = X z,  u = Phi q
 //
 // What the modes cannot do, a state whose modes are not good enough or forces that change, is followed by the
 // Taylor series of ExactEngine for as long as it lasts, counted as a fallback and said once.
@@ -54,7 +55,7 @@ class ModalEngine final : public Stepper {
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
   Segment segment_;
-  const StateModes* state_ = nullptr;
+  std::shared_ptr<const StateModes> state_;  // kept while proof and works refer to it
   Oscillators oscillators_;
   Amplitudes forces_;
   std::vector<Part> parts_;  // of the last step

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "contact/law.hpp"
 #include "engine/falls/first_fall.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double quarter = 0.25;                  // of a guard, that fast modes may take together
 constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
 
@@ -76,18 +75,15 @@ void ModalProof::start(const Segment& segment, const StateModes& state, const Os
 
 void ModalProof::watch(const Segment& segment, const StateModes& state) {
   guards_.clear();
+  arming_.start(decision_->guards);
   const std::vector<double>& l = oscillators_->real();
   for (std::size_t slot = 0; slot < decision_->guards.size(); ++slot) {
     const GuardStart& start = decision_->guards[slot];
-    if (start.kind == Guard::none) continue;
+    if (arming_.idle(slot)) continue;
     const std::size_t c = contact_of_guard(slot);
     Watched guard;
     guard.slot = slot;
     guard.noise = start.noise;
-    if (start.at_zero) {
-      guard.arming = start.leading > 0 ? Arming::leaving : Arming::unknown;
-      guard.leading = std::max(start.leading, 0);
-    }
     guard.form = reduced(start.form, laws_[c], guard.constant);
     guard.constant += start.form.pressing * segment.forcing->pressing(c, decision_->jet.t, 0);
     guard.constant += guard.form.gap * model_.contacts[c].gap - guard.form.ut * surface_[c];
@@ -113,9 +109,10 @@ double ModalProof::value(const Watched& guard, const ModalPoint& at) const {
 
 /// Of the guard's leading order.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
+  const std::size_t order = arming_.leading(guard.slot);
   double sum = 0.0;
   const auto add = [&](auto z, auto rate, auto p, auto l, auto place, auto slope) {
-    for (int j = 0; j < guard.leading; ++j) {
+    for (std::size_t j = 0; j < order; ++j) {
       const auto next = (j == 0 ? p : decltype(p)(0.0)) - z * l - rate * alpha_;
       z = rate;
       rate = next;
@@ -132,9 +129,8 @@ double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const 
 }
 
 void ModalProof::rearm(const ModalPoint& at) {
-  for (Watched& guard : guards_)
-    if (guard.arming != Arming::armed)
-      guard.arming = value(guard, at) > 4.0 * guard.noise ? Arming::armed : Arming::unknown;
+  for (const Watched& guard : guards_)
+    if (!arming_.armed(guard.slot)) arming_.see(guard.slot, value(guard, at), 4.0 * guard.noise);
 }
 
 Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
@@ -145,8 +141,7 @@ Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
 
 void ModalProof::measure(const ModalPoint& at) {
   measure_amplitudes(at);
-  for (Watched& guard : guards_)
-    guard.now = guard.arming == Arming::leaving ? derivative(guard, at) : value(guard, at);
+  for (Watched& guard : guards_) guard.now = leaves(guard) ? derivative(guard, at) : value(guard, at);
   const std::size_t contacts = model_.contacts.size();
   normal_size_.resize(contacts);
   tangent_size_.resize(contacts);
@@ -161,8 +156,7 @@ void ModalProof::measure(const ModalPoint& at) {
 /// What the bound on mode k is multiplied with: |w_k|, times omega^m where the leading derivative is watched.
 double ModalProof::weight_of(const Watched& guard, std::size_t k) const {
   double weight = guard.size[k];
-  if (guard.arming == Arming::leaving)
-    weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * static_cast<double>(guard.leading));
+  if (leaves(guard)) weight *= std::pow(std::abs(oscillators_->real()[k]), 0.5 * order_of(guard));
   return weight;
 }
 
@@ -170,7 +164,7 @@ std::size_t ModalProof::first_fast() const {
   const std::size_t n = amplitude_.size();
   std::size_t first = full_ ? n : 0;
   for (const Watched& guard : guards_) {
-    if (guard.arming == Arming::unknown || !(guard.now > 0.0)) return n;
+    if (unknown(guard) || !(guard.now > 0.0)) return n;
     double sum = 0.0;
     std::size_t k = n;
     for (; k > first; --k) {
@@ -197,7 +191,7 @@ void ModalProof::choose_step(double remaining) {
       const double root = std::sqrt(size_of(pairs[k]));
       const double most =
           2.0 * (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root) * pair_amplitude_[k];
-      const double order = guard.arming == Arming::leaving ? guard.leading : 0.0;
+      const double order = order_of(guard);
       return !(4.0 * most * std::pow(root, order) <
                0.5 * quarter * guard.now / static_cast<double>(pairs.size()));
     });
@@ -221,7 +215,7 @@ void ModalProof::bound_ripples() {
       const double root = std::sqrt(size_of(pairs[k]));
       // e^(gamma h) with gamma <= |Im w|, where cosh grows
       const double growth = std::exp(std::abs(root_of(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
-      const double order = guard.arming == Arming::leaving ? guard.leading : 0.0;
+      const double order = order_of(guard);
       const double ripple = 2.0 * growth * pair_amplitude_[k] * std::pow(root, order) *
                             (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
       guard.ripple += ripple;
@@ -241,7 +235,7 @@ void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& s
            std::abs(form.vt) * t.rate;
   };
   slack = with(normal_rest_[c], tangent_rest_[c]) +
-          4.0 * epsilon * (with(normal_size_[c], tangent_size_[c]) + std::abs(guard.constant)) +
+          rounding::of_few * (with(normal_size_[c], tangent_size_[c]) + std::abs(guard.constant)) +
           rounding_of_guard * guard.noise;
 }
 
@@ -257,7 +251,7 @@ bool ModalProof::decreases(const Watched& guard, const std::vector<double>& p, d
     power *= to - from;
     rest = std::max(rest, std::abs(entry));
   }
-  q[0] -= guard.ripple_rate * h_ + 1e3 * epsilon * rest;
+  q[0] -= guard.ripple_rate * h_ + rounding::of_elimination * rest;
   return q[0] > 0.0 && first_fall(q.data(), q.size() - 1, 0.0).kind == FirstFall::Kind::none;
 }
 
@@ -278,7 +272,7 @@ double ModalProof::only_fall(const Watched& guard, const ModalPoint& at, double 
     const double step = std::abs(next - x);
     x = std::clamp(next, from, to);
     const double now = g(x);
-    if (now == 0.0 || (i > 0 && step <= 2.0 * epsilon * to)) break;
+    if (now == 0.0 || (i > 0 && step <= 2.0 * rounding::eps * to)) break;
     if (now > 0.0) {
       from = x;
       low = now;
@@ -290,14 +284,14 @@ double ModalProof::only_fall(const Watched& guard, const ModalPoint& at, double 
       if (side < 0) low *= 0.5;
       side = -1;
     }
-    if (to - from <= 2.0 * epsilon * to) break;
+    if (to - from <= 2.0 * rounding::eps * to) break;
   }
   return x;
 }
 
 /// event: the place of the first fall so far; limit: the place up to which nothing falls.
-void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                        double& event) const {
+void ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                        double& event) {
   std::vector<double> p;
   double slack = 0.0;
   combine(guard, p, slack);
@@ -307,8 +301,8 @@ void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, 
     event = x;
     passage.fired = guard.slot;
   };
-  if (guard.arming == Arming::leaving) {
-    const auto m = static_cast<std::size_t>(guard.leading);
+  if (leaves(guard)) {
+    const std::size_t m = arming_.leading(guard.slot);
     std::vector<double> q(p.begin() + static_cast<std::ptrdiff_t>(m), p.end());
     double scale = 0.0, to_derivative = 1.0;
     for (std::size_t i = 1; i <= m; ++i) to_derivative *= static_cast<double>(i) / h_;
@@ -318,9 +312,9 @@ void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, 
       to_derivative *= static_cast<double>(j + m + 1) / static_cast<double>(j + 1);
     }
     // The decision knows that it rises; what else is lost is the rest of the series.
-    q[0] -= std::min(guard.ripple + 1e2 * epsilon * scale, 0.5 * q[0]);
+    q[0] -= std::min(guard.ripple + rounding::of_many * scale, 0.5 * q[0]);
     if (!(q[0] > 0.0)) {
-      guard.arming = Arming::unknown;
+      arming_.doubt(guard.slot);
       limit = 0.0;
       return;
     }
@@ -328,7 +322,7 @@ void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, 
     if (fall.kind == FirstFall::Kind::fall) limit = std::min(limit, 0.9 * fall.x);
     return;
   }
-  if (guard.arming == Arming::unknown) {
+  if (unknown(guard)) {
     p[0] += guard.noise + slack;
     const FirstFall fall = first_fall(p.data(), degree_, 0.0);
     if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
@@ -354,14 +348,14 @@ void ModalProof::settle(Watched& guard, const ModalPoint& at, Passage& passage, 
 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   measure(at);
-  for (Watched& guard : guards_)
-    if (guard.arming == Arming::leaving && !(guard.now > 0.0)) guard.arming = Arming::unknown;
+  for (const Watched& guard : guards_)
+    if (leaves(guard) && !(guard.now > 0.0)) arming_.doubt(guard.slot);
   choose_step(remaining);
   bound_ripples();
   expand(at);
   Passage passage;
   double limit = 1.0, event = 2.0;
-  for (Watched& guard : guards_) settle(guard, at, passage, limit, event);
+  for (const Watched& guard : guards_) settle(guard, at, passage, limit, event);
   if (limit == 0.0) return pass(at, remaining);
   if (limit < event) passage.fired.reset();
   const double x = std::min(limit, event > 1.0 ? 1.0 : event);

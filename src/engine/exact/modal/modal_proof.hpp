@@ -16,6 +16,7 @@
 
 #include "engine/exact/modal/modal_system.hpp"
 #include "engine/exact/modal/oscillators.hpp"
+#include "engine/falls/arming.hpp"
 #include "engine/falls/turning_points.hpp"
 #include "engine/stepper.hpp"
 #include "motion/contact_series.hpp"
@@ -61,13 +62,10 @@ class ModalProof {
   static constexpr double longest_decay = 2.0;  // alpha h
   static constexpr double never = 1e300;
 
-  enum class Arming : unsigned char { armed, leaving, unknown };
   struct Watched {
     std::size_t slot = 0;
     Shown form;
     double constant = 0.0, noise = 0.0;
-    Arming arming = Arming::armed;
-    int leading = 0;
     Amplitudes place, rate;                  // what of z and z' the guard shows
     std::vector<double> size;                // |place| + |rate| sqrt(l), real modes
     double now = 0.0;                        // the value, or the leading derivative's
@@ -92,7 +90,15 @@ class ModalProof {
   [[nodiscard]] bool decreases(const Watched& guard, const std::vector<double>& p, double from,
                                double to) const;
   [[nodiscard]] double only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const;
-  void settle(Watched& guard, const ModalPoint& at, Passage& passage, double& limit, double& event) const;
+  void settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit, double& event);
+  /// It starts at zero, and its leading derivative is watched; or nothing is known of it.
+  [[nodiscard]] bool leaves(const Watched& guard) const { return arming_.leading(guard.slot) > 0; }
+  [[nodiscard]] bool unknown(const Watched& guard) const {
+    return !arming_.armed(guard.slot) && !leaves(guard);
+  }
+  [[nodiscard]] double order_of(const Watched& guard) const {
+    return static_cast<double>(arming_.leading(guard.slot));
+  }
   [[nodiscard]] double weight_of(const Watched& guard, std::size_t k) const;
 
   const Model& model_;
@@ -103,6 +109,7 @@ class ModalProof {
   const Decision* decision_ = nullptr;
   std::vector<ForceLaw> laws_;
   std::vector<double> surface_;
+  Arming arming_;
   std::vector<Watched> guards_;
   std::vector<std::vector<double>> still_normal_, still_tangent_;  // sums of a_k p_k / l_k from k on
   std::vector<double> amplitude_, pair_amplitude_, coefficients_;

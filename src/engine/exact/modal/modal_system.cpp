@@ -1,15 +1,15 @@
 #include "engine/exact/modal/modal_system.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double same = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double same = rounding::of_many;  // of the norm of a matrix: a difference of two of its entries
 
 bool is_symmetric(const SparseMatrix& a) {
   const SparseMatrix difference = a - SparseMatrix(a.transpose());
@@ -71,9 +71,18 @@ ModalSystem::ModalSystem(const Model& model)
   for (const Load& load : model.loads) load_.push_back(amplitudes_of(load.direction));
 }
 
-const StateModes& ModalSystem::state(const Mode& mode) {
-  std::unique_ptr<StateModes>& made = known_[states_of(mode)];
-  if (made) return *made;
+std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
+  const std::vector<State> states = states_of(mode);
+  if (const auto* known = known_.find(states)) return *known;
+  ++made_;
+  auto made = std::make_shared<const StateModes>(make(mode));
+  const auto rows = static_cast<std::size_t>(poles_.size());
+  const std::size_t lists = 2 * (normal_.size() + tangent_.size() + load_.size());
+  return known_.insert(states, std::move(made), rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
+}
+
+/// Diagonal plus two columns a contact at most.
+StateModes ModalSystem::make(const Mode& mode) const {
   std::vector<Vector> u, v;
   bool symmetric = true;
   const auto add = [&](const Vector& force, const Vector& form, double stiffness) {
@@ -91,10 +100,9 @@ const StateModes& ModalSystem::state(const Mode& mode) {
     forces.col(static_cast<Eigen::Index>(a)) = u[a];
     forms.col(static_cast<Eigen::Index>(a)) = v[a];
   }
-  made = std::make_unique<StateModes>(
-      StateModes{Spectrum(poles_, forces, forms, symmetric), {}, {}, {}, {}, {}, {}});
-  const Spectrum& spectrum = made->spectrum;
-  if (!spectrum.failure().empty()) return *made;
+  StateModes made{Spectrum(poles_, forces, forms, symmetric), {}, {}, {}, {}, {}, {}};
+  const Spectrum& spectrum = made.spectrum;
+  if (!spectrum.failure().empty()) return made;
   const auto both = [&](const std::vector<Vector>& list, std::vector<Amplitudes>& rows,
                         std::vector<Amplitudes>& from) {
     rows.resize(list.size());
@@ -104,10 +112,10 @@ const StateModes& ModalSystem::state(const Mode& mode) {
       spectrum.to_modes(list[i], from[i]);
     }
   };
-  both(normal_, made->normal, made->from_normal);
-  both(tangent_, made->tangent, made->from_tangent);
-  both(load_, made->load, made->from_load);
-  return *made;
+  both(normal_, made.normal, made.from_normal);
+  both(tangent_, made.tangent, made.from_tangent);
+  both(load_, made.load, made.from_load);
+  return made;
 }
 
 }  // namespace signorini

@@ -6,9 +6,9 @@
 // alpha: the damping is alpha M. D + U V^T = X L Y (spectrum.hpp).
 #pragma once
 
-#include <map>
 #include <memory>
 
+#include "base/bounded_cache.hpp"
 #include "contact/mode.hpp"
 #include "engine/exact/modal/open_modes.hpp"
 #include "engine/exact/modal/spectrum.hpp"
@@ -35,15 +35,19 @@ struct StateModes {
   std::vector<Amplitudes> load, from_load;            ///< of each load's direction
 };
 
+/// At once in memory: those of a motion that comes back to its states.
+inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 24};
+
 class ModalSystem {
  public:
   explicit ModalSystem(const Model& model);
 
   [[nodiscard]] const std::string& failure() const { return modes_.failure; }
   [[nodiscard]] double alpha() const { return alpha_; }
-  /// The modes of a state, made when first asked for. Its spectrum may have failed.
-  [[nodiscard]] const StateModes& state(const Mode& mode);
-  [[nodiscard]] std::size_t states() const { return known_.size(); }
+  /// The modes of a state, from the cache or made. Its spectrum may have failed.
+  [[nodiscard]] std::shared_ptr<const StateModes> state(const Mode& mode);
+  /// How many were made.
+  [[nodiscard]] long made() const { return made_; }
 
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
   [[nodiscard]] Vector motion(const Vector& q) const { return modes_.shapes * q; }
@@ -55,7 +59,10 @@ class ModalSystem {
   double alpha_ = 0.0;
   Eigen::MatrixXd projection_;  // Phi^T M
   std::vector<Vector> normal_, tangent_, load_;
-  std::map<std::vector<State>, std::unique_ptr<StateModes>> known_;
+  [[nodiscard]] StateModes make(const Mode& mode) const;
+
+  BoundedCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{most_state_modes};
+  long made_ = 0;
 };
 
 }  // namespace signorini

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <random>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "engine/exact/modal/band_pencil.hpp"
 
 namespace signorini {
@@ -122,7 +122,7 @@ class Shapes {
       pencil_.factor(before);
       sweep(one);
       rotate(one, value);
-      if (std::abs(value[0] - before) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(before)) break;
+      if (std::abs(value[0] - before) <= rounding::of_few * std::abs(before)) break;
     }
     x = one[0];
     square = value[0];

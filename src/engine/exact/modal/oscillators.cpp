@@ -1,7 +1,8 @@
 #include "engine/exact/modal/oscillators.hpp"
 
 #include <array>
-#include <limits>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -29,8 +30,7 @@ void by_series(S& z, S& rate, S& integral, S p, S l, double alpha, double time) 
     const double size = size_of(next) * static_cast<double>(j + 2) + size_of(b) * static_cast<double>(j + 1);
     a = b;
     b = next;
-    if (size <= 1e-3 * std::numeric_limits<double>::epsilon() * (size_of(slope) + size_of(sum)) && j > 2)
-      break;
+    if (size <= 1e-3 * rounding::eps * (size_of(slope) + size_of(sum)) && j > 2) break;
   }
   z = sum;
   rate = time > 0.0 ? slope * (1.0 / time) : rate;

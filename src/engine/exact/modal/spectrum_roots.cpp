@@ -7,11 +7,11 @@
 #include <numeric>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_sweeps = 200;
 constexpr double nearly = 1e-9;      // relative step from which on rounding may end the convergence
 constexpr double lift = 1e-3;        // of a start, off the real axis: complex roots are not found from it
@@ -205,7 +205,7 @@ bool Spectrum::search(std::vector<S>& offset) {
       settle_home(k, offset);
       shift[k] = S(poles_.between(k, home_[k])) - offset[k];
       const bool settled =
-          !collides && (relative <= 4.0 * epsilon || (relative < nearly && relative > 0.25 * last[k]));
+          !collides && (relative <= rounding::of_few || (relative < nearly && relative > 0.25 * last[k]));
       if (!settled || home_[k] != before) left.push_back(k);
       last[k] = relative;
     }

@@ -48,7 +48,7 @@ double off_identity(const OpenModes& modes, const SparseMatrix& mass) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/modal");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/open_modes");
 
 TEST_CASE("open modes: a free chain") {
   const int n = 24;

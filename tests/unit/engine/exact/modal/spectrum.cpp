@@ -48,7 +48,7 @@ std::vector<std::complex<double>> values_of(const Spectrum& spectrum) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/modal");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/spectrum");
 
 TEST_CASE(
     "spectrum: eigenvalues are those of the dense matrix, complex pairs, unseen and equal modes included") {

@@ -22,7 +22,7 @@ WorkRow row(const std::string& engine, double accuracy, double error, double sec
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/study/speed/study");
+TEST_SUITE_BEGIN("unit/study/speed/work_study");
 
 TEST_CASE("decades: ranges, factors, lists, and what is none") {
   CHECK(parse_decades("--rtol", "1e-4:1e-7") == std::vector<double>{1e-4, 1e-5, 1e-6, 1e-7});

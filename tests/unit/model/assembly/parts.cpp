@@ -14,7 +14,7 @@ SparseMatrix sparse(int n, const std::vector<Eigen::Triplet<double>>& entries) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/model/parts");
+TEST_SUITE_BEGIN("unit/model/assembly/parts");
 
 TEST_CASE("parts: what entries and forms couple, and nothing else") {
   // 0 - 3 by K, 1 - 4 by a form, 2 alone; an entry of zero couples nothing.

@@ -22,7 +22,7 @@ void check_refused(const Override& change, const std::string& message) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/scene/override");
+TEST_SUITE_BEGIN("unit/scene/overrides");
 
 TEST_CASE("overrides reach every kind of place") {
   CHECK(with({{"run.rtol", "1e-10"}}).run.rtol == 1e-10);

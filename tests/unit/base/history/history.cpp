@@ -58,7 +58,7 @@ double at(HistorySpec s, double t) { return make_history(s, "h").value(t); }
 
 }  // namespace
 
-TEST_SUITE("unit/base/history") {
+TEST_SUITE("unit/base/history/history") {
   TEST_CASE("a piece's derivatives are the limits of differences") {
     Piece p;
     p.origin = 0.3;

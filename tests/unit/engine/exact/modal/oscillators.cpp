@@ -26,7 +26,7 @@ void integrate(double l, double alpha, double p, double time, double& z, double&
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/engine/modal");
+TEST_SUITE_BEGIN("unit/engine/exact/modal/oscillators");
 
 TEST_CASE("oscillators: free, slow, critically damped, overdamped and fast modes under a constant force") {
   const double alpha = 2.0, p = 3.0, time = 0.7;

@@ -32,13 +32,13 @@ RunSpec run_with(const std::string& keys) { return scene_of(block + keys).run; }
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/scene/read");
+TEST_SUITE_BEGIN("unit/scene/read_scene");
 
 TEST_CASE("defaults") {
   const Scene scene = scene_of(block);
   CHECK(scene.title.empty());
   CHECK(scene.gravity == std::array{0.0, 0.0});
-  CHECK(scene.run.engine == Engine::automatic);
+  CHECK(scene.run.engine == Engine::ida);
   CHECK(scene.run.rtol == 1e-8);
   CHECK(scene.run.output_dt == 1e-3);
   CHECK_FALSE(scene.run.max_order);

@@ -1,0 +1,172 @@
+#include "certify/bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t memory = 5;  // rows; as with events, one difference may vanish by chance
+
+/// What an error of a column may be from one step; columns beyond the model's are forces.
+double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
+  if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
+  if (index >= model.columns.size()) return t.rtol * greatest + t.force;
+  const Column& column = model.columns[index];
+  const bool rotation =
+      column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+  const double atol = column.velocity ? (rotation ? t.angular_velocity : t.velocity)
+                                      : (rotation ? t.rotation : t.displacement);
+  return t.rtol * greatest + atol;
+}
+
+/// What may jump at an event.
+bool jumps(const Model& model, std::size_t index) {
+  return index >= model.columns.size() || model.columns[index].velocity;
+}
+
+/// Rows of one column.
+class ColumnOf {
+ public:
+  ColumnOf(const KeptRows& rows, std::size_t column) : rows_(rows), column_(column) {}
+  double operator[](std::size_t row) const { return rows_.values[row * rows_.width + column_]; }
+
+ private:
+  const KeptRows& rows_;
+  std::size_t column_;
+};
+
+/// Rows within the error of an event: there a velocity may be that on the event's other side.
+std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
+                                 const std::vector<double>& errors) {
+  std::vector<bool> at(t.size(), false);
+  for (std::size_t i = 0; i < events.size() && !std::isnan(errors[i]); ++i) {
+    const double off = errors[i];
+    for (auto row =
+             static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), events[i].t - off) - t.begin());
+         row < t.size() && t[row] <= events[i].t + off; ++row)
+      at[row] = true;
+  }
+  return at;
+}
+
+std::size_t common_rows(const Kept& run, const std::vector<Kept>& companions) {
+  std::size_t rows = run.rows->t.size();
+  for (const Kept& companion : companions) rows = std::min(rows, companion.rows->t.size());
+  return rows;
+}
+
+class HistoryBounds {
+ public:
+  HistoryBounds(const Model& model, const Kept& run, const std::vector<Kept>& companions,
+                const BoundSettings& settings)
+      : model_(model), run_(run), companions_(companions), settings_(settings) {
+    errors_.t.assign(run.rows->t.begin(),
+                     run.rows->t.begin() + static_cast<std::ptrdiff_t>(common_rows(run, companions)));
+    errors_.width = run.rows->width;
+    errors_.bounds.assign(errors_.t.size() * errors_.width, infinite);
+  }
+
+  HistoryErrors bounds(const std::vector<TimedEvent>& events, const Verdict& verdict) {
+    const std::vector<bool> at_event = rows_at_events(errors_.t, events, verdict.t_errors);
+    std::size_t certain = errors_.t.size();
+    if (!verdict.reason.empty())
+      certain = static_cast<std::size_t>(std::lower_bound(errors_.t.begin(), errors_.t.end(), verdict.until) -
+                                         errors_.t.begin());
+    for (std::size_t j = 0; j < errors_.width; ++j) column(j, certain, at_event);
+    return std::move(errors_);
+  }
+
+ private:
+  void column(std::size_t j, std::size_t certain, const std::vector<bool>& at_event) {
+    const ColumnOf own(*run_.rows, j);
+    double greatest = 0.0;
+    for (std::size_t row = 0; row < certain; ++row) greatest = std::max(greatest, std::abs(own[row]));
+    const double floor = tolerance_of(model_, j, greatest, settings_.tolerance);
+    std::vector<double> last(memory, 0.0);
+    for (std::size_t row = 0; row < certain; ++row) {
+      double& off = last[row % memory];
+      off = 0.0;
+      for (const Kept& companion : companions_)
+        off = std::max(off, std::abs(own[row] - ColumnOf(*companion.rows, j)[row]));
+      double bound = settings_.factor * *std::max_element(last.begin(), last.end()) + floor;
+      if (at_event[row] && jumps(model_, j)) {
+        if (row > 0) bound += std::abs(own[row] - own[row - 1]);
+        if (row + 1 < certain) bound += std::abs(own[row + 1] - own[row]);
+      }
+      errors_.bounds[row * errors_.width + j] = bound;
+    }
+  }
+
+  const Model& model_;
+  const Kept& run_;
+  const std::vector<Kept>& companions_;
+  const BoundSettings& settings_;
+  HistoryErrors errors_;
+};
+
+/// c times the greatest difference of one figure, and what its own last step may be off by.
+class FigureBound {
+ public:
+  FigureBound(const BoundSettings& settings, std::size_t companions)
+      : settings_(settings), companions_(companions) {}
+  template <class Figure>
+  double operator()(double own, double atol, const Figure& other) const {
+    double off = 0.0;
+    for (std::size_t i = 0; i < companions_; ++i) off = std::max(off, std::abs(own - other(i)));
+    const double rtol = std::max(settings_.tolerance.rtol, rounding::of_few);
+    return settings_.factor * off + rtol * std::abs(own) + atol;
+  }
+
+ private:
+  const BoundSettings& settings_;
+  std::size_t companions_;
+};
+
+}  // namespace
+
+HistoryErrors bound_history(const Model& model, const Kept& run, const std::vector<Kept>& companions,
+                            const BoundSettings& settings, const std::vector<TimedEvent>& events,
+                            const Verdict& verdict) {
+  return HistoryBounds(model, run, companions, settings).bounds(events, verdict);
+}
+
+void bound_extremes(Certificate& certificate, const Kept& run, const std::vector<Kept>& companions,
+                    const BoundSettings& settings) {
+  const Report& own = *run.report;
+  const bool some = settings.tolerance.rtol > 0.0;
+  const double length = some ? settings.tolerance.displacement : 0.0;
+  const double force = some ? settings.tolerance.force : 0.0;
+  const FigureBound bound(settings, companions.size());
+  certificate.peaks.assign(own.peaks.size(), std::nullopt);
+  for (std::size_t k = 0; k < own.peaks.size() && certificate.complete; ++k) {
+    const auto of = [&](double Peak::*figure, double atol) {
+      return bound(own.peaks[k].*figure, atol,
+                   [&](std::size_t i) { return companions[i].report->peaks[k].*figure; });
+    };
+    certificate.peaks[k] = Peak{of(&Peak::horizontal, length), of(&Peak::vertical, length),
+                                of(&Peak::N, force), of(&Peak::T, force)};
+  }
+  certificate.landings.resize(own.landings.size());
+  for (std::size_t k = 0; k < own.landings.size(); ++k) {
+    certificate.landings[k].assign(own.landings[k].size(), std::nullopt);
+    for (std::size_t l = 0; l < own.landings[k].size(); ++l) {
+      const bool known = std::all_of(companions.begin(), companions.end(), [&](const Kept& companion) {
+        return k < companion.report->landings.size() && l < companion.report->landings[k].size();
+      });
+      if (!known || !(certificate.complete || own.landings[k][l].end < certificate.until)) continue;
+      const auto of = [&](double Landing::*figure, double atol) {
+        return bound(own.landings[k][l].*figure, atol,
+                     [&](std::size_t i) { return companions[i].report->landings[k][l].*figure; });
+      };
+      certificate.landings[k][l] = Landing{of(&Landing::start, 0.0), of(&Landing::end, 0.0),
+                                           of(&Landing::impulse, 0.0), of(&Landing::peak_force, force)};
+    }
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,215 @@
+#include "signorini/certify.hpp"
+
+#include <fmt/core.h>
+#include <pthread.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <csignal>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "base/machine.hpp"
+#include "certify/bounds.hpp"
+#include "certify/companion.hpp"
+#include "certify/judge.hpp"
+#include "certify/tracker.hpp"
+#include "run/choose_engine.hpp"
+#include "run/engines.hpp"
+
+namespace signorini {
+namespace {
+
+/// run.certify = "auto": a companion may cost so much of the run.
+constexpr double cheap = 0.5;
+/// A companion that nobody asked for ends after so many times the expected steps; some at least, for events.
+constexpr double patience = 20.0, least_steps = 1e5;
+constexpr std::chrono::milliseconds now_and_then{50};
+
+/// A thread that is started without signals: they are the caller's.
+class QuietThread {
+ public:
+  template <class Work>
+  explicit QuietThread(Work work) {
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before);
+    try {
+      thread_ = std::thread(std::move(work));
+    } catch (...) {
+      pthread_sigmask(SIG_SETMASK, &before, nullptr);
+      throw;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+  ~QuietThread() { thread_.join(); }
+  QuietThread(const QuietThread&) = delete;
+  QuietThread& operator=(const QuietThread&) = delete;
+
+ private:
+  std::thread thread_;
+};
+
+/// One companion, from its beginning to its end.
+class CompanionTask {
+ public:
+  CompanionTask(CompanionRun run, const Leash& leash, double most_steps, bool forces)
+      : run_(std::move(run)), tracker_(run_.model, forces) {
+    tracker_.leash = &leash;
+    tracker_.most_steps = most_steps;
+  }
+
+  /// Keeps what goes wrong: a companion never ends its run.
+  void compute() {
+    try {
+      report_ = simulate(run_.model, run_.run, tracker_);
+    } catch (const std::exception& error) {
+      failure_ = error.what();
+    }
+  }
+
+  [[nodiscard]] double wall_time() const { return report_.wall_time; }
+  [[nodiscard]] Track track() {
+    Track track{std::move(tracker_.events), report_.outcome.t, ""};
+    if (!failure_.empty()) {
+      track.reached = 0.0;
+      track.stop = "the companion failed: " + failure_;
+    } else if (tracker_.too_long) {
+      track.stop = "the companion takes far longer than was expected; --certify lets it go on";
+    } else if (report_.outcome.kind == Outcome::Kind::stopped) {
+      track.stop = "the companion stopped: " + report_.outcome.reason;
+    } else if (report_.outcome.kind == Outcome::Kind::interrupted) {
+      track.stop = "the companion was ended with the run";
+    }
+    return track;
+  }
+  [[nodiscard]] Kept kept() const { return {&tracker_.rows, &report_}; }
+
+ private:
+  CompanionRun run_;
+  Tracker tracker_;
+  Report report_;
+  std::string failure_;
+};
+
+/// All companions of a run: beside it where there are processors for both, else after it.
+class Companions {
+ public:
+  Companions(std::vector<CompanionRun> runs, double most_steps, bool forces) {
+    for (CompanionRun& run : runs)
+      tasks_.push_back(std::make_unique<CompanionTask>(std::move(run), leash_, most_steps, forces));
+    if (processors() > 1) thread_.emplace([this] { compute(); });
+  }
+  ~Companions() { leash_.stop(); }
+  Companions(const Companions&) = delete;
+  Companions& operator=(const Companions&) = delete;
+
+  /// The run has come to `reached`: companions need go no further. Until all have ended, or go_on says no.
+  void finish(double reached, bool interrupted, const std::function<bool()>& go_on) {
+    leash_.stop_at(reached);
+    if (interrupted) leash_.stop();
+    if (!thread_) thread_.emplace([this] { compute(); });
+    std::unique_lock lock(mutex_);
+    while (!ended_.wait_for(lock, now_and_then, [this] { return done_; }))
+      if (!go_on()) leash_.stop();
+    lock.unlock();
+    thread_.reset();
+  }
+
+  [[nodiscard]] const std::vector<std::unique_ptr<CompanionTask>>& tasks() const { return tasks_; }
+
+ private:
+  void compute() {
+    for (const auto& task : tasks_) task->compute();
+    const std::lock_guard lock(mutex_);
+    done_ = true;
+    ended_.notify_all();
+  }
+
+  Leash leash_;
+  std::vector<std::unique_ptr<CompanionTask>> tasks_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool done_ = false;
+  std::optional<QuietThread> thread_;  // the last member: it ends first
+};
+
+/// Why a run is not certified unless asked; empty: it is.
+std::string why_not(const RunSpec& run, const CompanionPlan& plan) {
+  if (run.certify == Certify::yes) return "";
+  if (!(plan.cost > 0.0)) return "nobody knows beforehand what a companion costs here; --certify takes one";
+  if (plan.cost < cheap) return "";
+  return fmt::format("a companion is expected to cost {:.2g} times the run; --certify takes one", plan.cost);
+}
+
+Certificate certificate_of(const Model& model, const RunSpec& run, const CompanionPlan& plan,
+                           Companions& companions, Tracker& own, const Report& report) {
+  Certificate result;
+  result.companion = plan.name;
+  result.choice = plan.choice;
+  result.factor = plan.factor;
+  std::vector<Track> tracks;
+  std::vector<Kept> kept;
+  for (const auto& task : companions.tasks()) {
+    tracks.push_back(task->track());
+    kept.push_back(task->kept());
+    result.wall_time += task->wall_time();
+  }
+  std::vector<std::string> names;
+  for (const Contact& contact : model.contacts) names.push_back(contact.name);
+  for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
+  const Track track{std::move(own.events), report.outcome.t, ""};
+  Verdict verdict = judge(track, tracks, plan.factor, names);
+  BoundSettings settings{plan.factor, tolerance_of(model, run)};
+  if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
+  const Kept kept_run{&own.rows, &report};
+  result.history = bound_history(model, kept_run, kept, settings, track.events, verdict);
+  result.until = verdict.until;
+  result.complete = verdict.reason.empty();
+  result.reason = std::move(verdict.reason);
+  result.first_uncertain = verdict.first_uncertain;
+  result.t_errors = std::move(verdict.t_errors);
+  result.unordered = verdict.unordered;
+  bound_extremes(result, kept_run, kept, settings);
+  return result;
+}
+
+}  // namespace
+
+std::size_t Certificate::certain_events() const {
+  return static_cast<std::size_t>(
+      std::count_if(t_errors.begin(), t_errors.end(), [](double e) { return !std::isnan(e); }));
+}
+
+CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, Recorder& recorder,
+                                   const CertifyOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  CertifiedReport result;
+  const auto plain = [&](std::string why) {
+    result.why_not = std::move(why);
+    result.report = simulate(model, settings, recorder, options.listener);
+    return std::move(result);
+  };
+  if (settings.certify == Certify::no) return plain("run.certify = false");
+  RunSpec run = settings;
+  run.engine = choose_engine(model, settings).engine;
+  engine_row(run.engine).refuse(model, run);
+  CompanionPlan plan = plan_companion(model, run);
+  if (std::string why = why_not(run, plan); !why.empty()) return plain(std::move(why));
+  const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()
+                                                        : std::max(least_steps, patience * plan.steps);
+  Tracker own(model, options.forces, &recorder);
+  Companions companions(std::move(plan.runs), most_steps, options.forces);
+  result.report = simulate(model, settings, own, options.listener);
+  const Outcome& outcome = result.report.outcome;
+  const auto ended = Clock::now();
+  companions.finish(outcome.t, outcome.kind == Outcome::Kind::interrupted, options.go_on);
+  result.certificate = certificate_of(model, run, plan, companions, own, result.report);
+  result.certificate->wait = std::chrono::duration<double>(Clock::now() - ended).count();
+  return result;
+}
+
+}  // namespace signorini

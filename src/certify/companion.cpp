@@ -1,0 +1,117 @@
+#include "certify/companion.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "certify/disturb.hpp"
+#include "engine/tolerance.hpp"
+#include "run/engines.hpp"
+#include "run/expected.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+// See companion.hpp.
+constexpr double by_exact = 1.5, by_tolerance = 2.0, by_step = 3.0, by_rounding = 5.0;
+constexpr double local_beside_exact = 0.1;
+constexpr double finer_tolerance = 0.01, finer_step = 0.5;
+
+/// What is the same in all companions.
+CompanionRun companion_of(const Model& model, const RunSpec& run) {
+  CompanionRun companion{model, run};
+  const double capture = tolerance_of(model, run).capture_velocity();
+  for (Contact& contact : companion.model.contacts)
+    if (!contact.capture_velocity) contact.capture_velocity = capture;
+  companion.run.frames.clear();
+  return companion;
+}
+
+CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
+  CompanionPlan plan;
+  plan.name = "exact";
+  plan.factor = by_exact;
+  if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
+  plan.runs.push_back(companion_of(model, run));
+  plan.runs.back().run.engine = Engine::exact;
+  return plan;
+}
+
+/// tolerance_of() takes rtol times the model's scales; what the scene gives is made finer here.
+void make_finer(Tolerances& atol) {
+  for (std::optional<double>* t : {&atol.displacement, &atol.velocity, &atol.force})
+    if (*t) **t *= finer_tolerance;
+}
+
+CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
+  CompanionPlan plan;
+  CompanionRun companion = companion_of(model, run);
+  const EngineName& engine = name_of(run.engine);
+  switch (engine.accuracy) {
+    case Accuracy::rounding:
+      plan.factor = by_rounding;
+      plan.name = fmt::format("{}, twice, every datum off by about one rounding", engine.name);
+      for (const std::uint64_t seed : {1U, 2U})
+        plan.runs.push_back({disturbed(companion.model, seed), companion.run});
+      return plan;
+    case Accuracy::tolerance:
+      plan.factor = by_tolerance;
+      companion.run.rtol *= finer_tolerance;
+      make_finer(companion.run.atol);
+      plan.name = fmt::format("{}, rtol {:g}", engine.name, companion.run.rtol);
+      break;
+    case Accuracy::step:
+      plan.factor = by_step;
+      companion.run.dt = finer_step * companion.run.dt.value_or(0.0);
+      plan.name = fmt::format("{}, dt {:g}", engine.name, *companion.run.dt);
+      break;
+  }
+  plan.runs.push_back(std::move(companion));
+  return plan;
+}
+
+void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
+  const Effort own = expected(model, run).effort;
+  for (const CompanionRun& companion : plan.runs) {
+    const Effort effort = expected(companion.model, companion.run).effort;
+    plan.steps = effort.steps;
+    if (!(own.seconds > 0.0) || !(effort.seconds > 0.0)) {
+      plan.cost = 0.0;
+      return;
+    }
+    plan.cost += effort.seconds / own.seconds;
+  }
+}
+
+}  // namespace
+
+CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
+  const bool itself = run.engine == Engine::exact;
+  if (run.companion == Companion::exact && !itself) {
+    RunSpec exact = run;
+    exact.engine = Engine::exact;
+    engine_row(Engine::exact).refuse(model, exact);
+  }
+  const bool may_be_exact = !itself && run.companion != Companion::finer && exact_takes(model, run);
+  const bool may_be_finer = itself || run.companion != Companion::exact;
+  std::optional<CompanionPlan> exact, finer;
+  if (may_be_exact) estimate(exact.emplace(exact_plan(model, run)), model, run);
+  if (may_be_finer && !(exact && run.companion == Companion::exact))
+    estimate(finer.emplace(finer_plan(model, run)), model, run);
+  if (!exact || !finer) {
+    CompanionPlan plan = std::move(exact ? *exact : *finer);
+    plan.choice = run.companion != Companion::automatic ? "as given"
+                  : itself                              ? "auto: the run is exact's own"
+                                                        : "auto: exact does not take the scene";
+    return plan;
+  }
+  // Where nobody knows what the finer run costs, the sharper one is taken.
+  const bool cheaper = !(finer->cost > 0.0) || !(exact->cost > 0.0) || exact->cost <= finer->cost;
+  CompanionPlan plan = std::move(cheaper ? *exact : *finer);
+  plan.choice =
+      cheaper ? "auto: exact is the cheaper" : "auto: a finer run is expected to be cheaper than exact";
+  return plan;
+}
+
+}  // namespace signorini

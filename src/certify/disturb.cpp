@@ -1,0 +1,95 @@
+#include "certify/disturb.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+/// Of each datum: some units in the last place, less than anything that is known of a structure.
+constexpr double rounding_of_data = 1e-15;
+
+/// SplitMix64 (Steele, Lea, Flood 2014): a good bit mixer, which is all that is asked for.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31U);
+}
+
+class Disturbance {
+ public:
+  explicit Disturbance(std::uint64_t seed) : seed_(mixed(seed)) {}
+
+  /// 1 + delta r, of the datum of this number.
+  [[nodiscard]] double factor(std::uint64_t number) const {
+    const std::uint64_t bits = mixed(seed_ ^ mixed(number));
+    const double size = 0.5 + 0.5 * static_cast<double>(bits >> 12U) * 0x1p-52;
+    return 1.0 + ((bits & 1U) != 0U ? size : -size) * rounding_of_data;
+  }
+  /// Of the next datum.
+  double next() { return factor(++number_); }
+
+  void matrix(SparseMatrix& a) {
+    const std::uint64_t own = mixed(++number_);
+    for (int column = 0; column < a.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) {
+        const auto low = static_cast<std::uint64_t>(std::min(entry.row(), entry.col()));
+        const auto high = static_cast<std::uint64_t>(std::max(entry.row(), entry.col()));
+        entry.valueRef() *= factor(own ^ mixed((high << 32U) | low));
+      }
+  }
+
+  void history(History& h) {
+    if (h.is_constant() && h.value(0.0) == 0.0) return;
+    h = h.scaled(next());
+  }
+
+  void contact(Contact& c, const Vector& u0) {
+    if (c.has_gap() && c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0)))
+      c.gap *= next();
+    c.normal_stiffness *= next();
+    c.normal_damping *= next();
+    if (c.tangential_stiffness) *c.tangential_stiffness *= next();
+    if (c.shear) {
+      c.shear->stiffness *= next();
+      c.shear->damping *= next();
+    }
+    const double friction = next();  // static and kinetic friction that are equal stay so
+    c.friction.static_ *= friction;
+    c.friction.kinetic *= friction;
+    if (c.restitution < 1.0) c.restitution = std::min(1.0, c.restitution * next());
+    history(c.normal_force);
+    history(c.surface_motion);
+  }
+
+ private:
+  std::uint64_t seed_, number_ = 0;
+};
+
+/// Degrees of freedom on which a contact acts.
+std::vector<bool> touched(const Model& model) {
+  std::vector<bool> list(static_cast<std::size_t>(model.size()), false);
+  for (const Contact& c : model.contacts)
+    for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+      for (const auto& [dof, factor] : form->terms) list[static_cast<std::size_t>(dof)] = true;
+  return list;
+}
+
+}  // namespace
+
+Model disturbed(const Model& model, std::uint64_t seed) {
+  Model near = model;
+  Disturbance disturb(seed);
+  disturb.matrix(near.mass);
+  disturb.matrix(near.damping);
+  disturb.matrix(near.stiffness);
+  for (Load& load : near.loads) disturb.history(load.history);
+  for (Contact& contact : near.contacts) disturb.contact(contact, model.u0);
+  const std::vector<bool> touches = touched(model);
+  for (int i = 0; i < near.size(); ++i)
+    if (!touches[static_cast<std::size_t>(i)]) near.v0[i] *= disturb.next();
+  return near;
+}
+
+}  // namespace signorini

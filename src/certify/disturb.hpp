@@ -1,0 +1,18 @@
+// disturb.hpp: the same model, every datum off by about one rounding.
+//
+//   x -> x (1 + delta r),   delta = 1e-15,  |r| in [1/2, 1], the same r for M_ij and M_ji
+//
+// What stays: times of breakpoints, the initial state of what touches, gaps that are closed, and zeros. So
+// laws, states at the start and symmetry of the matrices are those of the model. The same seed gives the same
+// model.
+#pragma once
+
+#include <cstdint>
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+[[nodiscard]] Model disturbed(const Model& model, std::uint64_t seed);
+
+}  // namespace signorini

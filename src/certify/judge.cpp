@@ -1,0 +1,183 @@
+#include "certify/judge.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+/// Over how many events the greatest difference is taken: one difference may vanish by chance. Chosen;
+/// changing it moves "certify: the greatest of five".
+constexpr std::size_t memory = 5;
+/// Rounding of an event's own time: that of a sum, twice.
+constexpr double of_clock = 2.0 * rounding::eps;
+
+/// Where the sequence ends to be certain, and why; the earliest wins.
+struct Horizon {
+  double t = never;
+  std::string reason;
+  void at(double time, const std::string& why) {
+    if (time < t) *this = {time, why};
+  }
+};
+
+using Rows = std::vector<std::size_t>;
+
+/// Rows of the changes of each contact.
+std::vector<Rows> by_contact(const std::vector<TimedEvent>& events, std::size_t contacts) {
+  std::vector<Rows> rows(contacts);
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (events[i].is_change()) rows[static_cast<std::size_t>(events[i].contact)].push_back(i);
+  return rows;
+}
+
+bool same(const TimedEvent& a, const TimedEvent& b) {
+  return a.type == b.type && a.from == b.from && a.to == b.to;
+}
+
+class Judge {
+ public:
+  Judge(const Track& run, const std::vector<Track>& companions, double factor,
+        const std::vector<std::string>& names)
+      : run_(run), companions_(companions), factor_(factor), names_(names) {}
+
+  Verdict verdict() {
+    deviation_.assign(run_.events.size(), 0.0);
+    const std::vector<Rows> own = by_contact(run_.events, names_.size());
+    for (const Track& companion : companions_) pair(own, companion);
+    grow();
+    Verdict result;
+    settle(result);
+    count_unordered(result);
+    return result;
+  }
+
+ private:
+  /// Differences of partners, and the first event of each contact that has none.
+  void pair(const std::vector<Rows>& own, const Track& companion) {
+    const std::vector<Rows> other = by_contact(companion.events, names_.size());
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::size_t longest = std::max(own[k].size(), other[k].size());
+      double before = 0.0;  // by how much the partners of the event before differ
+      for (std::size_t i = 0; i < longest && pair(own[k], other[k], i, companion, before); ++i) {
+      }
+    }
+    if (companion.reached < run_.reached)
+      horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
+  }
+
+  bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, double& before) {
+    const TimedEvent* a = i < own.size() ? &run_.events[own[i]] : nullptr;
+    const TimedEvent* b = i < other.size() ? &companion.events[other[i]] : nullptr;
+    if (a == nullptr || b == nullptr) {
+      const TimedEvent& alone = a != nullptr ? *a : *b;
+      if (alone.t <= std::min(run_.reached, companion.reached))
+        horizon_.at(alone.t, a != nullptr ? describe(*a) + " has no partner in the companion"
+                                          : "the companion has an event more, " + describe(*b));
+      return false;
+    }
+    const double off = b->t - a->t, change = std::abs(off - before);
+    before = off;
+    // The time since the contact's event before: errors that both share shift no event past another.
+    const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
+    if (same(*a, *b) && factor_ * change <= 0.5 * since) {
+      deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
+      return true;
+    }
+    if (same(*a, *b)) {
+      horizon_.at(std::min(a->t, b->t),
+                  fmt::format("{} comes {:.2g} after the contact's event before, which is off by {:.2g}",
+                              describe(*a), since, factor_ * change));
+      return false;
+    }
+    horizon_.at(std::min(a->t, b->t),
+                fmt::format("{} stands against {} in the companion", describe(*a), describe(*b)));
+    return false;
+  }
+
+  [[nodiscard]] std::string describe(const TimedEvent& event) const {
+    return fmt::format("{} of '{}' at t = {:.9g}, {} -> {}", to_string(event.type),
+                       names_[static_cast<std::size_t>(event.contact)], event.t, to_string(event.from),
+                       to_string(event.to));
+  }
+
+  /// From differences to errors, in the order of time.
+  void grow() {
+    errors_.assign(run_.events.size(), none);
+    std::vector<double> last(memory, 0.0);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < run_.events.size(); ++i) {
+      const TimedEvent& event = run_.events[i];
+      if (event.t >= horizon_.t) break;
+      errors_[i] = of_clock * event.t;
+      if (!event.is_change() || (!event.fell && deviation_[i] == 0.0)) continue;
+      last[next++ % memory] = deviation_[i];
+      const double error = factor_ * *std::max_element(last.begin(), last.end());
+      spread_ = error;
+      errors_[i] += error + static_cast<double>(event.uncertainty);
+    }
+  }
+
+  /// What lies within its error of the horizon may lie beyond it.
+  void settle(Verdict& result) {
+    result.until = run_.reached;
+    if (horizon_.t < never) {
+      result.until = std::max(0.0, horizon_.t - spread_);
+      result.reason = horizon_.reason;
+      for (std::size_t i = 0; i < errors_.size(); ++i)
+        if (!(run_.events[i].t + errors_[i] < result.until)) errors_[i] = none;
+    }
+    const auto first = std::find_if(errors_.begin(), errors_.end(), [](double e) { return std::isnan(e); });
+    if (first != errors_.end()) result.first_uncertain = static_cast<std::size_t>(first - errors_.begin());
+    result.t_errors = std::move(errors_);
+    result.spread = spread_;
+  }
+
+  void count_unordered(Verdict& result) const {
+    std::size_t before = run_.events.size();
+    for (std::size_t i = 0; i < run_.events.size() && !std::isnan(result.t_errors[i]); ++i) {
+      const TimedEvent& event = run_.events[i];
+      if (!event.is_change()) continue;
+      if (before < i && run_.events[before].contact != event.contact) {
+        const double apart = event.t - run_.events[before].t;
+        if (apart > of_clock * event.t && apart < result.t_errors[before] + result.t_errors[i])
+          ++result.unordered;
+      }
+      before = i;
+    }
+  }
+
+  const Track& run_;
+  const std::vector<Track>& companions_;
+  double factor_;
+  const std::vector<std::string>& names_;
+  Horizon horizon_;
+  std::vector<double> deviation_, errors_;
+  double spread_ = 0.0;  // c D where the sequence ends to be certain
+};
+
+}  // namespace
+
+TimedEvent timed(const Event& event) {
+  return {event.t,
+          static_cast<float>(event.t_uncertainty.value_or(0.0)),
+          event.contact,
+          event.type,
+          event.from,
+          event.to,
+          event.guard_rate.has_value()};
+}
+
+Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
+              const std::vector<std::string>& names) {
+  return Judge(run, companions, factor, names).verdict();
+}
+
+}  // namespace signorini

@@ -1,0 +1,55 @@
+// judge.hpp: from the events of a run and of its companions to what is certain (signorini/certify.hpp).
+//
+//   D_k = greatest |t - t'| over the last five events, all contacts and companions
+//   t_error = c D_k + uncertainty + 2 eps t
+//   of neighbours of one contact:  c |(t_i - t'_i) - (t_i-1 - t'_i-1)| <= (t_i - t_i-1) / 2, or the sequence
+//   ends to be certain
+//
+// Events of jumps of loads happen at a time that is known: their error is rounding, and they are no part of
+// D.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signorini/event.hpp"
+
+namespace signorini {
+
+/// A row of events, as far as runs are compared.
+struct TimedEvent {
+  double t = 0.0;
+  float uncertainty = 0.0F;  ///< what is to be added for its own instant; 0: none
+  int contact = -1;          ///< -1: a load jumped
+  EventType type = EventType::time;
+  State from = State::open, to = State::open;
+  bool fell = false;  ///< a guard fell; else a jump of a load changed the state
+
+  /// Of a contact's state; else a load jumped.
+  [[nodiscard]] bool is_change() const { return contact >= 0 && type != EventType::time; }
+};
+[[nodiscard]] TimedEvent timed(const Event& event);
+
+/// Events in order, and how far the run came.
+struct Track {
+  std::vector<TimedEvent> events;
+  double reached = 0.0;
+  std::string stop;  ///< why it reached no more; empty at t_end
+};
+
+struct Verdict {
+  double until = 0.0;
+  std::string reason;  ///< empty: to where the run came
+  std::optional<std::size_t> first_uncertain;
+  std::vector<double> t_errors;  ///< NaN: not certain
+  std::size_t unordered = 0;
+  double spread = 0.0;  ///< c D at `until`, or at the end
+};
+
+/// `names` of the contacts, for the reason; `factor`: c. Cost: proportional to the events.
+[[nodiscard]] Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
+                            const std::vector<std::string>& names);
+
+}  // namespace signorini

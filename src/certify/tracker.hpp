@@ -1,0 +1,63 @@
+// tracker.hpp: what is kept of a run and of its companions, while they run.
+//
+//   Tracker own(model, run, &recorder)      passes all on to the recorder
+//   Tracker other(model, run)               keeps events and the columns of history.csv, passes nothing on
+//
+// A companion runs in a thread of its own: it stops where the run has ended, or where it is told to.
+#pragma once
+
+#include <atomic>
+#include <limits>
+#include <vector>
+
+#include "certify/judge.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// Columns of history.csv, row by row; then N and T of each contact where they are wanted.
+struct KeptRows {
+  std::size_t width = 0;
+  std::vector<double> t, values;
+};
+
+/// How far companions may go; changed by the run's thread.
+class Leash {
+ public:
+  void stop_at(double t) { end_.store(t, std::memory_order_relaxed); }
+  void stop() { stop_at(-std::numeric_limits<double>::infinity()); }
+  [[nodiscard]] bool allows(double t) const { return t <= end_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<double> end_{std::numeric_limits<double>::infinity()};
+};
+
+class Tracker : public Recorder {
+ public:
+  /// Both must outlive it; without a recorder nothing is passed on.
+  explicit Tracker(const Model& model, bool forces, Recorder* next = nullptr)
+      : model_(model), forces_(forces), next_(next) {
+    rows.width = model.columns.size() + (forces ? 2 * model.contacts.size() : 0);
+  }
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override;
+  void frame(const Sample& sample) override;
+  [[nodiscard]] bool wants_motion() const override { return next_ != nullptr && next_->wants_motion(); }
+  void motion(int contact, const std::vector<MotionRow>& rows) override;
+  bool progress(double t) override;
+
+  std::vector<TimedEvent> events;
+  KeptRows rows;
+  const Leash* leash = nullptr;                                 ///< of a companion
+  double most_steps = std::numeric_limits<double>::infinity();  ///< of a companion
+  bool too_long = false;                                        ///< it was ended by most_steps
+
+ private:
+  const Model& model_;
+  bool forces_;
+  Recorder* next_;
+  double steps_ = 0.0;
+};
+
+}  // namespace signorini

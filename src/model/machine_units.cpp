@@ -1,0 +1,121 @@
+#include "model/machine_units.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace signorini {
+namespace {
+
+// Of an exponent: no product of four units leaves the range of a double then (mass = force time^2 / length).
+constexpr int farthest = 120;
+
+// Of the run without any stiffness: a quarter of it, 2^-2, as long as one of its motions may well be. Scales
+// of displacement follow from it (a time^2). Chosen; changing it moves the tests of validation/published.
+constexpr int motions = 2;
+
+/// Greatest of magnitudes, and its exponent: x = 2^e (1 to 2).
+class Greatest {
+ public:
+  void add(double x) {
+    if (std::isfinite(x)) most_ = std::max(most_, std::abs(x));
+  }
+  void add(const std::optional<double>& x) {
+    if (x) add(*x);
+  }
+  [[nodiscard]] bool any() const { return most_ > 0.0; }
+  [[nodiscard]] int exponent() const { return std::ilogb(most_); }
+
+ private:
+  double most_ = 0.0;
+};
+
+/// The greater extent along an axis.
+Greatest extent_of(const std::vector<Node>& nodes) {
+  Greatest extent;
+  if (nodes.empty()) return extent;
+  const auto [left, right] =
+      std::minmax_element(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.x < b.x; });
+  const auto [low, high] =
+      std::minmax_element(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.y < b.y; });
+  extent.add(right->x - left->x);
+  extent.add(high->y - low->y);
+  return extent;
+}
+
+struct Sizes {
+  Greatest mass, stiffness, gap, displacement, velocity, acceleration, force;
+};
+
+void add_matrices(const MatricesSpec& matrices, Sizes& sizes) {
+  for (const MatrixSpec::Entry& e : matrices.mass.entries) sizes.mass.add(e.value);
+  for (const MatrixSpec::Entry& e : matrices.stiffness.entries) sizes.stiffness.add(e.value);
+}
+
+void add_initial(const InitialSpec& initial, Sizes& sizes) {
+  for (const InitialSpec::Component& c : initial.components) {
+    if (c.component == "ux" || c.component == "uy") sizes.displacement.add(c.value);
+    if (c.component == "vx" || c.component == "vy") sizes.velocity.add(c.value);
+  }
+}
+
+/// `length`: exponent of the extent, where there are members.
+Sizes sizes_of(const Scene& scene, int length) {
+  Sizes sizes;
+  if (scene.matrices) add_matrices(*scene.matrices, sizes);
+  for (const Section& s : scene.sections) {
+    sizes.stiffness.add(std::ldexp(s.EA, -length));
+    sizes.mass.add(std::ldexp(s.mass_per_length, length));
+  }
+  for (const PointMass& m : scene.masses) sizes.mass.add(m.mass);
+  for (const Spring& s : scene.springs) sizes.stiffness.add(s.stiffness);
+  for (const ContactSpec& c : scene.contacts) {
+    sizes.stiffness.add(c.normal_stiffness);
+    sizes.stiffness.add(c.tangential_stiffness);
+    sizes.gap.add(c.gap);
+    sizes.velocity.add(c.surface_velocity.offset);
+    sizes.velocity.add(c.surface_velocity.amplitude);
+    sizes.force.add(c.normal_force.offset);
+    sizes.force.add(c.normal_force.amplitude);
+  }
+  for (const LoadSpec& load : scene.loads) sizes.force.add(load.amplitude);
+  for (const double g : scene.gravity) sizes.acceleration.add(g);
+  if (scene.base_motion) {
+    sizes.acceleration.add(scene.base_motion->acceleration.offset);
+    sizes.acceleration.add(scene.base_motion->acceleration.amplitude);
+  }
+  add_initial(scene.initial, sizes);
+  return sizes;
+}
+
+/// Where there is no structure with an extent; 0 where nothing has a length.
+int length_of_motion(const Sizes& sizes, int time, int mass) {
+  if (sizes.gap.any()) return sizes.gap.exponent();
+  if (sizes.displacement.any()) return sizes.displacement.exponent();
+  if (sizes.velocity.any()) return sizes.velocity.exponent() + time;
+  if (sizes.acceleration.any()) return sizes.acceleration.exponent() + 2 * time;
+  if (sizes.force.any()) return sizes.force.exponent() + 2 * time - mass;
+  return 0;
+}
+
+int half(int exponent) { return exponent >> 1; }  // to the lower side, also below zero
+
+}  // namespace
+
+Factors machine_units(const Scene& scene) {
+  const Greatest extent = extent_of(scene.nodes);
+  const Sizes sizes = sizes_of(scene, extent.any() ? extent.exponent() : 0);
+  Greatest run;
+  run.add(scene.run.t_end);
+  if (!sizes.mass.any() || !run.any()) return {};
+  const int mass = sizes.mass.exponent();
+  const int time = sizes.stiffness.any() ? half(mass - sizes.stiffness.exponent()) : run.exponent() - motions;
+  const int length = scene.matrices ? 0
+                     : extent.any() ? extent.exponent()
+                                    : length_of_motion(sizes, time, mass);
+  const int force = mass + length - 2 * time;
+  if (std::max({std::abs(force), std::abs(length), std::abs(time)}) > farthest) return {};
+  return {std::ldexp(1.0, force), std::ldexp(1.0, length), std::ldexp(1.0, time)};
+}
+
+}  // namespace signorini

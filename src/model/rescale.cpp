@@ -1,0 +1,147 @@
+#include "model/rescale.hpp"
+
+namespace signorini {
+namespace {
+
+class Rescaling {
+ public:
+  Rescaling(const Factors& factors, const std::vector<Dof>& dofs) : factors_(factors), dofs_(dofs) {}
+
+  void operator()(double& x, const Unit& of) const { x *= factor_of(of, factors_); }
+  void operator()(std::optional<double>& x, const Unit& of) const {
+    if (x) (*this)(*x, of);
+  }
+
+  /// Of a displacement.
+  [[nodiscard]] double of_dof(int i) const {
+    return dofs_[static_cast<std::size_t>(i)].rotation ? 1.0 : factors_.length;
+  }
+  void operator()(Vector& x, const Unit& over_displacement) const {
+    const double factor = factor_of(over_displacement, factors_);
+    for (int i = 0; i < x.size(); ++i) x[i] *= of_dof(i) * factor;
+  }
+  /// Entries that make an energy, times `more`, with two displacements.
+  void operator()(SparseMatrix& a, const Unit& more) const {
+    const double factor = factor_of(unit::energy, factors_) * factor_of(more, factors_);
+    for (int j = 0; j < a.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(a, j); it; ++it)
+        it.valueRef() *= factor / (of_dof(static_cast<int>(it.row())) * of_dof(j));
+  }
+  /// A length from displacements, a force along them; times `more`.
+  void operator()(Combination& form, const Unit& more = unit::plain) const {
+    const double length = factor_of(more, factors_) * factors_.length;
+    for (auto& [i, factor] : form.terms) factor *= length / of_dof(i);
+  }
+  void operator()(History& history, const Unit& of) const {
+    std::vector<double> starts = history.starts();
+    for (double& t : starts) (*this)(t, unit::time);
+    std::vector<Piece> pieces = history.pieces();
+    const double value = factor_of(of, factors_);
+    for (Piece& piece : pieces) {
+      (*this)(piece.origin, unit::time);
+      double c = value;
+      for (double& coefficient : piece.coefficients) {
+        coefficient *= c;
+        c /= factors_.time;
+      }
+      piece.amplitude *= value;
+      (*this)(piece.omega, unit::rate);
+    }
+    history = History(std::move(starts), std::move(pieces));
+  }
+
+  /// Displacements from displacements.
+  void basis(SparseMatrix& b) const {
+    for (int j = 0; j < b.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(b, j); it; ++it)
+        it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
+  }
+
+  /// Weight stands in the direction, masses that the base moves too; all other loads have their force in the
+  /// history.
+  void operator()(Load& load) const {
+    const bool weight = load.name == "gravity", inertia = load.name == "base motion";
+    (*this)(load.direction, weight ? unit::force : inertia ? unit::mass : unit::plain);
+    (*this)(load.history, weight ? unit::plain : inertia ? unit::acceleration : unit::force);
+  }
+
+  void operator()(Contact& c) const {
+    (*this)(c.normal);
+    (*this)(c.tangent);
+    (*this)(c.gap, unit::length);
+    (*this)(c.normal_stiffness, unit::stiffness);
+    (*this)(c.tangential_stiffness, unit::stiffness);
+    if (c.shear) {
+      (*this)(c.shear->body);
+      (*this)(c.shear->stiffness, unit::stiffness);
+      (*this)(c.shear->damping, unit::damping);
+    }
+    (*this)(c.normal_damping, unit::damping);
+    (*this)(c.friction.stribeck_velocity, unit::velocity);
+    (*this)(c.capture_velocity, unit::velocity);
+    (*this)(c.normal_force, unit::force);
+    (*this)(c.surface_motion, unit::length);
+    (*this)(c.initial_shear, unit::force);
+  }
+
+  void operator()(Scales& s) const {
+    (*this)(s.displacement, unit::length);
+    (*this)(s.velocity, unit::velocity);
+    (*this)(s.angular_velocity, unit::rate);
+    (*this)(s.force, unit::force);
+  }
+
+  /// This: of the physical degrees of freedom; amplitudes of shapes are lengths.
+  void operator()(Reduction& r) const {
+    for (int i = 0; i < r.shapes.rows(); ++i) r.shapes.row(i) *= of_dof(i) / factors_.length;
+    for (double* omega : {&r.cutoff, &r.highest_kept, &r.first_left_out, &r.highest_massive})
+      (*this)(*omega, unit::rate);
+    for (ComplianceShare& share : r.shares) {
+      (*this)(share.compliance, Unit{-1, 1, 0});
+      (*this)(share.residual, Unit{-1, 1, 0});
+    }
+    (*this)(r.ringing, unit::length);
+    (*this)(r.initial_displacement_lost, unit::length);
+    (*this)(r.initial_velocity_lost, unit::velocity);
+  }
+
+ private:
+  Factors factors_;
+  const std::vector<Dof>& dofs_;
+};
+
+void rescale_drawing(Model& model, const Rescaling& rescale) {
+  for (DrawnElement& e : model.drawing)
+    for (double* x : {&e.x1, &e.y1, &e.x2, &e.y2}) rescale(*x, unit::length);
+  for (DrawnNode& node : model.drawn_nodes)
+    for (double* x : {&node.x, &node.y}) rescale(*x, unit::length);
+  for (DrawnContact& c : model.drawn_contacts)
+    for (double* x : {&c.x, &c.y}) rescale(*x, unit::length);
+}
+
+}  // namespace
+
+Model rescaled(Model model, const Factors& factors) {
+  const Rescaling rescale(factors, model.dofs);
+  rescale(model.mass, Unit{0, 0, 2});
+  rescale(model.damping, unit::time);
+  rescale(model.stiffness, unit::plain);
+  for (Load& load : model.loads) rescale(load);
+  for (Contact& contact : model.contacts) rescale(contact);
+  rescale_drawing(model, rescale);
+  rescale(model.u0, unit::plain);
+  rescale(model.v0, unit::rate);
+  for (double& reaction : model.statics.reactions) rescale(reaction, unit::force);
+  rescale(model.scales);
+  rescale(model.alpha, unit::rate);
+  rescale(model.beta, unit::time);
+  rescale(model.omega1, unit::rate);
+  rescale(model.omega_max, unit::rate);
+  if (model.basis) rescale.basis(*model.basis);
+  if (model.reduction) Rescaling(factors, model.reduction->dofs)(*model.reduction);
+  model.unit = {model.unit.force / factors.force, model.unit.length / factors.length,
+                model.unit.time / factors.time};
+  return model;
+}
+
+}  // namespace signorini

@@ -1,0 +1,66 @@
+#include "result/certificate_files.hpp"
+
+#include <fstream>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t much = 1 << 16;  // bytes at a time
+
+/// Row by row, so that a long list of events is not in memory as text.
+void add_columns(const fs::path& path, const Certificate& certificate) {
+  std::ifstream old(path, std::ios::binary);
+  std::string line;
+  if (!old || !std::getline(old, line)) throw FileError(path.string(), "cannot be read again");
+  fs::path draft = path;
+  draft += ".part";
+  std::error_code error;
+  fs::remove(draft, error);  // what a kill has left, or somebody's link, which must not be followed
+  {
+    CsvFile file(draft);
+    CsvBlock block;
+    block.raw(line);
+    for (const CertificateColumn& column : certificate_columns) block.text(column.name);
+    block.end_row();
+    for (std::size_t row = 0; row < certificate.t_errors.size() && std::getline(old, line); ++row) {
+      const bool certain = certificate.certain(row);
+      block.raw(line);
+      block.number(certain ? std::optional(certificate.t_errors[row]) : std::nullopt);
+      block.text(certain ? "1" : "0").end_row();
+      if (block.str().size() > much) file.write(block);
+    }
+    file.write(block);
+  }
+  fs::rename(draft, path, error);
+  if (error) throw FileError(path.string(), "cannot be written: " + error.message());
+}
+
+void write_errors(const fs::path& path, const Model& model, const HistoryErrors& errors) {
+  CsvFile file(path);
+  CsvBlock block;
+  block.text("t");
+  for (const Column& column : model.columns) block.text(column.name);
+  block.end_row();
+  for (std::size_t row = 0; row < errors.t.size(); ++row) {
+    block.number(errors.t[row]);
+    for (std::size_t j = 0; j < model.columns.size(); ++j) block.number(errors.at(row, j));
+    block.end_row();
+    if (block.str().size() > much) file.write(block);
+  }
+  file.write(block);
+}
+
+}  // namespace
+
+void write_certificate(const fs::path& directory, const Model& model, const Certificate& certificate) {
+  add_columns(directory / "events.csv", certificate);
+  write_errors(directory / "errors.csv", model, certificate.history);
+}
+
+}  // namespace signorini

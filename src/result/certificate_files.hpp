@@ -1,0 +1,33 @@
+// certificate_files.hpp: what a certified run has besides (docs/output.md).
+//
+//   events.csv   two columns more, t_error and certain
+//   errors.csv   the header of history.csv, bounds as values
+//
+// events.csv is there whole at any time: without these columns until they are known, with them from then on.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "signorini/certify.hpp"
+
+namespace signorini {
+
+struct CertificateColumn {
+  const char* name;
+  const char* unit;
+  const char* meaning;  ///< for the documentation
+};
+
+inline constexpr std::array certificate_columns = {
+    CertificateColumn{
+        "t_error", "time",
+        "how far `t` may be off in all, errors of earlier events included; empty where nobody knows"},
+    CertificateColumn{"certain", "", "1: this event and all before it are those of the exact motion; else 0"},
+};
+
+/// Errors: FileError.
+void write_certificate(const std::filesystem::path& directory, const Model& model,
+                       const Certificate& certificate);
+
+}  // namespace signorini

@@ -1,0 +1,136 @@
+#include "run/physical.hpp"
+
+#include <initializer_list>
+
+namespace signorini {
+namespace {
+
+class ToScene {
+ public:
+  explicit ToScene(const Factors& factors) : factors_(factors) {}
+
+  void operator()(const Unit& of, std::initializer_list<double*> values) const {
+    const double factor = factor_of(of, factors_);
+    for (double* x : values) *x *= factor;
+  }
+  void operator()(const Unit& of, std::optional<double>& x) const {
+    if (x) *x *= factor_of(of, factors_);
+  }
+  void operator()(ContactSample& c) const {
+    (*this)(unit::length, {&c.gap, &c.ut, &c.slip});
+    (*this)(unit::velocity, {&c.vt});
+    (*this)(unit::force, {&c.N, &c.T});
+  }
+  void operator()(Energy& e) const {
+    (*this)(unit::energy,
+            {&e.kinetic, &e.elastic, &e.contact, &e.damping, &e.friction, &e.impact, &e.loads, &e.surface});
+  }
+  void operator()(const Unit& of, Extreme& extreme) const {
+    (*this)(of, {&extreme.value});
+    (*this)(unit::time, {&extreme.t});
+  }
+
+  void operator()(Audit& a) const {
+    (*this)(unit::length, a.gap);
+    (*this)(unit::force, a.tension);
+    (*this)(unit::energy, a.product);
+    (*this)(unit::force, a.friction);
+    (*this)(unit::power, a.direction);
+    (*this)(unit::force, a.equilibrium);
+    (*this)(unit::length, a.penetration);
+    (*this)(unit::energy, a.energy);
+    (*this)(unit::length, {&a.length_scale});
+    (*this)(unit::force, {&a.force_scale});
+    (*this)(unit::power, {&a.power_scale});
+    (*this)(unit::energy, {&a.energy_scale, &a.work_of_loads});
+    for (double& work : a.friction_work) (*this)(unit::energy, {&work});
+    (*this)(a.initial);
+    (*this)(a.final);
+  }
+
+ private:
+  Factors factors_;
+};
+
+}  // namespace
+
+Unit unit_of(const Form& form) {
+  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return unit::force;
+  if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
+  if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
+  return unit::acceleration;
+}
+
+Event physical(Event event, const Factors& of) {
+  const ToScene convert(of);
+  convert(unit::time, {&event.t});
+  convert(unit::length, event.gap);
+  convert(unit::force, {&event.N, &event.T, &event.N_after, &event.T_after});
+  convert(unit::velocity, {&event.vn, &event.vn_after, &event.vt, &event.vt_after});
+  convert(unit::impulse, event.impulse_n);
+  convert(unit::impulse, event.impulse_t);
+  convert(unit::time, event.t_uncertainty);
+  return event;
+}
+
+Sample physical(Sample sample, const Factors& of) {
+  const ToScene convert(of);
+  convert(unit::time, {&sample.t});
+  for (ContactSample& c : sample.contacts) convert(c);
+  convert(sample.energy);
+  return sample;
+}
+
+Report physical(Report report, const Factors& of) {
+  const ToScene convert(of);
+  convert(unit::time, {&report.outcome.t});
+  convert(report.audit);
+  for (Peak& peak : report.peaks) {
+    convert(unit::length, {&peak.horizontal, &peak.vertical});
+    convert(unit::force, {&peak.N, &peak.T});
+  }
+  for (std::vector<Landing>& list : report.landings)
+    for (Landing& landing : list) {
+      convert(unit::time, {&landing.start, &landing.end});
+      convert(unit::impulse, {&landing.impulse});
+      convert(unit::force, {&landing.peak_force});
+    }
+  return report;
+}
+
+Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of) {
+  const double per_time = rate ? 1.0 / of.time : 1.0;
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    motion[static_cast<Eigen::Index>(i)] *= dofs[i].rotation ? per_time : of.length * per_time;
+  return motion;
+}
+
+void PhysicalRecorder::motion(int contact, const std::vector<MotionRow>& rows) {
+  const ToScene convert(model_.unit);
+  std::vector<MotionRow> result = rows;
+  for (MotionRow& row : result) {
+    convert(unit::time, {&row.t});
+    convert(row.sample);
+  }
+  recorder_.motion(contact, result);
+}
+
+RoundListener physical(const RoundListener& listener, const Model& model) {
+  if (!listener) return {};
+  return [listener, &model](const Round& round) {
+    Round result = round;
+    result.t *= model.unit.time;
+    listener(result);
+  };
+}
+
+Sample PhysicalRecorder::in_scene(const Sample& sample) {
+  u_ = physical(*sample.u, model_.physical_dofs(), false, model_.unit);
+  v_ = physical(*sample.v, model_.physical_dofs(), true, model_.unit);
+  Sample result = physical(sample, model_.unit);
+  result.u = &u_;
+  result.v = &v_;
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,49 @@
+// physical.hpp: what a run found in the machine's units, in those of the scene.
+//
+//   value in the scene's units = value * of            of: Model::unit of the model that was computed
+//
+// Powers of two: nothing is rounded.
+#pragma once
+
+#include "contact/form.hpp"
+#include "scene/quantities.hpp"
+#include "signorini/result.hpp"
+#include "signorini/trace.hpp"
+
+namespace signorini {
+
+/// All but guard_rate, whose unit only the guard knows (event_log.hpp).
+[[nodiscard]] Event physical(Event event, const Factors& of);
+/// Without u and v.
+[[nodiscard]] Sample physical(Sample sample, const Factors& of);
+[[nodiscard]] Report physical(Report report, const Factors& of);
+/// Displacements, or velocities with `rate`, of these degrees of freedom.
+[[nodiscard]] Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of);
+
+/// Hands all that it receives on in the scene's units.
+class PhysicalRecorder : public Recorder {
+ public:
+  /// Both must outlive it.
+  PhysicalRecorder(const Model& model, Recorder& recorder) : model_(model), recorder_(recorder) {}
+  void event(const Event& event) override { recorder_.event(physical(event, model_.unit)); }
+  void sample(const Sample& sample) override { recorder_.sample(in_scene(sample)); }
+  void frame(const Sample& sample) override { recorder_.frame(in_scene(sample)); }
+  [[nodiscard]] bool wants_motion() const override { return recorder_.wants_motion(); }
+  void motion(int contact, const std::vector<MotionRow>& rows) override;
+  bool progress(double t) override { return recorder_.progress(t * model_.unit.time); }
+
+ private:
+  [[nodiscard]] Sample in_scene(const Sample& sample);
+
+  const Model& model_;
+  Recorder& recorder_;
+  Vector u_, v_;
+};
+
+/// The same for whoever hears of rounds; nobody where there is no listener. `model` must outlive it.
+[[nodiscard]] RoundListener physical(const RoundListener& listener, const Model& model);
+
+/// The unit of a form's value: that of its first term.
+[[nodiscard]] Unit unit_of(const Form& form);
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+#include "study/verify/observed.hpp"
+
+namespace signorini {
+
+std::vector<ObservedColumn> observed_columns(const Model& model) {
+  std::vector<ObservedColumn> list;
+  for (const Column& column : model.columns) {
+    const bool rotation =
+        column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+    list.push_back({column.name, column.velocity ? (rotation ? "angular_velocity" : "velocity")
+                                                 : (rotation ? "rotation" : "displacement")});
+  }
+  for (const Contact& contact : model.contacts)
+    for (const char* force : {".N", ".T"}) list.push_back({contact.name + force, "force"});
+  return list;
+}
+
+Observed observed(Tracker&& tracker, Report report) {
+  Observed result;
+  result.track = {std::move(tracker.events), report.outcome.t, report.outcome.reason};
+  result.rows = std::move(tracker.rows);
+  result.report = std::move(report);
+  return result;
+}
+
+Observed observe(const Model& model, const RunSpec& run, const std::function<bool()>& go_on) {
+  Patient patient(go_on);
+  Tracker tracker(model, true, &patient);
+  Report report = simulate(model, run, tracker);
+  return observed(std::move(tracker), std::move(report));
+}
+
+}  // namespace signorini

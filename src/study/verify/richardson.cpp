@@ -1,0 +1,66 @@
+#include "study/verify/richardson.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double second_order = 3.0;  // 2^2 - 1
+constexpr std::size_t ahead = 5;
+/// Of the last difference: errors of third order that differ from step to step.
+constexpr double by_chance = 0.02;
+/// Of the order, which is two: what a verdict asks for, and what still tells errors by differences.
+constexpr double settled_within = 0.1, usable_within = 0.6;
+
+double square(double x) { return x * x; }
+
+/// The greatest up to i + ahead.
+std::vector<double> greatest_so_far(const std::vector<double>& values) {
+  std::vector<double> result(values.size());
+  double greatest = 0.0;
+  for (std::size_t i = 0, next = 0; i < values.size(); ++i) {
+    for (; next < std::min(values.size(), i + ahead + 1); ++next) greatest = std::max(greatest, values[next]);
+    result[i] = greatest;
+  }
+  return result;
+}
+
+}  // namespace
+
+void ObservedOrder::add(const std::vector<Thrice>& series, double negligible) {
+  for (const Thrice& x : series) {
+    coarse_ += square(x[0] - x[1]);
+    fine_ += square(x[1] - x[2]);
+    rounding_ += square(std::max(rounding::of_many * std::abs(x[2]), negligible));
+  }
+}
+
+std::optional<double> ObservedOrder::value() const {
+  if (!(fine_ > 4.0 * rounding_) || !(coarse_ > 0.0)) return std::nullopt;
+  return 0.5 * std::log2(coarse_ / fine_);
+}
+
+bool settled(const std::optional<double>& order) {
+  return !order || std::abs(*order - 2.0) <= settled_within;
+}
+
+bool usable(const std::optional<double>& order) { return !order || std::abs(*order - 2.0) <= usable_within; }
+
+Extrapolated extrapolate(const std::vector<Thrice>& series, const KindOfSeries& kind) {
+  Extrapolated result;
+  std::vector<double> off;
+  for (const Thrice& x : series) {
+    const double fine = x[2] + (x[2] - x[1]) / second_order, coarse = x[1] + (x[1] - x[0]) / second_order;
+    result.value.push_back(fine);
+    const double last = std::abs(x[2] - x[1]);
+    off.push_back(settled(kind.order) ? 2.0 * std::abs(fine - coarse) + by_chance * last : last);
+  }
+  result.bar = greatest_so_far(off);
+  for (double& bar : result.bar) bar += rounding::of_many * std::sqrt(std::max(1.0, kind.steps)) * kind.scale;
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,167 @@
+#include "study/verify/verify.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/tolerance.hpp"
+#include "run/engines.hpp"
+#include "run/expected.hpp"
+#include "study/verify/observed.hpp"
+#include "study/verify/witnesses.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double least_seconds_of_step = 1e-6;  // where nothing vibrates, and nobody knows
+constexpr double steps_at_first = 64.0;         // of the whole run, where no dt is given
+
+class Study {
+ public:
+  Study(const Model& model, const Model& own, const VerifyRequest& request)
+      : model_(model), own_(own), request_(request), run_(request.run) {
+    run_.engine = Engine::ida;
+    run_.certify = Certify::yes;
+    run_.frames.clear();
+    run_.output_dt.reset();
+    run_.output_times.emplace();
+    for (int k = 1; k <= request.rows; ++k) run_.output_times->push_back(run_.t_end * k / request.rows);
+    const double capture = tolerance_of(own, run_).capture_velocity();
+    for (Model* m : {&model_, &own_})
+      for (Contact& contact : m->contacts)
+        if (!contact.capture_velocity) contact.capture_velocity = capture;
+  }
+
+  Verification verification() {
+    check_newmark();
+    Witnesses witnesses(model_, run_.t_end);
+    watch_ida(witnesses);
+    if (!result_.interrupted) watch_exact(witnesses);
+    refine(witnesses);
+    if (result_.interrupted) {
+      result_.sentence = "interrupted";
+    } else {
+      witnesses.judge(result_);
+    }
+    find_paper_dt();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] RunSpec newmark(double dt) const {
+    RunSpec run = run_;
+    run.engine = Engine::newmark;
+    run.dt = dt;
+    run.step = StepControl::fixed;
+    return run;
+  }
+
+  /// Before anything is computed.
+  void check_newmark() const { engine_row(Engine::newmark).refuse(model_, newmark(run_.t_end)); }
+
+  void watch_ida(Witnesses& witnesses) {
+    Patient patient(request_.go_on);
+    Tracker tracker(own_, true, &patient);
+    CertifyOptions options;
+    options.forces = true;
+    options.go_on = request_.go_on;
+    result_.ida = simulate_certified(own_, run_, tracker, options);
+    note(result_.ida.report);
+    witnesses.ida = observed(std::move(tracker), result_.ida.report);
+    witnesses.certificate = &*result_.ida.certificate;
+  }
+
+  void watch_exact(Witnesses& witnesses) {
+    if (!exact_takes(model_, run_)) return;
+    RunSpec run = run_;
+    run.engine = Engine::exact;
+    witnesses.exact = observe(model_, run, request_.go_on);
+    note(witnesses.exact->report);
+  }
+
+  /// newmark at a step and its halves, until all has settled or the next would cost too much.
+  void refine(Witnesses& witnesses) {
+    double dt = request_.dt.value_or(run_.t_end / steps_at_first);
+    while (!result_.interrupted) {
+      witnesses.add(dt, observe(model_, newmark(dt), request_.go_on));
+      note(witnesses.newmark.back().report);
+      test_step(witnesses);
+      result_.dt = witnesses.dt;
+      const bool three = witnesses.newmark.size() == Witnesses::runs;
+      if (three && (request_.dt || (changes_little() && witnesses.settled()))) return;
+      if (three && expected_seconds(0.5 * dt) > request_.most_seconds) return;
+      dt *= 0.5;
+    }
+  }
+
+  [[nodiscard]] double expected_seconds(double dt) const {
+    return std::max(expected(model_, newmark(dt)).effort.seconds, least_seconds_of_step * run_.t_end / dt);
+  }
+
+  /// What doubling the step to the last one changes.
+  void test_step(const Witnesses& witnesses) {
+    if (witnesses.newmark.size() < 2) return;
+    const Observed& fine = witnesses.newmark.back();
+    const Observed& coarse = witnesses.newmark[witnesses.newmark.size() - 2];
+    double change = 0.0, greatest = 0.0;
+    const std::vector<ObservedColumn> columns = observed_columns(model_);
+    for (std::size_t row = 0; row < std::min(fine.rows.t.size(), coarse.rows.t.size()); ++row)
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        if (columns[j].kind != "displacement") continue;
+        change = std::max(change, std::abs(fine.at(row, j) - coarse.at(row, j)));
+        greatest = std::max(greatest, std::abs(fine.at(row, j)));
+      }
+    const bool whole = fine.rows.t.size() == coarse.rows.t.size();
+    const double relative = greatest > 0.0 ? change / greatest : 0.0;
+    result_.step_tests.push_back(
+        {witnesses.dt.back(), whole ? relative : std::numeric_limits<double>::infinity()});
+  }
+
+  /// The paper's own test, of the finest step.
+  [[nodiscard]] bool changes_little() const { return result_.step_tests.back().change < paper_change; }
+
+  void find_paper_dt() {
+    for (auto test = result_.step_tests.rbegin(); test != result_.step_tests.rend(); ++test) {
+      if (!(test->change < paper_change)) return;
+      result_.paper_dt = test->dt;
+    }
+  }
+
+  void note(const Report& report) {
+    result_.interrupted = result_.interrupted || report.outcome.kind == Outcome::Kind::interrupted;
+  }
+
+  Model model_, own_;
+  const VerifyRequest& request_;
+  RunSpec run_;
+  Verification result_;
+};
+
+}  // namespace
+
+double Observation::difference() const { return std::abs(ida - richardson); }
+
+bool Observation::witnessed() const {
+  return exact && !agrees() && std::abs(ida - *exact) <= ida_error && std::abs(richardson - *exact) > bar;
+}
+
+const char* to_string(Agreement verdict) {
+  switch (verdict) {
+    case Agreement::agree:
+      return "agree";
+    case Agreement::differ:
+      return "differ";
+    case Agreement::undecided:
+      return "undecided";
+  }
+  return "?";
+}
+
+Verification verify(const Model& model, const Model& own, const VerifyRequest& request) {
+  return Study(model, own, request).verification();
+}
+
+}  // namespace signorini

@@ -1,0 +1,147 @@
+#include "study/verify/verify_files.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "base/json.hpp"
+#include "result/csv.hpp"
+#include "result/plot_folder.hpp"
+#include "result/plot_parts.hpp"
+#include "result/units_json.hpp"
+#include "study/figures.hpp"
+
+namespace signorini {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json observation_json(const Observation& o, const std::string& where) {
+  Json json = {{"t", o.t}};
+  if (!where.empty()) json["where"] = where;
+  json.update(Json{{"ida", o.ida},
+                   {"ida_error", o.ida_error},
+                   {"richardson", o.richardson},
+                   {"bar", o.bar},
+                   {"exact", json_of(o.exact)},
+                   {"agrees", o.agrees()}});
+  return json;
+}
+
+Json kind_json(const VerifiedKind& kind) {
+  Json json = {{"unit", kind.unit},
+               {"order", json_of(kind.order)},
+               {"compared", kind.compared},
+               {"disagreeing", kind.disagreeing},
+               {"witnessed", kind.witnessed}};
+  if (kind.compared > 0) json["worst"] = observation_json(kind.worst, kind.where);
+  if (kind.first) json["first"] = observation_json(*kind.first, kind.first_where);
+  return json;
+}
+
+const std::string& contact_of(const Model& model, const VerifiedEvent& event) {
+  return model.contacts[static_cast<std::size_t>(event.contact)].name;
+}
+
+/// Differences may be zero, which a logarithm does not show.
+double shown(double difference) { return std::max(difference, 1e-18); }
+
+std::string plot_table(const Verification& result) {
+  CsvBlock block;
+  for (const char* name : {"t", "difference", "allowed", "bar", "exact"}) block.text(name);
+  block.end_row();
+  for (const VerifiedEvent& event : result.events) {
+    const Observation& o = event.time;
+    block.number(o.t).number(shown(o.difference())).number(shown(o.allowed())).number(shown(o.bar));
+    block.number(o.exact ? std::optional(shown(std::abs(o.ida - *o.exact))) : std::nullopt).end_row();
+  }
+  return block.str();
+}
+
+bool is_ours(const fs::path& file) {
+  return file.stem() == "verify" && (is_picture(file) || file.extension() == ".csv");
+}
+
+}  // namespace
+
+std::string verify_json(const Model& model, const Verification& result) {
+  Json json = {{"verdict", to_string(result.verdict)}, {"sentence", result.sentence}, {"title", model.title},
+               {"units", units_json(model.units)},     {"until", result.until},       {"dt", result.dt}};
+  json["orders"] = json["bars"] = json["richardson"] = json["kinds"] = Json::object();
+  for (const VerifiedKind& kind : result.kinds) {
+    json["orders"][kind.name] = json_of(kind.order);
+    json["bars"][kind.name] = kind.greatest_bar;
+    json["kinds"][kind.name] = kind_json(kind);
+    if (kind.compared > 0) json["richardson"][kind.name] = kind.worst.richardson;
+  }
+  json["richardson"]["events"] = Json::array();
+  for (const VerifiedEvent& event : result.events) {
+    Json row = {{"contact", contact_of(model, event)},
+                {"event", to_string(event.type)},
+                {"from", to_string(event.from)},
+                {"to", to_string(event.to)}};
+    row.update(observation_json(event.time, ""));
+    json["richardson"]["events"].push_back(std::move(row));
+  }
+  json["witness"] = result.witness;
+  json["step_test"] = {
+      {"tolerance", paper_change}, {"dt", json_of(result.paper_dt)}, {"steps", Json::array()}};
+  for (const StepTest& test : result.step_tests)
+    json["step_test"]["steps"].push_back(
+        {{"dt", test.dt}, {"change", std::isfinite(test.change) ? Json(test.change) : Json(nullptr)}});
+  if (result.ida.certificate)
+    json["ida"] = {{"certain_until", result.ida.certificate->until},
+                   {"companion", result.ida.certificate->companion},
+                   {"rows_of_events", result.ida.certificate->t_errors.size()}};
+  return json_text(json);
+}
+
+void write_verification(const fs::path& directory, const Model& model, const Verification& result) {
+  CsvBlock block;
+  for (const char* name :
+       {"contact", "event", "from", "to", "t_ida", "t_error", "t_richardson", "bar", "t_exact", "agrees"})
+    block.text(name);
+  block.end_row();
+  for (const VerifiedEvent& event : result.events) {
+    const Observation& o = event.time;
+    block.text(contact_of(model, event)).text(to_string(event.type)).text(to_string(event.from));
+    block.text(to_string(event.to)).number(o.ida).number(o.ida_error).number(o.richardson).number(o.bar);
+    block.number(o.exact).text(o.agrees() ? "1" : "0").end_row();
+  }
+  write_file(directory / "events.csv", block.str());
+  write_file(directory / "verify.json", verify_json(model, result));
+}
+
+void begin_verify_plot(const fs::path& directory) { begin_plot_folder(directory / "plots", is_ours); }
+
+std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& model,
+                                        const Verification& result) {
+  if (result.events.size() < 2) return {};
+  const fs::path folder = directory / "plots";
+  write_file(folder / "verify.csv", plot_table(result));
+  PlottedRun run;
+  run.facts.title = model.title;
+  run.facts.outcome = "done";
+  run.facts.units = model.units;
+  run.from = 0.0;
+  run.to = result.events.back().time.t * 1.02;
+  if (result.until < run.to) run.facts.certain_until = result.until;
+  const std::string data = "'verify.csv' skip 1 using 1:";
+  std::string script =
+      begin_script(run, {"verify",
+                         fmt::format("Times of events: ida against newmark at dt = {:g}, {:g}, {:g}",
+                                     result.dt[0], result.dt[1], result.dt[2]),
+                         620});
+  script += panel(run, 0.11, 0.87, "difference [" + model.units.time + "]", true);
+  script += "set logscale y\nset format y '%.0e'\n";
+  script += plot_command(
+      {data + "3 with lines linewidth 1.2 linecolor '#c0182b' title 'allowed'",
+       data + "4 with lines linewidth 1 dashtype 2 linecolor '#777777' title 'bar of newmark'",
+       data + "2 with points pointtype 7 pointsize 0.4 linecolor '#1a1a1a' title 'ida - limit'",
+       data + "5 with points pointtype 6 pointsize 0.4 linecolor '#1f77b4' title 'ida - exact'"});
+  script += "unset logscale y\n" + end_script();
+  write_file(folder / "verify.gp", script);
+  return {folder / "verify.gp"};
+}
+
+}  // namespace signorini

@@ -1,0 +1,277 @@
+#include "study/verify/witnesses.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+const char* const event_time = "event_time";
+/// Of what is to be settled: where either sequence ends to be certain, the other does about then.
+constexpr double nearly = 0.99;
+/// Of IDA's own error: what newmark differs by less than that does not decide.
+constexpr double negligible = 0.1;
+
+std::string unit_of(const std::string& kind, const Units& units) {
+  if (kind == event_time) return units.time;
+  if (kind == "displacement") return units.length;
+  if (kind == "velocity") return units.length + "/" + units.time;
+  if (kind == "rotation") return "rad";
+  if (kind == "angular_velocity") return "rad/" + units.time;
+  return units.force;
+}
+
+/// Greatest difference beside what is allowed; no number where nothing is allowed and nothing is off.
+double excess(const Observation& o) {
+  return o.difference() > 0.0 ? o.difference() / std::max(o.allowed(), std::numeric_limits<double>::min())
+                              : 0.0;
+}
+
+}  // namespace
+
+Witnesses::Witnesses(const Model& model, double t_end)
+    : model_(model), t_end_(t_end), columns_(observed_columns(model)) {
+  for (const Contact& contact : model.contacts) names_.push_back(contact.name);
+}
+
+void Witnesses::add(double dt_of_run, Observed run) {
+  if (newmark.size() == runs) {
+    newmark.erase(newmark.begin());
+    dt.erase(dt.begin());
+  }
+  newmark.push_back(std::move(run));
+  dt.push_back(dt_of_run);
+}
+
+Witnesses::Sequence Witnesses::sequence() const {
+  Sequence result;
+  const Verdict steps = signorini::judge(newmark[2].track, {newmark[1].track, newmark[0].track}, 1.0, names_);
+  const Verdict pair = signorini::judge(ida.track, {newmark[2].track}, 1.0, names_);
+  result.exact_until = exact ? signorini::judge(ida.track, {exact->track}, 1.0, names_).until : 0.0;
+  result.until = std::min({certificate->until, steps.until, pair.until});
+  if (!pair.reason.empty() && pair.until + 2.0 * pair.spread < std::min(certificate->until, steps.until)) {
+    result.differs = true;
+    result.reason = pair.reason;
+  } else if (result.until < t_end_) {
+    result.reason = certificate->until <= steps.until && !certificate->complete
+                        ? "IDA's sequence is certain until there only: " + certificate->reason
+                    : !steps.reason.empty() ? "newmark's sequence changes with its step: " + steps.reason
+                    : !pair.reason.empty()  ? pair.reason
+                                            : "a run has stopped: " + newmark[2].report.outcome.reason;
+  }
+  return result;
+}
+
+/// The times of IDA's events in another run: the same contact's event of the same number.
+std::vector<std::optional<double>> Witnesses::times_in(const Track& track) const {
+  std::vector<std::vector<double>> times(names_.size());
+  for (const TimedEvent& event : track.events)
+    if (event.is_change()) times[static_cast<std::size_t>(event.contact)].push_back(event.t);
+  std::vector<std::size_t> next(names_.size(), 0);
+  std::vector<std::optional<double>> result(ida.track.events.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const TimedEvent& event = ida.track.events[i];
+    if (!event.is_change()) continue;
+    const auto k = static_cast<std::size_t>(event.contact);
+    if (const std::size_t number = next[k]++; number < times[k].size()) result[i] = times[k][number];
+  }
+  return result;
+}
+
+Witnesses::Kind Witnesses::event_times(double until) const {
+  Kind kind{event_time, {}, {}, t_end_};
+  Series& series = kind.series.emplace_back();
+  std::array<std::vector<std::optional<double>>, runs> times;
+  for (std::size_t i = 0; i < runs; ++i) times[i] = times_in(newmark[i].track);
+  for (std::size_t row = 0; row < ida.track.events.size(); ++row) {
+    const TimedEvent& event = ida.track.events[row];
+    if (!event.is_change() || !event.fell || !certificate->certain(row) || event.t >= until) continue;
+    if (!times[0][row] || !times[1][row] || !times[2][row]) continue;
+    series.values.push_back({*times[0][row], *times[1][row], *times[2][row]});
+    series.rows.push_back(row);
+  }
+  double error = 0.0;
+  for (const std::size_t row : series.rows) error = std::max(error, certificate->t_errors[row]);
+  kind.order.add(series.values, negligible * error);
+  return kind;
+}
+
+/// Output times that an event may have passed in one run and not in another.
+std::vector<bool> Witnesses::rows_at_events(double until) const {
+  std::vector<bool> at(ida.rows.t.size(), false);
+  std::vector<std::vector<std::optional<double>>> times;
+  for (const Observed& run : newmark) times.push_back(times_in(run.track));
+  for (std::size_t i = 0; i < ida.track.events.size(); ++i) {
+    const TimedEvent& event = ida.track.events[i];
+    if (event.t > until || !event.is_change()) continue;
+    const double off = certificate->certain(i) ? certificate->t_errors[i] : 0.0;
+    double from = event.t - off, to = event.t + off;
+    for (const auto& list : times)
+      if (list[i]) {
+        from = std::min(from, *list[i]);
+        to = std::max(to, *list[i]);
+      }
+    for (std::size_t row = 0; row < at.size(); ++row)
+      if (ida.rows.t[row] >= from && ida.rows.t[row] <= to) at[row] = true;
+  }
+  return at;
+}
+
+void Witnesses::add_columns(double until, std::vector<Kind>& kinds) const {
+  std::size_t rows = std::min(ida.rows.t.size(), certificate->history.t.size());
+  for (const Observed& run : newmark) rows = std::min(rows, run.rows.t.size());
+  const std::vector<bool> left_out = rows_at_events(until);
+  for (std::size_t j = 0; j < columns_.size(); ++j) {
+    auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == columns_[j].kind; });
+    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Kind{columns_[j].kind, {}, {}, 0.0});
+    Series series{columns_[j].name, {}, {}};
+    for (std::size_t row = 0; row < rows && ida.rows.t[row] <= until; ++row) {
+      if (left_out[row] || !std::isfinite(certificate->history.at(row, j))) continue;
+      series.values.push_back({newmark[0].at(row, j), newmark[1].at(row, j), newmark[2].at(row, j)});
+      series.rows.push_back(row);
+      kind->scale = std::max(kind->scale, std::abs(series.values.back()[2]));
+    }
+    double error = 0.0;
+    for (const std::size_t row : series.rows) error = std::max(error, certificate->history.at(row, j));
+    kind->order.add(series.values, negligible * error);
+    kind->series.push_back(std::move(series));
+  }
+}
+
+std::vector<Witnesses::Kind> Witnesses::kinds(double until) const {
+  std::vector<Kind> list = {event_times(until)};
+  add_columns(until, list);
+  return list;
+}
+
+bool Witnesses::settled() {
+  const Sequence here = sequence();
+  const double wanted = std::min(certificate->until, t_end_);
+  if (here.differs) return here.exact_until <= here.until;
+  if (here.until < nearly * wanted) return false;
+  const std::vector<Kind> list = kinds(here.until);
+  return std::all_of(list.begin(), list.end(),
+                     [](const Kind& k) { return signorini::settled(k.order.value()); });
+}
+
+Observation Witnesses::observation(const Series& series, std::size_t i, bool is_event,
+                                   const Extrapolated& extrapolated, std::size_t column) const {
+  Observation o;
+  const std::size_t row = series.rows[i];
+  o.richardson = extrapolated.value[i];
+  o.bar = extrapolated.bar[i];
+  if (is_event) {
+    o.t = o.ida = ida.track.events[row].t;
+    o.ida_error = certificate->t_errors[row];
+  } else {
+    o.t = ida.rows.t[row];
+    o.ida = ida.at(row, column);
+    o.ida_error = certificate->history.at(row, column);
+    if (exact && row < exact->rows.t.size()) o.exact = exact->at(row, column);
+  }
+  return o;
+}
+
+VerifiedKind Witnesses::verified(const Kind& kind, Verification& result) const {
+  const bool is_event = kind.name == event_time;
+  VerifiedKind summary;
+  summary.name = kind.name;
+  summary.unit = unit_of(kind.name, model_.units);
+  summary.order = kind.order.value();
+  const auto exact_times = exact ? times_in(exact->track) : std::vector<std::optional<double>>();
+  const KindOfSeries of{summary.order, kind.scale, t_end_ / dt.back()};
+  for (const Series& series : kind.series) {
+    const Extrapolated extrapolated = extrapolate(series.values, of);
+    const auto column = static_cast<std::size_t>(
+        std::find_if(columns_.begin(), columns_.end(), [&](const auto& c) { return c.name == series.name; }) -
+        columns_.begin());
+    for (std::size_t i = 0; i < series.rows.size(); ++i) {
+      Observation o = observation(series, i, is_event, extrapolated, column);
+      if (is_event) {
+        const std::size_t row = series.rows[i];
+        if (exact && ida.track.events[row].t < result.until) o.exact = exact_times[row];
+        const TimedEvent& event = ida.track.events[row];
+        result.events.push_back({event.contact, event.type, event.from, event.to, o});
+      }
+      ++summary.compared;
+      summary.disagreeing += o.agrees() || o.witnessed() ? 0 : 1;
+      summary.witnessed += o.witnessed() ? 1 : 0;
+      if (!o.agrees() && !o.witnessed() && (!summary.first || o.t < summary.first->t)) {
+        summary.first = o;
+        summary.first_where = series.name;
+      }
+      summary.greatest_bar = std::max(summary.greatest_bar, o.bar);
+      if (summary.compared > 1 && excess(o) <= excess(summary.worst)) continue;
+      summary.worst = o;
+      summary.where = series.name;
+    }
+  }
+  return summary;
+}
+
+std::string Witnesses::what_differs(const Verification& result) const {
+  const VerifiedKind* first = nullptr;
+  for (const VerifiedKind& kind : result.kinds)
+    if (kind.first && (first == nullptr || kind.first->t < first->first->t)) first = &kind;
+  if (first == nullptr) return "";
+  const Observation& o = *first->first;
+  return fmt::format(
+      "{}{} at t = {:.9g}: ida {:.12g}, newmark tends to {:.12g}, {:.2g} {} apart where {:.2g} is allowed",
+      first->name, first->first_where.empty() ? "" : " of " + first->first_where, o.t, o.ida, o.richardson,
+      o.difference(), first->unit, o.allowed());
+}
+
+void Witnesses::conclude(const Sequence& here, Verification& result) const {
+  const auto any = [&](const auto& test) {
+    return std::any_of(result.kinds.begin(), result.kinds.end(), test);
+  };
+  const bool off = any([](const VerifiedKind& k) { return k.disagreeing > 0 && usable(k.order); });
+  const bool rough = any([](const VerifiedKind& k) { return !usable(k.order); });
+  const bool short_bars = any([](const VerifiedKind& k) { return k.witnessed > 0; });
+  const std::string finer = fmt::format("--set run.dt={:.3g}", 0.25 * dt.front());
+  if (here.differs && here.exact_until <= here.until) {
+    result.verdict = Agreement::differ;
+    result.sentence = "the sequences of events differ: " + here.reason;
+  } else if (off) {
+    result.verdict = Agreement::differ;
+    result.sentence = what_differs(result);
+  } else if (here.differs) {
+    result.sentence =
+        fmt::format("the sequences of events differ, and exact stands with ida, {}; {} would do better",
+                    here.reason, finer);
+  } else if (rough) {
+    result.sentence =
+        "newmark's steps are too coarse, orders have not settled; " + finer + " would do better";
+  } else if (here.until < t_end_) {
+    result.sentence =
+        fmt::format("they agree until t = {:.9g} {}; {}", here.until, model_.units.time, here.reason);
+  } else if (short_bars) {
+    result.sentence =
+        "newmark's error bars are too short, exact stands with ida; " + finer + " would do better";
+  } else {
+    result.verdict = Agreement::agree;
+    result.sentence = fmt::format("ida and newmark agree to the end, on {} events and {} output times",
+                                  result.events.size(), ida.rows.t.size());
+  }
+}
+
+void Witnesses::judge(Verification& result) {
+  const Sequence here = sequence();
+  result.until = here.until;
+  for (const Kind& kind : kinds(here.until)) result.kinds.push_back(verified(kind, result));
+  conclude(here, result);
+  if (!exact) {
+    result.witness = "exact does not take the scene";
+    return;
+  }
+  double off = 0.0;
+  for (const VerifiedEvent& event : result.events)
+    if (event.time.exact) off = std::max(off, std::abs(event.time.ida - *event.time.exact));
+  result.witness = fmt::format("exact has ida's sequence until t = {:.9g}, times within {:.2g} {}",
+                               here.exact_until, off, model_.units.time);
+}
+
+}  // namespace signorini

@@ -1,0 +1,76 @@
+// witnesses.hpp: what IDA, three runs of newmark and exact say, side by side (verify.hpp).
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/verify/observed.hpp"
+#include "study/verify/richardson.hpp"
+#include "study/verify/verify.hpp"
+
+namespace signorini {
+
+class Witnesses {
+ public:
+  static constexpr std::size_t runs = 3;
+
+  /// The model must outlive it.
+  Witnesses(const Model& model, double t_end);
+
+  /// One more run of newmark; the last three count.
+  void add(double dt_of_run, Observed run);
+  /// Have sequence and orders of the last three settled, as far as IDA's is certain?
+  [[nodiscard]] bool settled();
+  /// Fills in verdict, sentence, kinds, events.
+  void judge(Verification& result);
+
+  Observed ida;
+  const Certificate* certificate = nullptr;
+  std::optional<Observed> exact;
+  std::vector<Observed> newmark;  ///< h, h/2, h/4
+  std::vector<double> dt;
+
+ private:
+  /// A series of one quantity, with the rows of events or of output times that it was taken at.
+  struct Series {
+    std::string name;
+    std::vector<Thrice> values;
+    std::vector<std::size_t> rows;
+  };
+  struct Kind {
+    std::string name;
+    std::vector<Series> series;
+    ObservedOrder order;
+    double scale = 0.0;
+  };
+  /// Up to where three sequences are one, and it is IDA's.
+  struct Sequence {
+    double until = 0.0;
+    std::string reason;        ///< empty: to the end
+    bool differs = false;      ///< IDA's is certain to be another one
+    double exact_until = 0.0;  ///< up to where exact's is IDA's
+  };
+
+  [[nodiscard]] Sequence sequence() const;
+  [[nodiscard]] std::vector<Kind> kinds(double until) const;
+  [[nodiscard]] Kind event_times(double until) const;
+  void add_columns(double until, std::vector<Kind>& kinds) const;
+  /// Rows of IDA's events that are changes, and the same event in another run.
+  [[nodiscard]] std::vector<std::optional<double>> times_in(const Track& track) const;
+  [[nodiscard]] std::vector<bool> rows_at_events(double until) const;
+  [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,
+                                        const Extrapolated& extrapolated, std::size_t column) const;
+  [[nodiscard]] VerifiedKind verified(const Kind& kind, Verification& result) const;
+  void conclude(const Sequence& sequence, Verification& result) const;
+  [[nodiscard]] std::string what_differs(const Verification& result) const;
+
+  const Model& model_;
+  double t_end_;
+  std::vector<std::string> names_;
+  std::vector<ObservedColumn> columns_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,193 @@
+// Certified runs on cases with exact answers: what is called certain is right, and within its bound.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <map>
+
+#include "behaviour/reference.hpp"
+#include "signorini/certify.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+struct CertifiedCase {
+  Scene scene;
+  Model model;
+  Result rows;
+  Certificate certificate;
+};
+
+CertifiedCase certified(const std::string& name, std::vector<Override> overrides) {
+  overrides.push_back({"run.certify", "true"});
+  CertifiedCase c;
+  c.scene = read_scene(std::string(SIGNORINI_TEST_DATA) + "/cases/" + name + ".toml", overrides);
+  c.model = build_model(c.scene);
+  CertifiedReport run = simulate_certified(c.model, c.scene.run, c.rows);
+  REQUIRE(run.certificate);
+  c.certificate = std::move(*run.certificate);
+  return c;
+}
+
+struct Judged {
+  std::size_t certain = 0, expected = 0, wrong = 0, outside = 0;
+};
+
+/// Certain events against the answer: each contact's events in their order.
+Judged judged(const CertifiedCase& c, const std::string& name) {
+  const Table answer = read_csv(std::string(SIGNORINI_TEST_DATA) + "/cases/" + name + ".events.csv");
+  std::map<std::string, std::vector<std::size_t>> rows;
+  for (std::size_t i = 0; i < answer.rows; ++i) rows[answer.text("contact", i)].push_back(i);
+  std::map<std::string, std::size_t> next;
+  Judged result;
+  result.expected = answer.rows;
+  for (std::size_t i = 0; i < c.rows.events.size(); ++i) {
+    const Event& event = c.rows.events[i];
+    if (event.type == EventType::time || !c.certificate.certain(i)) continue;
+    ++result.certain;
+    const std::string& contact = c.model.contacts[static_cast<std::size_t>(event.contact)].name;
+    const std::size_t number = next[contact]++;
+    const auto& list = rows[contact];
+    if (number >= list.size() || answer.text("from", list[number]) != to_string(event.from) ||
+        answer.text("to", list[number]) != to_string(event.to)) {
+      ++result.wrong;
+      continue;
+    }
+    // the answers have 11 to 14 digits
+    const double off = std::abs(event.t - answer.number("t", list[number]));
+    if (off > c.certificate.t_errors[i] + 1e-10) ++result.outside;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/certified");
+
+TEST_CASE("certified: all events of quiet cases, each within its bound, with either companion") {
+  for (const char* name :
+       {"01a_coulomb_decay_rigid", "01b_coulomb_decay_compliant", "02b_belt_fs_gt_fk", "03b_den_hartog_2stop",
+        "04c_impact_oscillator_e0", "05b_two_mass_symmetric", "06_point_compliant_kn1e+06"})
+    for (const char* companion : {"exact", "finer"}) {
+      CAPTURE(name);
+      CAPTURE(companion);
+      const CertifiedCase c =
+          certified(name, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}, {"run.companion", companion}});
+      const Judged j = judged(c, name);
+      INFO(c.certificate.reason);
+      CHECK(c.certificate.complete);
+      CHECK(j.certain == j.expected);
+      CHECK(j.wrong == 0);
+      CHECK(j.outside == 0);
+    }
+}
+
+TEST_CASE("certified: a chain that amplifies errors is certain up to where it goes wrong") {
+  const std::string name = "10a_bk_chain_20";
+  const CertifiedCase c = certified(name, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}});
+  const Judged j = judged(c, name);
+  CHECK_FALSE(c.certificate.complete);
+  CHECK(c.certificate.until > 5.0);
+  CHECK(c.certificate.until < 100.0);
+  CHECK_FALSE(c.certificate.reason.empty());
+  CHECK(j.certain > 20);
+  CHECK(j.wrong == 0);
+  CHECK(j.outside == 0);
+  REQUIRE(c.certificate.first_uncertain);
+  CHECK(c.rows.events[*c.certificate.first_uncertain].t >= c.certificate.until - 1e-3);
+}
+
+TEST_CASE("certified: rebounds that come ever faster, until they rest") {
+  for (const std::string name : {"04a_bouncing_ball", "06_point_rigid_e0.5"}) {
+    CAPTURE(name);
+    const CertifiedCase c = certified(name, {{"run.engine", "ida"}, {"run.rtol", "1e-8"}});
+    const Judged j = judged(c, name);
+    INFO(c.certificate.reason);
+    CHECK(c.certificate.complete);
+    CHECK(j.certain == j.expected);
+    CHECK(j.wrong == 0);
+    CHECK(j.outside == 0);
+  }
+}
+
+TEST_CASE("certified: displacements and velocities at output times lie within errors.csv") {
+  const std::string name = "07_frame_4el_kn1e6_f0.3";
+  const CertifiedCase c = certified(name, {{"run.engine", "ida"}, {"run.rtol", "1e-6"}});
+  const Table answer = read_csv(std::string(SIGNORINI_TEST_DATA) + "/cases/" + name + ".samples.csv");
+  REQUIRE(c.certificate.history.t.size() == c.rows.rows.size());
+  std::size_t compared = 0, outside = 0;
+  for (std::size_t row = 0; row < std::min(answer.rows, c.rows.rows.size()); ++row) {
+    if (!(c.rows.rows[row].t < std::min(c.certificate.until, 0.45))) break;
+    for (std::size_t j = 0; j < c.model.columns.size(); ++j) {
+      const Column& column = c.model.columns[j];
+      const Result::Row& r = c.rows.rows[row];
+      const double value = column.velocity ? r.v[column.dof] : r.u[column.dof];
+      const double off = std::abs(value - answer.number(column.name, row));
+      const double bound = c.certificate.history.at(row, j);
+      REQUIRE(std::isfinite(bound));
+      ++compared;
+      outside += off > bound + 1e-10 ? 1 : 0;
+    }
+  }
+  CHECK(compared > 100);
+  CHECK(static_cast<double>(outside) <= 0.001 * static_cast<double>(compared));
+}
+
+TEST_CASE("certified: exact beside itself, every datum off by one rounding") {
+  const std::string name = "05g_two_mass_compliant";
+  const CertifiedCase c = certified(name, {{"run.engine", "exact"}});
+  const Judged j = judged(c, name);
+  CHECK(c.certificate.factor == 5.0);
+  CHECK(j.certain == j.expected);
+  CHECK(j.wrong == 0);
+  CHECK(j.outside == 0);
+}
+
+TEST_CASE("certified: newmark beside half its step") {
+  const std::string name = "01b_coulomb_decay_compliant";
+  const CertifiedCase c =
+      certified(name, {{"run.engine", "newmark"}, {"run.dt", "1e-3"}, {"run.companion", "finer"}});
+  const Judged j = judged(c, name);
+  CHECK(j.certain == j.expected);
+  CHECK(j.wrong == 0);
+  CHECK(j.outside == 0);
+}
+
+TEST_CASE("certified: the run itself is the same to the last digit, and auto leaves dear companions out") {
+  const std::string path = std::string(SIGNORINI_TEST_DATA) + "/cases/02b_belt_fs_gt_fk.toml";
+  const Scene scene = read_scene(path, {{"run.engine", "ida"}});
+  const Model model = build_model(scene);
+  const Result plain = simulate(model, scene.run);
+  Result beside;
+  const CertifiedReport run = simulate_certified(model, scene.run, beside);
+  REQUIRE(run.certificate);  // auto: exact is cheap
+  REQUIRE(plain.events.size() == beside.events.size());
+  for (std::size_t i = 0; i < plain.events.size(); ++i) CHECK(plain.events[i].t == beside.events[i].t);
+  const Scene exact = read_scene(path, {{"run.engine", "exact"}});
+  const CertifiedReport alone = simulate_certified(model, exact.run, beside);
+  CHECK_FALSE(alone.certificate);
+  CHECK(alone.why_not.find("2 times the run") != std::string::npos);
+}
+
+TEST_CASE("certified: a run that is interrupted ends its companion") {
+  class Impatient : public Recorder {
+   public:
+    void event(const Event& /*event*/) override { ++events; }
+    void sample(const Sample& /*sample*/) override {}
+    bool progress(double t) override { return t < 3.0; }
+    int events = 0;
+  };
+  const Scene scene = read_scene(std::string(SIGNORINI_TEST_DATA) + "/cases/02b_belt_fs_gt_fk.toml",
+                                 {{"run.engine", "ida"},
+                                  {"run.t_end", "1e7"},
+
+                                  {"run.certify", "true"},
+                                  {"run.companion", "finer"}});
+  Impatient recorder;
+  const CertifiedReport run = simulate_certified(build_model(scene), scene.run, recorder);
+  CHECK(run.report.outcome.kind == Outcome::Kind::interrupted);
+  REQUIRE(run.certificate);
+  CHECK(run.certificate->until <= run.report.outcome.t);
+}

@@ -1,0 +1,148 @@
+// Lists of events made by hand: what is certain, until when, and why no further.
+#include "certify/judge.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace signorini;
+
+namespace {
+
+const std::vector<std::string> names = {"A", "B"};
+
+/// Slips and sticks in turn; `row` counts them.
+TimedEvent event(double t, int contact, int row, float uncertainty = 0.0F) {
+  const bool slips = row % 2 == 0;
+  TimedEvent e;
+  e.t = t;
+  e.uncertainty = uncertainty;
+  e.contact = contact;
+  e.type = slips ? EventType::slip : EventType::stick;
+  e.from = slips ? State::stick : State::slip_plus;
+  e.to = slips ? State::slip_plus : State::stick;
+  e.fell = true;
+  return e;
+}
+
+Track track(const std::vector<double>& times, double reached = 100.0) {
+  Track result{{}, reached, ""};
+  for (std::size_t i = 0; i < times.size(); ++i)
+    result.events.push_back(event(times[i], 0, static_cast<int>(i)));
+  return result;
+}
+
+std::size_t certain(const Verdict& verdict) {
+  return static_cast<std::size_t>(std::count_if(verdict.t_errors.begin(), verdict.t_errors.end(),
+                                                [](double e) { return !std::isnan(e); }));
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/certify");
+
+TEST_CASE("judge: twice the difference, the uncertainty, and the rounding of the clock") {
+  Track run = track({1.0, 2.0, 3.0});
+  run.events[1].uncertainty = 0x1p-10F;
+  const Verdict verdict = judge(run, {track({1.0, 2.0 + 0x1p-8, 3.0})}, 2.0, names);
+  CHECK(verdict.reason.empty());
+  CHECK(verdict.until == 100.0);
+  CHECK_FALSE(verdict.first_uncertain);
+  CHECK(verdict.t_errors[0] == 0x1p-51);
+  CHECK(verdict.t_errors[1] == doctest::Approx(0x1p-7 + 0x1p-10).epsilon(1e-12));
+  CHECK(verdict.t_errors[2] == doctest::Approx(0x1p-7).epsilon(1e-12));  // remembered
+}
+
+TEST_CASE("judge: the greatest of five, and of several companions") {
+  std::vector<double> times, near, far;
+  for (int i = 1; i <= 12; ++i) {
+    times.push_back(i);
+    near.push_back(i == 3 ? i + 0x1p-6 : i);
+    far.push_back(i == 3 ? i - 0x1p-5 : i);
+  }
+  const Verdict one = judge(track(times), {track(near)}, 1.0, names);
+  const Verdict two = judge(track(times), {track(near), track(far)}, 1.0, names);
+  for (std::size_t i = 0; i < 12; ++i) {
+    CAPTURE(i);
+    const bool remembered = i >= 2 && i < 7;
+    CHECK(one.t_errors[i] == doctest::Approx(remembered ? 0x1p-6 : 0.0).epsilon(1e-10));
+    CHECK(two.t_errors[i] == doctest::Approx(remembered ? 0x1p-5 : 0.0).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("judge: an event without a partner ends it, on either side") {
+  const Track longer = track({1.0, 2.0, 3.0, 4.0}), shorter = track({1.0, 2.0, 3.0});
+  const Verdict missing = judge(longer, {shorter}, 2.0, names);
+  CHECK(missing.until == 4.0);
+  CHECK(certain(missing) == 3);
+  CHECK(missing.first_uncertain == 3);
+  CHECK(missing.reason.find("stick of 'A' at t = 4") != std::string::npos);
+  const Verdict more = judge(shorter, {longer}, 2.0, names);
+  CHECK(more.until == 4.0);
+  CHECK(certain(more) == 3);
+  CHECK_FALSE(more.first_uncertain);
+  CHECK(more.reason.find("an event more") != std::string::npos);
+}
+
+TEST_CASE("judge: another state, or a partner that is nearer to its neighbour") {
+  Track run = track({1.0, 2.0, 3.0}), other = run;
+  other.events[1].to = State::open;
+  CHECK(judge(run, {other}, 2.0, names).until == 2.0);
+  CHECK(judge(run, {track({1.0, 2.0, 2.4})}, 1.0, names).until == doctest::Approx(2.4));
+  CHECK(judge(run, {track({1.0, 2.0, 3.4})}, 1.0, names).until > 2.5);
+  CHECK(certain(judge(run, {track({1.0, 2.0, 3.4})}, 1.0, names)) == 3);
+}
+
+TEST_CASE("judge: a shift that events share ends nothing, one that changes between them does") {
+  const Track run = track({1.0, 2.0, 3.0, 3.1});
+  const Verdict shared = judge(run, {track({1.0, 2.0, 3.2, 3.3})}, 2.0, names);
+  CHECK(shared.reason.empty());
+  CHECK(shared.t_errors[3] == doctest::Approx(0.4));
+  const Verdict changes = judge(run, {track({1.0, 2.0, 3.0, 3.13})}, 2.0, names);
+  CHECK(certain(changes) == 3);  // 2 x 0.03 > 0.1 / 2
+  CHECK(changes.until == doctest::Approx(3.1));
+  CHECK(changes.reason.find("is off by 0.06") != std::string::npos);
+}
+
+TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") {
+  Track run = track({1.0, 1.95});
+  run.events.push_back(event(2.0, 1, 0));
+  const Verdict verdict = judge(run, {track({1.05, 2.0})}, 1.0, names);
+  CHECK(verdict.until == doctest::Approx(1.95));
+  CHECK(certain(verdict) == 1);
+  CHECK(verdict.first_uncertain == 1);
+}
+
+TEST_CASE("judge: a companion that stopped certifies up to there") {
+  Track other = track({1.0, 2.0}, 2.5);
+  other.stop = "the companion stopped: it could not go on";
+  const Verdict verdict = judge(track({1.0, 2.0, 3.0}), {other}, 2.0, names);
+  CHECK(verdict.until == 2.5);
+  CHECK(verdict.reason == other.stop);
+  CHECK(certain(verdict) == 2);
+}
+
+TEST_CASE("judge: the order of different contacts is counted and ends nothing") {
+  Track run, other;
+  run.reached = other.reached = 10.0;
+  run.events = {event(1.0, 0, 0), event(1.001, 1, 0), event(5.0, 0, 1), event(6.0, 1, 1)};
+  other.events = {event(1.0005, 1, 0), event(1.0015, 0, 0), event(5.0, 0, 1), event(6.0, 1, 1)};
+  const Verdict verdict = judge(run, {other}, 2.0, names);
+  CHECK(verdict.reason.empty());
+  CHECK(certain(verdict) == 4);
+  CHECK(verdict.unordered == 1);
+}
+
+TEST_CASE("judge: jumps of loads are known, and leave what was remembered") {
+  Track run = track({1.0, 2.0}), other = track({1.0 + 0x1p-10, 2.0});
+  TimedEvent jump;
+  jump.t = 3.0;
+  TimedEvent thrown = event(3.0, 0, 2);
+  thrown.fell = false;
+  for (Track* t : {&run, &other}) t->events.insert(t->events.end(), {jump, thrown, event(4.0, 0, 3)});
+  const Verdict verdict = judge(run, {other}, 2.0, names);
+  CHECK(verdict.t_errors[2] == 2.0 * 0x1p-52 * 3.0);
+  CHECK(verdict.t_errors[3] == 2.0 * 0x1p-52 * 3.0);
+  CHECK(verdict.t_errors[4] == doctest::Approx(0x1p-9).epsilon(1e-10));
+}

@@ -110,7 +110,8 @@ TEST_CASE("run directory: a file of that name is refused, forced or not") {
 }
 
 TEST_CASE("summary: holds what a reader needs") {
-  const json j = json::parse(summary_json(scene(), model(), {report(), {}, ""}, {"signorini", "run", "made-up.toml"}));
+  const json j =
+      json::parse(summary_json(scene(), model(), {report(), {}, ""}, {"signorini", "run", "made-up.toml"}));
   CHECK(j["outcome"]["kind"] == "done");
   CHECK(j["engine"] == "ida");
   CHECK(j["units"]["energy"] == "kN m");

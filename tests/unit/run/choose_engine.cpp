@@ -50,7 +50,8 @@ TEST_CASE("engine auto: exact unless decay is faster than oscillation or a law i
   CHECK(computed_by(oscillator(0.0, "")) == "ida as given");
   CHECK(computed_by(oscillator(1.9, "engine = \"auto\"")) == "exact auto: th");
   CHECK(computed_by(oscillator(2.1, "engine = \"auto\"")) == "ida auto: th");
-  CHECK(computed_by(oscillator(0.0, "engine = \"auto\"", "{ static = 0.3, kinetic = 0.2, stribeck_velocity = 0.1 }")) ==
+  CHECK(computed_by(oscillator(0.0, "engine = \"auto\"",
+                               "{ static = 0.3, kinetic = 0.2, stribeck_velocity = 0.1 }")) ==
         "ida auto: a ");
   CHECK(computed_by(oscillator(1e3, "engine = \"exact\"")) == "exact as given");
   CHECK(computed_by(oscillator(0.0, "engine = \"ida\"")) == "ida as given");

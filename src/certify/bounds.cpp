@@ -10,7 +10,6 @@ namespace signorini {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t memory = 5;  // rows; as with events, one difference may vanish by chance
 
 /// What an error of a column may be from one step; columns beyond the model's are forces.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
@@ -87,9 +86,9 @@ class HistoryBounds {
     double greatest = 0.0;
     for (std::size_t row = 0; row < certain; ++row) greatest = std::max(greatest, std::abs(own[row]));
     const double floor = tolerance_of(model_, j, greatest, settings_.tolerance);
-    std::vector<double> last(memory, 0.0);
+    std::vector<double> last(remembered, 0.0);
     for (std::size_t row = 0; row < certain; ++row) {
-      double& off = last[row % memory];
+      double& off = last[row % remembered];
       off = 0.0;
       for (const Kept& companion : companions_)
         off = std::max(off, std::abs(own[row] - ColumnOf(*companion.rows, j)[row]));

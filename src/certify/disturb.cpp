@@ -17,9 +17,9 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
-class Disturbance {
+class Disturber {
  public:
-  explicit Disturbance(std::uint64_t seed) : seed_(mixed(seed)) {}
+  explicit Disturber(std::uint64_t seed) : seed_(mixed(seed)) {}
 
   /// 1 + delta r, of the datum of this number.
   [[nodiscard]] double factor(std::uint64_t number) const {
@@ -80,7 +80,7 @@ std::vector<bool> touched(const Model& model) {
 
 Model disturbed(const Model& model, std::uint64_t seed) {
   Model near = model;
-  Disturbance disturb(seed);
+  Disturber disturb(seed);
   disturb.matrix(near.mass);
   disturb.matrix(near.damping);
   disturb.matrix(near.stiffness);

@@ -13,9 +13,6 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-/// Over how many events the greatest difference is taken: one difference may vanish by chance. Chosen;
-/// changing it moves "certify: the greatest of five".
-constexpr std::size_t memory = 5;
 /// Rounding of an event's own time: that of a sum, twice.
 constexpr double of_clock = 2.0 * rounding::eps;
 
@@ -111,14 +108,14 @@ class Judge {
   /// From differences to errors, in the order of time.
   void grow() {
     errors_.assign(run_.events.size(), none);
-    std::vector<double> last(memory, 0.0);
+    std::vector<double> last(remembered, 0.0);
     std::size_t next = 0;
     for (std::size_t i = 0; i < run_.events.size(); ++i) {
       const TimedEvent& event = run_.events[i];
       if (event.t >= horizon_.t) break;
       errors_[i] = of_clock * event.t;
       if (!event.is_change() || (!event.fell && deviation_[i] == 0.0)) continue;
-      last[next++ % memory] = deviation_[i];
+      last[next++ % remembered] = deviation_[i];
       const double error = factor_ * *std::max_element(last.begin(), last.end());
       spread_ = error;
       errors_[i] += error + static_cast<double>(event.uncertainty);

@@ -18,6 +18,10 @@
 
 namespace signorini {
 
+/// Over how many events or rows the greatest difference is taken: one may vanish by chance. Chosen; changing
+/// it moves "certify: the greatest of five".
+inline constexpr std::size_t remembered = 5;
+
 /// A row of events, as far as runs are compared.
 struct TimedEvent {
   double t = 0.0;

@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::size_t most_rows = 24;
 
-std::string number(double value) { return fmt::format("{:.6g}", value); }
-
 /// Two digits, written out: 140000.
 std::string rough(double value) {
   const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;

@@ -72,14 +72,14 @@ Scene scene_for(const CompareOptions& options, const std::string& text) {
   }
 }
 
-const OwnedFolder& own_folder() {
+const OwnedFolder& compare_folder() {
   static const OwnedFolder folder = {
       "comparison", "compare.json", {"runs.csv", "differences.csv", "columns.csv", "events.csv"}};
   return folder;
 }
 
 void begin(const fs::path& path) {
-  begin_folder(path, own_folder());
+  begin_folder(path, compare_folder());
   begin_comparison_plots(path);
 }
 
@@ -129,7 +129,7 @@ Outcomes run_engines(const CompareOptions& options, const fs::path& path,
     run_engine(options, path, scene, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
     if (outcomes.report.runs.empty()) {  // nothing to compare the others with
-      leave_folder(path, own_folder());
+      leave_folder(path, compare_folder());
       throw Error(ExitCode::scene, "the reference, " + options.engines.front() +
                                        ", refuses the scene: " + outcomes.report.refused.front().second);
     }
@@ -208,7 +208,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   const std::vector<Limit> limits = parse_limits(options.limits);
   check_sources(options);
   const fs::path path = output_directory(options);
-  check_folder(path, own_folder(), options.force, by_engine(options) ? options.sources.front() : "");
+  check_folder(path, compare_folder(), options.force, by_engine(options) ? options.sources.front() : "");
   Outcomes outcomes =
       by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
   if (outcomes.interrupted) {

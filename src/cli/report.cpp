@@ -18,8 +18,6 @@ std::string name_of(const Model& model, int contact) {
   return contact < 0 ? "" : model.contacts[static_cast<std::size_t>(contact)].name;
 }
 
-std::string number(double value) { return fmt::format("{:.6g}", value); }
-
 std::string times(long count, const char* one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }

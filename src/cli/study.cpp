@@ -48,7 +48,7 @@ struct StudyOptions : OutputOptions {
   double time_limit = 60.0;
 };
 
-const OwnedFolder& own_folder() {
+const OwnedFolder& study_folder() {
   static const OwnedFolder folder = {"study", "study.json", {"study.csv", "study.md"}};
   return folder;
 }
@@ -145,12 +145,12 @@ WorkRequest request_of(const StudyOptions& options, const std::vector<std::strin
   return request;
 }
 
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(bool shown) : shown_(shown && stderr_is_terminal()) {}
-  ~Progress() { say(""); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit ProgressLine(bool shown) : shown_(shown && stderr_is_terminal()) {}
+  ~ProgressLine() { say(""); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
   void say(const std::string& text) const {
     if (shown_) progress_line(text);
   }
@@ -175,7 +175,7 @@ void clear_runs(const fs::path& path) {
   fs::remove(runs, error);
 }
 
-void run_all(WorkStudy& study, const WorkRequest& request, const Progress& progress) {
+void run_all(WorkStudy& study, const WorkRequest& request, const ProgressLine& progress) {
   progress.say("reference");
   study.find_reference();
   if (study.report().interrupted) return;
@@ -194,22 +194,22 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   check(options);
   WorkRequest request = request_of(options, command_line);
   const fs::path path = request.directory;
-  check_folder(path, own_folder(), options.force, options.scene);
+  check_folder(path, study_folder(), options.force, options.scene);
   if (options.dt) request.ranges.dt = parse_decades("--dt", *options.dt);
   WorkStudy work(request);
   if (!options.dt) request.ranges.dt = usual_steps(work.report().t_end);
-  begin_folder(path, own_folder());
+  begin_folder(path, study_folder());
   clear_runs(path);
   remove_work_plots(path);
   {
     const Interrupt interrupt;
-    const Progress progress(!options.quiet);
+    const ProgressLine progress(!options.quiet);
     try {
       run_all(work, request, progress);
     } catch (const Error&) {
       if (work.report().rows.empty()) {
         clear_runs(path);
-        leave_folder(path, own_folder());
+        leave_folder(path, study_folder());
       } else {
         write_work(path, work.report());
       }

@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t most_contacts = 3, most_rows = 60, first_rows = 40, last_rows = 10;
 
-std::string number(double value) { return fmt::format("{:.6g}", value); }
-
 std::vector<std::string> cells_of(const SweepRow& row, const std::vector<std::string>& contacts) {
   std::vector<std::string> cells = row.values;
   cells.push_back(row.outcome);

@@ -1,5 +1,7 @@
 #include "cli/table.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace signorini::cli {
@@ -13,6 +15,8 @@ std::size_t width(const std::string& text) {
 }
 
 }  // namespace
+
+std::string number(double value) { return fmt::format("{:.6g}", value); }
 
 Table::Table(std::vector<std::string> header, std::vector<bool> right) : right_(std::move(right)) {
   rows_.push_back(std::move(header));

@@ -8,6 +8,9 @@
 
 namespace signorini::cli {
 
+/// Six digits.
+[[nodiscard]] std::string number(double value);
+
 class Table {
  public:
   Table(std::vector<std::string> header, std::vector<bool> right);

@@ -27,7 +27,7 @@ struct VerifyOptions : OutputOptions {
   std::vector<std::string> settings;
 };
 
-const OwnedFolder& own_folder() {
+const OwnedFolder& verify_folder() {
   static const OwnedFolder folder = {"verification", "verify.json", {"events.csv"}};
   return folder;
 }
@@ -38,7 +38,7 @@ fs::path directory_of(const VerifyOptions& options) {
   return *options.directory;
 }
 
-std::string number(double value) { return fmt::format("{:.2g}", value); }
+std::string two_digits(double value) { return fmt::format("{:.2g}", value); }
 
 std::string text_of(const Verification& result) {
   Table table(
@@ -47,8 +47,8 @@ std::string text_of(const Verification& result) {
   for (const VerifiedKind& kind : result.kinds) {
     if (kind.compared == 0) continue;
     table.row({kind.name, std::to_string(kind.compared),
-               kind.order ? fmt::format("{:.2f}", *kind.order) : "-", number(kind.greatest_bar),
-               number(kind.worst.difference()), number(kind.worst.allowed()), kind.unit,
+               kind.order ? fmt::format("{:.2f}", *kind.order) : "-", two_digits(kind.greatest_bar),
+               two_digits(kind.worst.difference()), two_digits(kind.worst.allowed()), kind.unit,
                fmt::format("{:.6g}", kind.worst.t)});
   }
   std::string text = table.str();
@@ -80,7 +80,7 @@ ExitCode run(const VerifyOptions& options) {
   std::vector<Override> changes = overrides_of(options.settings);
   changes.push_back({"run.engine", "ida"});
   const fs::path path = directory_of(options);
-  check_folder(path, own_folder(), options.force, options.scene);
+  check_folder(path, verify_folder(), options.force, options.scene);
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
   VerifyRequest request;
@@ -90,7 +90,7 @@ ExitCode run(const VerifyOptions& options) {
   std::optional<Interrupt> interrupt(std::in_place);
   const Verification result = verify(model, model, request);
   interrupt.reset();
-  begin_folder(path, own_folder());
+  begin_folder(path, verify_folder());
   begin_verify_plot(path);
   write_verification(path, model, result);
   const bool pictures = !options.no_plots && !result.interrupted;

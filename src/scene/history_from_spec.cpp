@@ -5,11 +5,10 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace signorini {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Piece polynomial(double origin, std::vector<double> coefficients) {
   Piece p;
@@ -116,7 +115,7 @@ History shape(const HistorySpec& spec, const std::string& key) {
       return triangle(spec.start, pulse_end(spec, key));
     case HistoryType::half_sine: {
       const double end = pulse_end(spec, key);
-      return window(sine(spec.start, pi / (end - spec.start), 0.0), spec.start, end);
+      return window(sine(spec.start, std::numbers::pi / (end - spec.start), 0.0), spec.start, end);
     }
     case HistoryType::harmonic:
       return window(sine(spec.start, spec.omega, spec.phase), spec.start, spec.end);

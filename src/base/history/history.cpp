@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "base/history/history_internal.hpp"
@@ -9,8 +10,6 @@
 
 namespace signorini {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 bool has_sine(const Piece& p) { return p.amplitude != 0.0; }
 
@@ -38,7 +37,7 @@ Piece antiderivative(const Piece& p) {
   }
   q.amplitude = p.amplitude / p.omega;
   q.omega = p.omega;
-  q.phase = p.phase - pi / 2.0;
+  q.phase = p.phase - std::numbers::pi / 2.0;
   return q;
 }
 

@@ -6,6 +6,7 @@
 // others are halved. Nothing is sampled.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/history/history_internal.hpp"
 
@@ -13,8 +14,6 @@
 
 namespace signorini {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
 template <class Visit>
@@ -27,7 +26,7 @@ void each_part(const History& f, double t_end, const Visit& visit) {
   }
 }
 
-bool has_sine(const Piece& p) { return p.amplitude != 0.0 && p.omega != 0.0; }
+bool oscillates(const Piece& p) { return p.amplitude != 0.0 && p.omega != 0.0; }
 
 bool is_constant_and_sine(const Piece& p) {
   return std::all_of(p.coefficients.begin() + std::min<std::ptrdiff_t>(1, std::ssize(p.coefficients)),
@@ -39,22 +38,22 @@ bool negative(const Piece& p, double t) { return p.value(t) < -roundoff(p, t); }
 /// The first trough of the sine at or after `from`.
 double trough(const Piece& p, double from) {
   const double w = std::abs(p.omega);
-  const double phase = p.omega > 0.0 ? p.phase : pi - p.phase;
-  const double lowest = p.amplitude > 0.0 ? -pi / 2.0 : pi / 2.0;
-  const double first = p.origin + (lowest - phase) / w, period = 2.0 * pi / w;
+  const double phase = p.omega > 0.0 ? p.phase : std::numbers::pi - p.phase;
+  const double lowest = p.amplitude > 0.0 ? -std::numbers::pi / 2.0 : std::numbers::pi / 2.0;
+  const double first = p.origin + (lowest - phase) / w, period = 2.0 * std::numbers::pi / w;
   return first + period * std::ceil((from - first) / period);
 }
 
 /// Lower bound of the piece within r of m.
 double lower_bound(const Piece& p, double m, double r) {
   constexpr int sine_terms = 6;
-  const int terms = std::max(static_cast<int>(p.coefficients.size()), has_sine(p) ? sine_terms : 1);
+  const int terms = std::max(static_cast<int>(p.coefficients.size()), oscillates(p) ? sine_terms : 1);
   double bound = p.value(m), factor = 1.0;
   for (int k = 1; k < terms; ++k) {
     factor *= r / k;
     bound -= std::abs(p.value(m, k)) * factor;
   }
-  if (has_sine(p)) bound -= std::abs(p.amplitude) * std::pow(std::abs(p.omega), terms) * factor * r / terms;
+  if (oscillates(p)) bound -= std::abs(p.amplitude) * std::pow(std::abs(p.omega), terms) * factor * r / terms;
   return bound;
 }
 
@@ -72,7 +71,7 @@ double search(const Piece& p, double from, double to) {
 
 double negative_in(const Piece& p, double from, double to) {
   if (negative(p, from)) return from;
-  if (has_sine(p) && is_constant_and_sine(p)) {
+  if (oscillates(p) && is_constant_and_sine(p)) {
     const double t = trough(p, from);
     if (t <= to && negative(p, t)) return t;
     return negative(p, to) ? to : -1.0;
@@ -88,7 +87,7 @@ double magnitude(const History& f, double t_end) {
   each_part(f, t_end, [&](const Piece& p, double from, double to) {
     Piece polynomial = p;
     polynomial.amplitude = 0.0;
-    const bool turns = std::abs(p.omega) * (to - from) > pi;
+    const bool turns = std::abs(p.omega) * (to - from) > std::numbers::pi;
     constexpr int samples = 64;
     for (int i = 0; i <= samples; ++i) {
       const double t = from + (to - from) * i / samples;

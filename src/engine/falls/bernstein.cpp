@@ -9,8 +9,6 @@ constexpr double binomial[max_degree + 1][max_degree + 1] = {{1, 0, 0, 0, 0, 0},
                                                              {1, 2, 1, 0, 0, 0}, {1, 3, 3, 1, 0, 0},
                                                              {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
-
 /// Smallest x with p(x) <= 0 on [from, to], given that the caller knows nothing of p.
 std::optional<double> first_nonpositive(const Bernstein& p, double from, double to, double resolution) {
   if (p.positive()) return std::nullopt;

@@ -7,11 +7,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 namespace signorini {
 
 inline constexpr int max_degree = 5;  // BDF interpolants
+
+[[nodiscard]] constexpr std::size_t z(int i) { return static_cast<std::size_t>(i); }  ///< an index
 
 /// Bernstein coefficients of a polynomial of at most degree 5.
 struct Bernstein {

@@ -4,10 +4,6 @@
 #include <cmath>
 
 namespace signorini {
-namespace {
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
-
 double* StepHistory::restart(double t) {
   filled_ = 1;
   for (int b = 0; b <= max_degree; ++b) slot_[z(b)] = b;

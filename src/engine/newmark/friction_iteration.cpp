@@ -13,10 +13,9 @@
 namespace signorini {
 namespace {
 
-constexpr double unchanged = 1e-12;   // of the greatest contact force: a bound has stopped changing
-constexpr double same_length = 1e-9;  // of dt
-constexpr int slips = 100;            // key: T is given, whatever its direction
-constexpr int stops = 101;            // key: comes to rest within the step, without tangential stiffness
+constexpr double unchanged = 1e-12;  // of the greatest contact force: a bound has stopped changing
+constexpr int slips = 100;           // key: T is given, whatever its direction
+constexpr int stops = 101;           // key: comes to rest within the step, without tangential stiffness
 
 }  // namespace
 

@@ -15,7 +15,6 @@ namespace signorini {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double same_length = 1e-9;  // a rest longer than the step by this part is taken in one step
 constexpr int most_halvings = 60;
 constexpr double spare = 1.0 / 16.0;  // doubling: of the tolerance, below which steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";

@@ -17,6 +17,11 @@
 
 namespace signorini {
 
+/// Lengths that differ by less than this part of a step are one length: a rest of a segment that is longer is
+/// taken in one step. Chosen: far above the rounding of t/dt for 1e6 steps, far below what a step is good
+/// for.
+inline constexpr double same_length = 1e-9;
+
 class NewmarkStep {
  public:
   /// Names what of the rows stands in the matrix: equal keys, equal matrices.

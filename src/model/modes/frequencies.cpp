@@ -15,8 +15,6 @@
 namespace signorini {
 namespace {
 
-constexpr int dense_up_to = 200;
-
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
   const double m = x.dot(mass * x);

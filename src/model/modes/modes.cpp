@@ -16,8 +16,6 @@
 namespace signorini {
 namespace {
 
-constexpr int dense_up_to = 200;
-
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
 /// omega; 0: a motion has no stiffness; nothing: nothing with mass can move.

@@ -15,6 +15,10 @@
 
 namespace signorini {
 
+/// Degrees of freedom up to which matrices are treated dense: there the dense solver is the faster one.
+/// Chosen; results agree either way.
+inline constexpr int dense_up_to = 200;
+
 /// Which contacts hold what, for a frequency: springs, and forms that are fixed.
 struct Holding {
   std::vector<LineSpring> springs;

@@ -205,10 +205,10 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
     known_of_rows(c, order, series, r, q);
-    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_);
-    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_);
-    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_);
-    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_);
+    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());
+    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_.data());
+    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_.data());
+    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_.data());
     x_[at.normal(c)] = -r;
     x_[at.tangent(c)] = -q;
     if (disturbance != nullptr) disturb_rows(c, order, series, r, q);

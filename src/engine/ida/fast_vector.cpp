@@ -7,6 +7,13 @@
 #include <cmath>
 #include <cstddef>
 
+/// Before a loop: no pass reads what another one writes, whatever the pointers look like.
+#ifdef __clang__
+#define SIGNORINI_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define SIGNORINI_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
 namespace signorini {
 namespace {
 
@@ -21,7 +28,7 @@ void combine(const double* c, N_Vector* x, double* z, sunindextype n) {
     p[static_cast<std::size_t>(i)] = NV_DATA_S(x[i]);
     f[static_cast<std::size_t>(i)] = c[i];
   }
-#pragma GCC ivdep
+  SIGNORINI_INDEPENDENT
   for (sunindextype j = 0; j < n; ++j) {
     double sum = f[0] * p[0][j];
     if constexpr (count > 1) sum += f[1] * p[1][j];
@@ -57,7 +64,7 @@ int linear_combination(int count, double* c, N_Vector* x, N_Vector z_vector) {
   }
   for (int i = most; i < count; ++i) {
     const double *p = NV_DATA_S(x[i]), f = c[i];
-#pragma GCC ivdep
+    SIGNORINI_INDEPENDENT
     for (sunindextype j = 0; j < n; ++j) z[j] += f * p[j];
   }
   return 0;
@@ -67,7 +74,7 @@ void linear_sum(double a, N_Vector x_vector, double b, N_Vector y_vector, N_Vect
   const sunindextype n = NV_LENGTH_S(z_vector);
   const double *x = NV_DATA_S(x_vector), *y = NV_DATA_S(y_vector);
   double* z = NV_DATA_S(z_vector);
-#pragma GCC ivdep
+  SIGNORINI_INDEPENDENT
   for (sunindextype j = 0; j < n; ++j) z[j] = a * x[j] + b * y[j];
 }
 
@@ -79,7 +86,7 @@ void scale(double c, N_Vector x_vector, N_Vector z_vector) {
     if (x != z) std::copy(x, x + n, z);
     return;
   }
-#pragma GCC ivdep
+  SIGNORINI_INDEPENDENT
   for (sunindextype j = 0; j < n; ++j) z[j] = c * x[j];
 }
 
@@ -93,7 +100,7 @@ template <int count>
 void cascade(const double* e, N_Vector* x_vector, sunindextype n) {
   std::array<double*, most> x{};
   for (int i = 0; i < count; ++i) x[static_cast<std::size_t>(i)] = NV_DATA_S(x_vector[i]);
-#pragma GCC ivdep
+  SIGNORINI_INDEPENDENT
   for (sunindextype j = 0; j < n; ++j) {
     double sum = e[j] + x[0][j];
     x[0][j] = sum;

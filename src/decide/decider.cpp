@@ -28,6 +28,17 @@ std::vector<std::size_t> contacts_of(const std::vector<Failure>& failed) {
   return result;
 }
 
+/// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.
+std::string what_makes_unique(const Model& model, const std::vector<std::size_t>& contacts) {
+  const bool sliders = std::any_of(contacts.begin(), contacts.end(),
+                                   [&](std::size_t k) { return !model.contacts[k].has_gap(); });
+  const bool others = std::any_of(contacts.begin(), contacts.end(),
+                                  [&](std::size_t k) { return model.contacts[k].has_gap(); });
+  return sliders && others ? "law = \"compliant\", for sliders a tangential_stiffness,"
+         : sliders         ? "a tangential_stiffness"
+                           : "law = \"compliant\"";
+}
+
 }  // namespace
 
 struct Decider::Course {
@@ -249,8 +260,8 @@ Refusal Decider::try_next(Course& course) {
   course.seen.push_back(course.mode);
   if (evaluate(course.after, course.mode, course)) return {};
   Refusal why = dependent_rows(contacts_of(course.failed));
-  why.reason += fmt::format(" (after {}); law = \"compliant\" or a tangential_stiffness makes them so",
-                            names_of(model_, course.failed));
+  why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, course.failed),
+                            what_makes_unique(model_, why.contacts));
   return why;
 }
 

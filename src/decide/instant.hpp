@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/listed.hpp"
 #include "contact/law.hpp"
 #include "contact/mode.hpp"
 #include "signorini/model.hpp"
@@ -33,13 +34,13 @@ struct Instant {
   }
 };
 
-/// "'first' (compression), 'second' (gap)": of anything with a contact and a guard.
+/// "'first' (compression) and 'second' (gap)": of anything with a contact and a guard.
 template <class Guarded>
 [[nodiscard]] std::string names_of(const Model& model, const std::vector<Guarded>& list) {
-  std::string text;
+  std::vector<std::string> names;
   for (const Guarded& g : list)
-    text += (text.empty() ? "'" : ", '") + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")";
-  return text;
+    names.push_back("'" + model.contacts[g.contact].name + "' (" + to_string(g.guard) + ")");
+  return listed_plainly(names);
 }
 
 }  // namespace signorini

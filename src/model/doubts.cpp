@@ -7,6 +7,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/history/history_internal.hpp"
+#include "base/listed.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/parts.hpp"
@@ -24,13 +25,9 @@ constexpr std::size_t most_named = 3;
 
 /// "contact 'a'", "contacts 'a' and 'b'", "contacts 'a', 'b', 'c' and 7 more"
 std::string names(const Model& model, const std::vector<std::size_t>& contacts) {
-  std::string text = contacts.size() == 1 ? "contact" : "contacts";
-  const std::size_t shown = std::min(contacts.size(), most_named);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const bool last = i + 1 == contacts.size();
-    text += fmt::format("{}'{}'", i == 0 ? " " : last ? " and " : ", ", model.contacts[contacts[i]].name);
-  }
-  return shown < contacts.size() ? fmt::format("{} and {} more", text, contacts.size() - shown) : text;
+  std::vector<std::string> list;
+  for (const std::size_t k : contacts) list.push_back(model.contacts[k].name);
+  return (list.size() == 1 ? "contact " : "contacts ") + listed(list, most_named);
 }
 
 class Doubts {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/parts.hpp"
@@ -68,19 +69,19 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
       const Eigen::VectorXd x = combination_of_columns(normals, normal);
       if ((normal - normals * x).norm() <= dependent * normal.norm()) {
         double gap = contact.gap, size = std::abs(contact.gap);
-        std::string names;
+        std::vector<std::string> names;
         for (std::size_t j = 0; j < members.size(); ++j) {
           const double part = x[static_cast<Eigen::Index>(j)];
           const Contact& other = model.contacts[members[j]];
           gap -= part * other.gap;
           size += std::abs(part * other.gap);
-          if (std::abs(part) > 1e-9) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", other.name);
+          if (std::abs(part) > 1e-9) names.push_back(other.name);
         }
         if (std::abs(gap) <= 1e-9 * size)
           refuse(scene, k, ".law",
                  fmt::format("it closes exactly with {}, so nobody can say which of the rigid contacts "
                              "carries the force; leave it out, or give them law = \"compliant\"",
-                             names));
+                             listed(names)));
         return;
       }
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "contact/transition.hpp"
@@ -147,10 +148,10 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     switching = new_states();
     if (!switching && change <= unchanged * force + noise) return {};
   }
-  std::string what;
+  std::vector<std::string> what;
   for (std::size_t k = 0; k < sides_.size(); ++k)
     if (sides_[k].state != state_of_rows(mode_[k].state) || k == worst)
-      what += fmt::format("{}'{}'", what.empty() ? "" : ", ", model_.contacts[k].name);
+      what.push_back(model_.contacts[k].name);
   return fmt::format(
       "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt, more "
       "max_iterations or another relaxation than {} may help",
@@ -159,7 +160,7 @@ std::string FrictionIteration::iterate(double h, bool kept) {
           ? "states still change"
           : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
                         change * model_.unit.force, force > 0.0 ? change / force : 0.0),
-      what, relaxation_);
+      listed(what), relaxation_);
 }
 
 Step FrictionIteration::advance() {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "base/listed.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "signorini/simulate.hpp"
@@ -33,13 +34,6 @@ Vector heavy_part(const Model& model, const Combination& tangent) {
   return t;
 }
 
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
-  return text;
-}
-
 /// The same for contacts whose tangents lie on common degrees of freedom.
 std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> names;  // of the columns of `held`
@@ -62,7 +56,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         return Ambiguity{k, fmt::format("contacts {} stick rigidly to one and the same motion, so nobody can "
                                         "say which of them carries the force; give them a "
                                         "tangential_stiffness",
-                                        list(group))};
+                                        listed(group))};
       }
     }
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);

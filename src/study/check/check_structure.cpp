@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/listed.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/motion_names.hpp"
@@ -32,15 +33,6 @@ double moving_mass(const Model& model, std::string_view component) {
     if (std::string_view(model.dofs[static_cast<std::size_t>(i)].displacement).ends_with(component))
       r[i] = 1.0;
   return r.dot(model.mass * r);
-}
-
-/// How many there are, and the first few of them: "3 nodes are ...: 'A', 'B', 'C'".
-std::string few(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 5;
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < most; ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
-  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
 }
 
 DofMap map_of(const Scene& scene) {
@@ -74,10 +66,10 @@ std::vector<std::string> loose_parts(const Scene& scene) {
     if (!sections.contains(section.name)) unused.push_back(section.name);
   if (!loose.empty())
     result.push_back(fmt::format("no member, mass, spring or contact is attached to node{} {}",
-                                 loose.size() > 1 ? "s" : "", few(loose)));
+                                 loose.size() > 1 ? "s" : "", listed(loose, 5)));
   if (!unused.empty())
     result.push_back(
-        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", few(unused)));
+        fmt::format("no member has the section{} {}", unused.size() > 1 ? "s" : "", listed(unused, 5)));
   return result;
 }
 

@@ -29,6 +29,7 @@ TEST_SUITE("unit/scene/keys") {
       CHECK(key.meaning.ends_with("."));
       CHECK_FALSE(describe_type(key).empty());
       CHECK(find_key(key.table, key.name) == &key);
+      CHECK((key.type == KeyType::choice) == !key.choices.empty());
     }
   }
 

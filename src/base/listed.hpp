@@ -1,0 +1,18 @@
+// listed.hpp: names in a sentence.
+//
+//   listed({"A", "B", "C"}, 3)        "'A', 'B' and 'C'"
+//   listed({"A", "B", "C", "D"}, 2)   "'A', 'B' and 2 more"
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace signorini {
+
+/// The first `most` of them by name, of the others how many they are.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
+
+/// The same of texts that stand as they are, with their quotes or without.
+[[nodiscard]] std::string listed_plainly(const std::vector<std::string>& texts, std::size_t most = 10);
+
+}  // namespace signorini

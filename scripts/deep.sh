@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads]; without arguments all of them.
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz]; without arguments
+# all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
 #   threads  simulations side by side under ThreadSanitizer
+#   kill     runs that are killed a hundred times, and what they leave
+#   names    contacts and titles that try to be shell, gnuplot, formats, paths or markup
+#   fuzz     the fuzzers, a quarter of an hour each (FUZZ_SECONDS)
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -31,15 +35,29 @@ threads() {
   ctest --test-dir build/tsan --output-on-failure --no-tests=error -L '^behaviour/threads$'
 }
 
+attack() {
+  scripts/setup.sh python3  # names.sh
+  configure release
+  cmake --build build/release -j "$(nproc)" -t signorini_program
+  "validation/robustness/$1.sh" build/release/signorini
+}
+
+fuzz() {
+  scripts/setup.sh clang
+  validation/robustness/fuzz.sh "${FUZZ_SECONDS:-900}"
+}
+
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
     clang) build_with_clang ;;
     tidy) tidy ;;
     threads) threads ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads" >&2; exit 2 ;;
+    kill | names) attack "$what" ;;
+    fuzz) fuzz ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

@@ -2,8 +2,9 @@
 //
 //   one header row, commas, no comments; numbers as shortest() writes them
 //
-// A block of rows is handed to the system in one write as soon as it is complete, so a killed run leaves
-// whole rows; a write that fails (disk full) is cut back to them and becomes a FileError.
+// A block of rows is handed to the system in one write as soon as it is complete; a write that fails (disk
+// full) is cut back to whole rows and becomes a FileError. SIGKILL may end a write where a page of the file
+// ends, so what a killed run leaves has at most one line that is cut, the last: without its line end.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,8 @@
 //   const auto contact = reader.column("contact");
 //   while (reader.next()) use(reader.cell(contact), reader.number(0));
 //
-// A last line without its line break (a run that is being written, or was killed) is left out.
+// A last line without its line break (a run that is being written, or was killed) is left out. gnuplot does
+// not know that: what it is to read of a table are the rows that were counted here.
 #pragma once
 
 #include <cstddef>

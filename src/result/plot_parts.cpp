@@ -35,8 +35,9 @@ std::string quoted_tick(const std::string& text) {
 
 std::string every(const PlottedRun& run, std::size_t group, std::size_t index) {
   const std::size_t stride = (run.times + most_points - 1) / most_points;
-  if (stride <= 1 && group == 1) return "";
-  return fmt::format(" every {}::{}", std::max<std::size_t>(stride, 1) * group, index);
+  // Up to the last whole row: behind it may stand one that a kill has cut.
+  return fmt::format(" every {}::{}::{}", std::max<std::size_t>(stride, 1) * group, index,
+                     run.times * group - 1);
 }
 
 std::string contact_rows(const PlottedRun& run, std::size_t k) {

@@ -96,11 +96,14 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
   const auto compressed = [&](std::size_t k, double by) {
     run.greatest_compression[k] = std::max(run.greatest_compression[k], by);
   };
-  for (std::size_t row = 0; contacts.next(); ++row) {
+  std::size_t rows = 0;
+  for (; contacts.next(); ++rows) {
     const std::size_t k = number_of(index, contacts.cell(name), directory / "contacts.csv");
-    if (row < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
+    if (rows < index.size()) run.bands[k].push_back({run.t_first, run.t_first, contacts.cell(state)});
     compressed(k, -contacts.number(force));
   }
+  // Less than in history.csv where a kill came between them.
+  if (!index.empty()) run.times = std::min(run.times, rows / index.size());
 
   read_motion(directory, index, run);
 
@@ -137,13 +140,14 @@ std::string band_table(const std::vector<PlottedRun::Band>& bands) {
   return block.str();
 }
 
-std::string energy_script_of(const fs::path& directory, const PlottedRun& run) {
+std::string energy_script_of(const fs::path& directory, PlottedRun run) {
   CsvReader energy(directory / "energy.csv");
   std::vector<bool> used(energy.header().size(), false);
   double start = 0.0;
-  for (bool first = true; energy.next(); first = false) {
+  run.times = 0;
+  for (; energy.next(); ++run.times) {
     for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || energy.number(i) != 0.0;
-    if (first) start = energy.number(energy.column("balance"));
+    if (run.times == 0) start = energy.number(energy.column("balance"));
   }
   return energy_script(run, used, start);
 }

@@ -59,9 +59,10 @@ void remove_path(const fs::path& path, const fs::path& first) {
 
 }  // namespace
 
-void remove_run(const fs::path& path) {
+void remove_run(const fs::path& path, bool summary) {
   std::error_code error;
   for (const std::string_view name : run_files) {
+    if (!summary && name == "summary.json") continue;
     fs::remove(path / name, error);
     if (error) throw FileError((path / name).string(), "cannot be removed: " + error.message());
     fs::remove(path / (std::string(name) + ".part"), error);
@@ -118,10 +119,11 @@ RunDirectory::Writers& RunDirectory::writers() {
   check_run_directory(path_, options_.force);  // again: it may have appeared since
   const fs::path created = create_path(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
-  if (options_.force) remove_run(path_);
   try {
-    write_file(path_ / "run.toml", scene_.resolved);
+    // First, and over an earlier one: a folder without it is no run, which --force would not replace.
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
+    if (options_.force) remove_run(path_, false);
+    write_file(path_ / "run.toml", scene_.resolved);
     writers_ = std::make_unique<Writers>(path_, model_);
   } catch (const FileError&) {
     std::error_code ignored;

@@ -61,8 +61,9 @@ class RunDirectory : public Recorder {
   std::unique_ptr<Writers> writers_;
 };
 
-/// Removes the files of a run, and nothing else; the directory itself stays. Errors: FileError.
-void remove_run(const std::filesystem::path& path);
+/// Removes the files of a run, its summary too where asked to, and nothing else; the directory itself stays.
+/// Errors: FileError.
+void remove_run(const std::filesystem::path& path, bool summary = true);
 
 /// Throws FileError unless a run may be written there.
 void check_run_directory(const std::filesystem::path& path, bool force);

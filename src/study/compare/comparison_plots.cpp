@@ -39,6 +39,8 @@ PlottedRun plotted(const RunFigures& figures, double t_end) {
     run.t_last = history.number(0);
     if (run.times++ == 0) run.t_first = run.t_last;
   }
+  // What is killed may lack the last row in contacts.csv, or have a part of it.
+  if (run.times > 0 && run.facts.outcome == "running") --run.times;
   run.from = run.t_first;
   run.to = std::max(run.t_last, t_end);
   return run;

@@ -12,6 +12,11 @@ struct Drawing {
   std::string message;  ///< what gnuplot said when it failed
 };
 
+/// Without the pictures of single contacts after the first 24, which would take minutes; their scripts are
+/// there.
+[[nodiscard]] std::vector<std::filesystem::path> first_ones(
+    const std::vector<std::filesystem::path>& scripts);
+
 /// Runs each script in its own folder.
 [[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
 

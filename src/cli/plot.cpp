@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 ExitCode plot(const fs::path& directory, const PlotWindow& window) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
-  const std::vector<fs::path> scripts = write_plots(directory, window);
+  const std::vector<fs::path> scripts = first_ones(write_plots(directory, window));
   if (scripts.empty())
     throw FileError(directory.string(), "has fewer than two output times: nothing to draw");
   const Drawing drawing = draw(scripts);

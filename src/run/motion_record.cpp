@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/assembly/parts.hpp"
+
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_in_all = 200000, most_of_one = 8000, fewest_of_one = 400;
+// A file of five megabytes; a contact's picture is a thousand points wide.
+constexpr std::size_t most_in_all = 40000, most_of_one = 8000, fewest_of_one = 400;
 // A step is some three radians of the fastest motion, which a line of eight pieces shows; but a picture shows
 // no more than half a pixel, and must not be coarser than a pixel or two.
 constexpr double pieces_of_step = 8.0, most_pieces_of_run = 2000.0, fewest_pieces_of_run = 600.0;
@@ -19,6 +22,10 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
   if (!recorder.wants_motion() || model.contacts.empty()) return;
   tracks_.resize(model.contacts.size());
   most_rows_ = std::clamp(most_in_all / tracks_.size(), fewest_of_one, most_of_one);
+  const auto parts = coupled_contacts(model);
+  reached_.resize(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const std::size_t k : parts[i]) tracks_[k].part = i;
 }
 
 const std::vector<MotionRecord::Moment>& MotionRecord::moments(double begin, double end,
@@ -43,25 +50,56 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
                        const Point& point) {
   if (tracks_.empty()) return;
   for (std::size_t k = 0; k < tracks_.size(); ++k)
-    tracks_[k].push_back({t, auditor.sample(k, forcing, t, mode[k], point)});
+    keep(tracks_[k], {t, auditor.sample(k, forcing, t, mode[k], point)});
   last_ = t;
-  if (tracks_[0].size() <= most_rows_) return;
-  // What has come since the last time may fit into bins as wide as they are.
-  if (width_ == 0.0) width_ = t_end_ / static_cast<double>(most_rows_);
-  for (std::vector<MotionRow>& rows : tracks_) thin(rows);
-  while (tracks_[0].size() > most_rows_ / 2) {
-    width_ *= 2.0;
-    for (std::vector<MotionRow>& rows : tracks_) thin(rows);
-  }
-  spacing_ = std::max(spacing_, width_);
 }
 
-void MotionRecord::thin(std::vector<MotionRow>& rows) const {
+void MotionRecord::before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
+                          const Point& point) {
+  for (std::size_t k = 0; k < tracks_.size(); ++k)
+    tracks_[k].before = {t, auditor.sample(k, forcing, t, mode[k], point)};
+}
+
+void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode,
+                         const Point& point, const std::optional<std::vector<std::size_t>>& changed) {
+  if (tracks_.empty()) return;
+  reached_.assign(reached_.size(), !changed);
+  if (changed)
+    for (const std::size_t k : *changed) reached_[tracks_[k].part] = true;
+  bool all = true;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    Track& track = tracks_[k];
+    const double last = track.rows.empty() ? -t_end_ : track.rows.back().t;
+    if (!reached_[track.part] && t - last < spacing_) {
+      all = false;
+      continue;
+    }
+    if (reached_[track.part] && !track.rows.empty() && last < track.before.t) keep(track, track.before);
+    keep(track, {t, auditor.sample(k, forcing, t, mode[k], point)});
+  }
+  if (all) last_ = t;
+}
+
+void MotionRecord::keep(Track& track, const MotionRow& row) {
+  track.rows.push_back(row);
+  if (track.rows.size() <= most_rows_) return;
+  // What has come since the last time may fit into bins as wide as they are.
+  if (track.width == 0.0) track.width = t_end_ / static_cast<double>(most_rows_);
+  thin(track);
+  while (track.rows.size() > most_rows_ / 2) {
+    track.width *= 2.0;
+    thin(track);
+  }
+  spacing_ = std::min(std::max(spacing_, track.width), t_end_ / fewest_pieces_of_run);
+}
+
+void MotionRecord::thin(Track& track) const {
+  std::vector<MotionRow>& rows = track.rows;
   std::vector<MotionRow> kept;
   for (std::size_t begin = 0; begin < rows.size();) {
-    const double bin = std::floor(rows[begin].t / width_);
+    const double bin = std::floor(rows[begin].t / track.width);
     std::size_t end = begin;
-    while (end < rows.size() && std::floor(rows[end].t / width_) == bin) ++end;
+    while (end < rows.size() && std::floor(rows[end].t / track.width) == bin) ++end;
     std::vector<std::size_t> chosen{begin, end - 1};
     for (double ContactSample::*what :
          {&ContactSample::N, &ContactSample::T, &ContactSample::gap, &ContactSample::ut}) {
@@ -82,7 +120,7 @@ void MotionRecord::thin(std::vector<MotionRow>& rows) const {
 }
 
 void MotionRecord::write(Recorder& recorder) const {
-  for (std::size_t k = 0; k < tracks_.size(); ++k) recorder.motion(static_cast<int>(k), tracks_[k]);
+  for (std::size_t k = 0; k < tracks_.size(); ++k) recorder.motion(static_cast<int>(k), tracks_[k].rows);
 }
 
 }  // namespace signorini

@@ -1,12 +1,16 @@
 // motion_record.hpp: the motion of the contacts for pictures, bounded, whatever output_dt is.
 //
-//   rows: both sides of every instant, turning points, and ends and insides of steps as many as a line needs.
-//   Of each bin of width w they are thinned to the first, the last, and those with the least and the greatest
-//   N, T, gap and ut;   w = 0 at first, then doubled as often as bins leave too many
+//   rows of a contact: both sides of every instant that reaches it, turning points, and ends and insides of
+//   steps as many as a line needs. Of each bin of width w they are thinned to the first, the last, and those
+//   with the least and the greatest N, T, gap and ut;   w = 0 at first, then doubled as often as bins leave
+//   too many
 //
-// So a short run is drawn in full, and of a long one what a picture can show of it, every peak included.
+// So a short run is drawn in full, and of a long one what a picture can show of it, every peak included. An
+// instant reaches the contacts that M, C, K or contacts couple with one that has changed; a jump of the
+// forcing reaches all. A thousand bodies have no rows of each other's events.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "run/audit.hpp"
@@ -31,21 +35,33 @@ class MotionRecord {
   [[nodiscard]] bool needs(double t) const;
   /// A row of every contact; times ascend, and may repeat.
   void add(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
-  /// Time of the last row.
+  /// The side before an instant, kept when `after` says whom it reaches.
+  void before(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point);
+  /// changed: contacts; absent: all.
+  void after(double t, const Auditor& auditor, const Forcing& forcing, const Mode& mode, const Point& point,
+             const std::optional<std::vector<std::size_t>>& changed);
+  /// Time of the last row of all contacts.
   [[nodiscard]] double last() const { return last_; }
   /// Hands over all rows, contact by contact.
   void write(Recorder& recorder) const;
 
  private:
-  void thin(std::vector<MotionRow>& rows) const;
+  struct Track {
+    std::vector<MotionRow> rows;
+    double width = 0.0;    // of a bin
+    std::size_t part = 0;  // contacts of other parts do not reach this one
+    MotionRow before;
+  };
+  void keep(Track& track, const MotionRow& row);
+  void thin(Track& track) const;
 
   double t_end_;
-  double spacing_;      // of rows that nothing but a line needs, at least
-  double width_ = 0.0;  // of a bin
+  double spacing_;  // of rows that nothing but a line needs, at least
   double last_ = 0.0;
   std::vector<Moment> moments_;
   std::size_t most_rows_ = 0;  // of a contact
-  std::vector<std::vector<MotionRow>> tracks_;
+  std::vector<Track> tracks_;
+  std::vector<bool> reached_;  // parts
 };
 
 }  // namespace signorini

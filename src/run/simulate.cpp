@@ -90,7 +90,7 @@ class Loop {
     warn_of_gain();
     auditor_.begin(decision_, guessed, forcing_);
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
-    take_decision();
+    take_decision(std::nullopt);
     return true;
   }
 
@@ -140,7 +140,7 @@ class Loop {
     }
     t_ = step.end;
     engine_->evaluate(t_, point_);
-    if (step.kind == Step::Kind::event || motion_.needs(t_))
+    if (step.kind != Step::Kind::event && motion_.needs(t_))
       motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
   }
 
@@ -151,6 +151,9 @@ class Loop {
     now.u = point_.u;
     now.v = point_.v;
     now.mode = decision_.mode;
+    std::vector<std::size_t> changed;
+    for (const Fired& f : fired) changed.push_back(f.contact);
+    motion_.before(t_, auditor_, forcing_, decision_.mode, point_);
     now.fired = std::move(fired);
     // States that an engine found itself come first; a breakpoint at the same time is the next instant.
     const bool load_jumps = !adopted && pass_breakpoints(now);
@@ -159,7 +162,8 @@ class Loop {
     if (const auto why = standstill_.count(t_, resolution_))
       return stop(*why + "; last: " + names_of(model_, now.fired));
     std::optional<Forcing> before;
-    if (now.jump) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
+    const bool all = now.jump;
+    if (all) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
     Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
@@ -171,7 +175,9 @@ class Loop {
     decision_ = std::move(next);
     warn_of_gain();
     log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps}, *engine_);
-    take_decision();
+    for (std::size_t k = 0; k < old_mode.size(); ++k)
+      if (decision_.mode[k].state != old_mode[k].state) changed.push_back(k);
+    take_decision(all ? std::nullopt : std::optional(std::move(changed)));
     return true;
   }
 
@@ -188,13 +194,14 @@ class Loop {
   }
 
   /// From here on the motion is that of the decision; a row asked for at t_ shows it.
-  void take_decision() {
+  /// changed: contacts whose states or velocities have; absent: perhaps all.
+  void take_decision(const std::optional<std::vector<std::size_t>>& changed) {
     if (decision_.undecided) ++report_.undecided;
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     if (const double next = samples_.next(); next <= t_) emit(next, point_);
-    motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
+    motion_.after(t_, auditor_, forcing_, decision_.mode, point_, changed);
   }
 
   void emit(double t, const Point& point) {

@@ -96,4 +96,64 @@ TEST_CASE("a run of many steps is kept evenly: no part of it is thinned more tha
   CHECK(widest < 12.0 / 200.0);
 }
 
+TEST_CASE("an event of one body is no row of another, a jump of the load is one of all") {
+  const std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+gravity = [0.0, -10.0]
+[run]
+t_end = 10.0
+engine = "exact"
+[nodes]
+bouncing = [0.0, 0.0]
+sliding = [1.0, 0.0]
+[run.initial]
+sliding = { vx = 100.0 }
+[[masses]]
+node = "bouncing"
+mass = 1.0
+[[masses]]
+node = "sliding"
+mass = 1.0
+[[contacts]]
+name = "bouncing"
+node = "bouncing"
+law = "rigid"
+normal = [0.0, 1.0]
+gap = 1.0
+restitution = 0.9
+[[contacts]]
+name = "sliding"
+node = "sliding"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 10.0
+friction = 0.3
+[[loads]]
+node = "sliding"
+direction = [1.0, 0.0]
+amplitude = 1.0
+history = { type = "step", start = 4.5 }
+)";
+  const Scene scene = parse_scene(text, "two.toml");
+  const Model model = build_model(scene);
+  Keeper run;
+  run.report = simulate(model, scene.run, run);
+  const auto at = [&](std::size_t k, double t) {
+    return std::count_if(run.tracks[k].begin(), run.tracks[k].end(),
+                         [&](const MotionRow& row) { return row.t == t; });
+  };
+  int hits = 0, beside = 0;
+  for (const Event& event : run.events) {
+    if (event.type != EventType::impact) continue;
+    ++hits;
+    CHECK(at(0, event.t) == 2);
+    CHECK(at(1, event.t) <= 1);  // where a line needs one
+    beside += at(1, event.t) > 0;
+  }
+  REQUIRE(hits > 50);
+  CHECK(beside < hits);
+  CHECK(at(0, 4.5) == 2);
+  CHECK(at(1, 4.5) == 2);
+}
+
 TEST_SUITE_END();

@@ -10,21 +10,20 @@
 // compression of a slider or the motion of a surface is not smooth (a breakpoint).
 //
 //   x-, mode- <- u0, v0, guessed from the gaps
-//   x+, mode+ <- decide(x-, mode-) at t = 0                       record the hits, and a row asked for at 0
+//   x+, mode+ <- decide(x-, mode-) at t = 0            record the hits, and a row asked for at 0
 //   while t < t_end:
 //     end <- the next breakpoint, or t_end
-//     engine.start(x+, mode+, end)                                nothing falls at t itself: mode+ holds
-//     there repeat:
-//       (t0, t1], fired <- engine.advance()                       t1: the earliest fall, if any guard falls
+//     engine.start(x+, mode+, end)                     nothing falls at t itself: mode+ holds there
+//     repeat:
+//       (t0, t1], fired <- engine.advance()            t1: the earliest fall, if any guard falls
 //       record the rows asked for in [t0, t1), and those that pictures need; add works and extremes
 //       t <- t1, x- <- x(t1) in mode+
 //     until a guard fired at t, or t >= end
-//     x+, mode+ <- decide(x-, mode-, fired, P-, P+)               all states at once, as often as it takes
-//                                                                 (adopted where the engine found them
-//                                                                 itself)
+//     x+, mode+ <- decide(x-, mode-, fired, P-, P+)    all states at once, as often as it takes
+//                                                      (adopted where the engine found them itself)
 //     record an event for every contact whose state has changed (event.hpp), and a row asked for at t: x+
-//   stop early where: nothing is consistent, the engine fails, events come and time does not get on, or the
-//   recorder wants no more
+//   stop early where nothing is consistent, the engine fails, events come and time does not get on,
+//   or the recorder wants no more
 //
 //   Scene scene = read_scene("models/pipeline.toml");
 //   Result result = simulate(build_model(scene), scene.run);

@@ -1,16 +1,14 @@
 // companion.hpp: what a run is certified by, and whether that is worth it.
 //
-//   run                  companion   how                                          c, why
-//   any but exact        exact       as it is                                     1.5  the difference is the
-//   error ida                  finer       rtol / 100, absolute tolerances too          2    rtol / 10 is not
-//   enough: at 1e-8
-//                                                                                      errors are no longer ~
-//                                                                                      rtol
-//   steps of given dt    finer       dt / 2                                       3    4/3 of the difference
-//   at order
-//                                                                                      two, 2 at order one
-//   exact                finer       twice, every datum off by about one rounding 5    two draws of a random
-//   error
+//   run              companion  how                                            c
+//   any but exact    exact      as it is                                       1.5
+//   ida              finer      rtol / 100, absolute tolerances too            2
+//   steps of given   finer      dt / 2                                         3
+//   exact            finer      twice, every datum off by about one rounding   5
+//
+// Why these c. Beside exact the difference is the error. At 1e-8 ida's errors are no longer ~ rtol, and
+// rtol / 10 is not enough. With half the step the error is 4/3 of the difference at order two, 2 at order
+// one. Exact beside itself is two draws of a random error.
 //
 // Beside exact the difference contains ida's own local error: a tenth of t_uncertainty is added, for what
 // guards that graze hide of it. Else all of it, since the companion's own error is not known.

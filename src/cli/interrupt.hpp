@@ -1,9 +1,9 @@
 // interrupt.hpp: SIGINT and SIGTERM, one handler for both and for all commands.
 //
 //   nothing to keep (set-up, check)   the program ends at once, exit code 130
-//   an Interrupt lives (a run)        a wish to stop, noted: the run ends by itself and is kept, 130; a
-//   second
-//                                     signal, or a run that has not ended after `patience`, ends it at once
+//   an Interrupt lives (a run)        a wish to stop, noted: the run ends by itself and is kept, 130;
+//                                     a second signal, or a run that has not ended after `patience`,
+//                                     ends it at once
 #pragma once
 
 namespace signorini::cli {

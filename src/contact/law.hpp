@@ -15,8 +15,7 @@
 //              slip s  -N, s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
-//              p' = ut'                         rigid, slider without kt, and the sliding point of a shear
-//              element
+//              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.

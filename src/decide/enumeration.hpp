@@ -1,8 +1,7 @@
-// enumeration.hpp: all combinations of the states of a block, weighed by how much of rounding must be
-// forgiven.
+// enumeration.hpp: all combinations of the states of a block, and how much rounding each must be forgiven.
 //
-//   forgiveness of a mode = max over the block's guards of ( -g^(k) / zero^(k) )    where g^(k) is negative
-//                                                                   and no lower derivative is positive
+//   forgiveness of a mode = max over the block's guards of ( -g^(k) / zero^(k) )
+//                           where g^(k) is negative and no lower derivative is positive
 //
 // 0: every guard holds. A mode is acceptable if what must be forgiven is what the condition of the block
 // makes of a rounding. For blocks that rounding cannot decide; it costs a jet a combination.

@@ -1,9 +1,8 @@
 // doubts.hpp: what a scene may say and hardly means. It is computed as it stands, and said.
 //
 //   load on nothing that can move       direction . u = 0 for all u
-//   fall away from all contacts         n . a >= 0 at all of them, a = Z (Z^T M Z)^-1 Z^T P: the free fall of
-//   a
-//                                       part (Z: its motions without stiffness) under the static loads
+//   fall away from all contacts         n . a >= 0 at all of them, a = Z (Z^T M Z)^-1 Z^T P: the free fall
+//                                       of a part (Z: its motions without stiffness) under the static loads
 //   weight that comes at t = 0          a gap of zero, nothing at rest in equilibrium
 //   drag                                alpha M acts on motions without stiffness: v ~ exp(-alpha t)
 //   friction above 2                    an angle, a percentage?

@@ -2,8 +2,7 @@
 //
 //   [x] = force^a length^b time^c,      mass = force time^2 / length
 //
-//   Scene in_millimetres = rescaled(scene, {1.0, 1000.0, 1.0});     // the same motion, all lengths times
-//   1000
+//   Scene in_millimetres = rescaled(scene, {1.0, 1000.0, 1.0});   // the same motion, lengths times 1000
 //
 // Displacements of [matrices] have units of their own, which nobody knows: a factor for lengths must be 1
 // there.

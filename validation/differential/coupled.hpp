@@ -1,9 +1,9 @@
 // coupled.hpp: rigid contacts that move each other: each decision of a run against all that could follow.
 //
-//   at the start and after events      the accelerations under the run's contact forces are those of the only
-//                                      continuation (continuations.hpp)
-//   where the run stops for want of    the motion just before has none, several, or rows that are dependent;
-//   or states                             its condition is above 1e8
+//   at the start and after events   the accelerations under the run's contact forces are those of the
+//                                   only continuation (continuations.hpp)
+//   where the run stops for want    the motion just before has none, several, or rows that are dependent;
+//   of states                       or its condition is above 1e8
 //
 //   const CoupledFinding found = examine_coupled(parse_scene(draw_coupled_scene(7), "coupled.toml"));
 #pragma once

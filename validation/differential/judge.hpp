@@ -2,20 +2,20 @@
 //
 //   exact               the reference; ida at rtol 1e-11 where the friction is not linear (Stribeck)
 //   ida 1e-10, 1e-7     delta = steps rtol: five times what steps spend that are to use a fifth of the
-//   tolerance,
-//                       and all add up; the five is measured, not derived (README.md, limits chosen after
-//                       looking)
+//                       tolerance, and all add up; the five is measured, not derived (README.md, limits
+//                       chosen after looking)
 //   newmark dt, dt/2    against its own difference, which at order 2 is three times the error that is left
 //
 // Verdicts, worst last:
 //   agree               all events of all engines, with states and times as promised
 //   stopped             the same, and all stopped at the same place for the same reason
 //   unresolved          the same up to events that are closer together than 20 of their own uncertainties
-//   ill-conditioned     the same up to where exact runs of neighbouring scenes part, whether this one parts
-//   or not refused             the scene is refused too long            a run was given up, and nothing was
-//   wrong until then undecided           a promise is broken as far as it is known, but the scene's steps
-//   were spent before there
-//                       were enough neighbours, or halvings, to say so
+//   ill-conditioned     the same up to where exact runs of neighbouring scenes part, whether this one
+//                       parts or not
+//   refused             the scene is refused
+//   too long            a run was given up, and nothing was wrong until then
+//   undecided           a promise is broken as far as it is known, but the scene's steps were spent before
+//                       there were enough neighbours, or halvings, to say so
 //   DISAGREE            a promise is broken, or an audit
 #pragma once
 

@@ -2,8 +2,8 @@
 //
 //   gram          factor L L^T of the given rank
 //   normal_form   a sparse form on displacements
-//   tangent_form  more often than not one along which a normal impulse does no work: t . M^-1 n = 0, so that
-//                 Painleve's paradox is rare
+//   tangent_form  more often than not one along which a normal impulse does no work: t . M^-1 n = 0, so
+//                 that Painleve's paradox is rare
 #pragma once
 
 #include <vector>

@@ -1,10 +1,10 @@
 // track.hpp: one run, as far as it is compared with others.
 //
-//   Track t = run(model, spec, {200000, 60.0});        t.events end with the run's own stop, if it stopped
-//   early
+//   Track t = run(model, spec, {200000, 60.0});
 //
-// A stop counts as one more event, of the contact "(run)" and with its reason as type: engines must stop at
-// the same place for the same reason, and that is checked like any event.
+// t.events end with the run's own stop, if it stopped early. A stop counts as one more event, of the contact
+// "(run)" and with its reason as type: engines must stop at the same place for the same reason, and that is
+// checked like any event.
 #pragma once
 
 #include <string>

@@ -1,8 +1,7 @@
 // Published numbers beside ours, in Markdown: printed, closed form, and how far each engine is off it.
 //
-//   build/release/signorini_published                                    # prints the table
-//   build/release/signorini_published validation/published/README.md     # puts it into the page, between its
-//   marks
+//   build/release/signorini_published                                  # prints the table
+//   build/release/signorini_published validation/published/README.md   # ... into the page
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // history_internal.hpp: how exactly a Piece can be evaluated, and how large it gets.
 //
-//   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ ),  s = t
-//   - t0
+//   |computed f(t) - f(t)| <= 64 eps ( sum_j |c_j s^j| + |a| (1 + |w s + phi|) + (|t| + |t0|) |f'|~ )
+//   s = t - t0
 //
 // |f'|~ is the derivative with every term taken positive: times are themselves rounded, so that f is
 // known no better than |f'| eps |t|.

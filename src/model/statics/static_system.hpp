@@ -1,8 +1,8 @@
 // static_system.hpp: the equilibrium of a structure whose closed contacts are known.
 //
 //   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at the holders h
-//   rigid ones: n . u = -g0 by a multiplier N, P - n N; kn is then a stiffness of the structure's own size,
-//   which changes nothing
+//   rigid ones: n . u = -g0 by a multiplier N, P - n N
+//               kn is then a stiffness of the structure's own size, which changes nothing
 #pragma once
 
 #include <vector>

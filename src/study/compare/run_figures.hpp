@@ -1,7 +1,7 @@
 // run_figures.hpp: what a run directory says about its run, for tables of several runs.
 //
-//   RunFigures run = read_run_figures("pipeline-run");   std::vector<LoggedEvent> events =
-//   read_events(run.directory);
+//   RunFigures run = read_run_figures("pipeline-run");
+//   std::vector<LoggedEvent> events = read_events(run.directory);
 //
 // Runs that stopped early, were interrupted or killed have fewer figures: those are absent.
 #pragma once

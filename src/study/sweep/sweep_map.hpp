@@ -1,9 +1,8 @@
 // sweep_map.hpp: a sweep over two keys as maps: the colour of a cell is the figure of its run.
 //
-//   map.csv  x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work     greatest of all contacts; a
-//   cell
-//                                                                             reaches halfway to its
-//                                                                             neighbours
+//   map.csv  x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work
+//
+// Greatest of all contacts; a cell reaches halfway to its neighbours.
 #pragma once
 
 #include <array>

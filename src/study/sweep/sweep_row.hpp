@@ -1,7 +1,7 @@
 // sweep_row.hpp: one run of a sweep, as a row of its table.
 //
-//   SweepRow row = compute_row({.scene = "belt.toml", .changes = {{"run.rtol", "1e-9"}}, .index = 0, .values
-//   = {"1e-9"}});
+//   SweepRow row = compute_row(
+//       {.scene = "belt.toml", .changes = {{"run.rtol", "1e-9"}}, .index = 0, .values = {"1e-9"}});
 //
 // A run that cannot start, or stops early, is a row as well: its outcome and reason say so.
 #pragma once

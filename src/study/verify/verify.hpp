@@ -11,8 +11,7 @@
 //   agree      all of it does, to the end
 //   differ     something does not: which event or quantity, when, by how much
 //   undecided  steps are too coarse, or something is not certain to the end; or the third witness, exact
-//   where it
-//              takes the scene, stands with IDA, so that it is newmark's bar that is too short
+//              where it takes the scene, stands with IDA: it is newmark's bar that is too short
 //
 // Without a dt it is halved from some coarse one until the sequence and the orders have settled, as far as
 // the expected cost allows.

@@ -75,10 +75,10 @@ struct Bracket {
 
 /// Brackets with one mode each, or with several that are as good as equal; ascending.
 std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
-  std::vector<Bracket> todo{all}, done;
-  while (!todo.empty()) {
-    Bracket now = todo.back();
-    todo.pop_back();
+  std::vector<Bracket> unsettled{all}, done;
+  while (!unsettled.empty()) {
+    Bracket now = unsettled.back();
+    unsettled.pop_back();
     if (now.up_to == now.below) continue;
     const bool one = now.up_to - now.below == 1;
     if (!one && now.high - now.low > same_frequency * now.high) {
@@ -86,8 +86,8 @@ std::vector<Bracket> brackets(BandPencil<double>& pencil, Bracket all) {
       const double middle =
           now.high > 4.0 * now.low ? std::sqrt(now.low * now.high) : 0.5 * (now.low + now.high);
       const std::size_t count = std::clamp(pencil.factor(middle), now.below, now.up_to);
-      todo.push_back({middle, now.high, count, now.up_to});
-      todo.push_back({now.low, middle, now.below, count});
+      unsettled.push_back({middle, now.high, count, now.up_to});
+      unsettled.push_back({now.low, middle, now.below, count});
       continue;
     }
     for (int i = 0; one && i < more_halvings; ++i) {

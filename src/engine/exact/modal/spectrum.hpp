@@ -1,8 +1,8 @@
 // spectrum.hpp: eigenvalues and eigenvectors of a diagonal plus a few springs.
 //
 //   A = D + U V^T,   det( 1 + V^T (D - l)^-1 U ) = 0
-//   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1,   (1 + V^T (D - l)^-1 U) c = 0, d
-//   likewise
+//   right  x = (D - l)^-1 U c,   left  y = (D - l)^-1 V d,   y^T x = 1
+//   (1 + V^T (D - l)^-1 U) c = 0,   (1 + U^T (D - l)^-1 V) d = 0
 //
 // D: squares of the open modes' frequencies; U, V: what the springs of closed contacts make of them, not
 // symmetric where a contact slips. All roots are found together (Ehrlich, Aberth). A root is a pole and an
@@ -100,8 +100,8 @@ class Spectrum {
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
   /// What the poles outside a group make of a root near it: G0 = 1 + V^T (D - l)^-1 U without the group, its
   /// slope, and the group's own matrix, which is not singular near its poles:
-  ///   S = D_group - l + U_group G0^-1 V_group^T,   det(A - l) = product of (D_i - l) outside * det G0 * det
-  ///   S
+  ///   S = D_group - l + U_group G0^-1 V_group^T
+  ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
   struct Local {
     SmallMatrix<S> g{}, slope{}, s{};

@@ -179,11 +179,11 @@ bool Spectrum::search(std::vector<S>& offset) {
   std::vector<S> shift(n_);  // D_i - l_i
   for (std::size_t i = 0; i < n_; ++i) shift[i] = -offset[i];
   std::vector<double> last(n_, std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> todo(n_);
-  std::iota(todo.begin(), todo.end(), std::size_t(0));
-  for (sweeps_ = 0; !todo.empty() && sweeps_ < most_sweeps; ++sweeps_) {
+  std::vector<std::size_t> unsettled(n_);
+  std::iota(unsettled.begin(), unsettled.end(), std::size_t(0));
+  for (sweeps_ = 0; !unsettled.empty() && sweeps_ < most_sweeps; ++sweeps_) {
     std::vector<std::size_t> left;
-    for (const std::size_t k : todo) {
+    for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
       // Where two approaches collide they would push each other away by less than they are apart.
       const bool collides =
@@ -209,9 +209,9 @@ bool Spectrum::search(std::vector<S>& offset) {
       if (!settled || home_[k] != before) left.push_back(k);
       last[k] = relative;
     }
-    todo = std::move(left);
+    unsettled = std::move(left);
   }
-  if (todo.empty()) return true;
+  if (unsettled.empty()) return true;
   failure_ = "the search for eigenvalues did not settle";
   return false;
 }

@@ -11,6 +11,8 @@ namespace signorini {
 namespace {
 
 constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 bytes
+constexpr int fewest_unknowns =
+    16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
 bool stands_still(const Piece& piece) {
   return piece.amplitude == 0.0 &&
@@ -38,9 +40,14 @@ std::string objection(const Model& model) {
 }  // namespace
 
 FlowChoice choose_flow(const Model& model, const RunSpec& run) {
-  if (run.flow == Flow::automatic) return {false, "auto: its forces at events are the sharpest"};
   if (run.flow == Flow::taylor) return {false, "as given"};
-  if (const std::string why = objection(model); !why.empty())
+  const std::string why = objection(model);
+  if (run.flow == Flow::automatic) {
+    if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
+    if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
+    return {true, "auto: modes follow all of it"};
+  }
+  if (!why.empty())
     throw SceneError(run.place, "run.flow",
                      fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
   return {true, "as given"};

@@ -3,8 +3,7 @@
 //   taylor   power series of the equations: the cost follows the highest frequency of the mesh
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
-// run.flow = "auto" takes the series: at events its forces are zero to their last digits, those of the modes
-// to some 1e-12 of the greatest force, which a decision may take for a force.
+// run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by it.
 #pragma once
 
 #include <string>

@@ -6,6 +6,7 @@
 //   signorini_differential --transformed exact --from 1 --count 1000      (metamorphic.hpp)
 //   signorini_differential --transformed ida --angles 360 --scales 100 --scene models/rigid-frame.toml
 //   signorini_differential --coupled --from 1 --count 10000               (coupled.hpp)
+//   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -19,6 +20,7 @@
 #include <map>
 
 #include "differential/coupled.hpp"
+#include "differential/flows.hpp"
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
 #include "differential/metamorphic.hpp"
@@ -34,7 +36,7 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false, coupled = false;
+  bool shrink = false, print = false, coupled = false, flows = false;
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
   std::uint64_t seed_of_ways = 1;
@@ -185,8 +187,14 @@ void rewrite(const std::string& name, const std::string& text, const Asked& aske
   settings.engine = asked.engine_of_ways();
   settings.bounds.steps = asked.run_steps;
   settings.bounds.seconds = JudgeSettings{}.seconds;
-  const Scene scene =
+  Scene scene =
       parse_scene(text, asked.scene.empty() ? name + ".toml" : asked.scene, overrides(asked.changes));
+  if (asked.flows) {
+    settings.factor = roundings_of_modes;
+    const std::optional<Scene> suited = for_both_flows(scene);
+    if (!suited) return;
+    scene = *suited;
+  }
   const Metamorphic judge(scene, settings);
   if (!judge.hindrance().empty()) {
     fmt::print("{}: not for this: {}\n", name, judge.hindrance());
@@ -194,8 +202,9 @@ void rewrite(const std::string& name, const std::string& text, const Asked& aske
   }
   ++ways.scenes;
   const bool campaign = asked.angles > 0 || asked.scales > 0;
-  for (const Transformed& other : campaign ? angles_and_scales(scene, asked.angles, asked.scales)
-                                           : transformations(scene, asked.seed_of_ways)) {
+  for (const Transformed& other : asked.flows ? std::vector<Transformed>{in_modes(scene)}
+                                  : campaign  ? angles_and_scales(scene, asked.angles, asked.scales)
+                                              : transformations(scene, asked.seed_of_ways)) {
     const Sameness found = judge.compare(other);
     ++ways.compared;
     ways.events += found.events;
@@ -281,6 +290,9 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
          "--coupled", asked.coupled,
          "draw rigid contacts that move each other, and hold each decision against all that could follow")
       ->excludes("--transformed");
+  app.add_flag("--flows", asked.flows,
+               "change each scene to what modes follow, and run it with both flows of exact")
+      ->excludes("--transformed");
   app.add_option("--ways", asked.seed_of_ways, "seed of angles, orders and scales");
   app.parse(argc, argv);
   if (*one) {
@@ -307,7 +319,7 @@ int main(int argc, char** argv) {
   const auto look_at = [&](const std::string& name, const std::string& text) {
     if (asked.coupled)
       look_at_decisions(name, text, decisions);
-    else if (asked.transformed.empty())
+    else if (asked.transformed.empty() && !asked.flows)
       examine(name, text, asked, tally);
     else
       rewrite(name, text, asked, ways);
@@ -315,7 +327,7 @@ int main(int argc, char** argv) {
   const auto finish = [&] {
     if (asked.coupled)
       decisions.print();
-    else if (!asked.transformed.empty())
+    else if (!asked.transformed.empty() || asked.flows)
       ways.print();
     else if (asked.scene.empty())
       tally.print();

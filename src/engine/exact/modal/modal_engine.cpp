@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/rounding.hpp"
 #include "motion/clock.hpp"
 #include "motion/equilibrium.hpp"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t most_parts = 256;  // of a step: each holds the amplitudes of all modes
 constexpr int most_touches = 5;          // warnings about one and the same thing
+constexpr int most_corrections = 4;      // of the time of a fall; one is enough but where two guards graze
 
 }  // namespace
 
@@ -56,14 +58,29 @@ void ModalEngine::set_forces(const Segment& segment) {
   }
 }
 
+void ModalEngine::say_fallback(double t, const std::string& why) {
+  if (fallbacks_++ > 0) return;
+  warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
+                                 t * model_.unit.time, why));
+}
+
+/// The series takes over within a segment: from its beginning, past what has been told already.
+Step ModalEngine::give_way() {
+  say_fallback(t_, "a guard stays too near to zero for what modes can prove");
+  modal_ = false;
+  taylor_.start(segment_);
+  Step step = taylor_.advance();
+  while (step.kind == Step::Kind::accepted && step.end <= t_) step = taylor_.advance();
+  step.begin = std::max(step.begin, t_);
+  return step;
+}
+
 void ModalEngine::start(const Segment& segment) {
   const std::string why = obstacle(segment);
   const bool followed = modal_;
   modal_ = why.empty();
   if (!modal_) {
-    if (fallbacks_++ == 0)
-      warnings.push_back(fmt::format("the flow in modes gave way to the Taylor series at t = {:.6g}: {}",
-                                     segment.decision->jet.t * model_.unit.time, why));
+    say_fallback(segment.decision->jet.t, why);
     taylor_.start(segment);
     return;
   }
@@ -118,6 +135,41 @@ void ModalEngine::find_turns(const ModalPoint& from, double begin, double length
   }
 }
 
+/// How far off the fall of a guard lies by the u, v and forces that the decision will see, and how far off
+/// the rounding of the modes may put it.
+ModalEngine::Fall ModalEngine::fall_of(std::size_t slot, const Point& point) const {
+  const std::size_t c = contact_of_guard(slot);
+  const Form& guard = segment_.decision->guards[slot].form;
+  const ContactMotion now =
+      motion_of(model_.contacts[c], c, *segment_.forcing, segment_.decision->jet.t, point);
+  const ForceLaw law = proof_.law(c);
+  ContactMotion rate;
+  rate.N = law.N_gap * now.vn;
+  rate.T = law.T_gap * now.vn + law.T_ut * now.vt;
+  rate.gap = now.vn;
+  rate.ut = now.vt;
+  rate.vn = now.an;
+  rate.vt = now.at;
+  const double slope = guard.rate(rate);
+  if (!(slope < 0.0)) return {};
+  return {-guard.value(now) / slope, -rounding::of_many * proof_.magnitude(slot, now_) / slope};
+}
+
+/// The end of the last part moves to where the guard falls in u, v and the forces that they make: in modes it
+/// is zero to the rounding of the modes, which is more than the decision allows. Returns how sharp that is.
+double ModalEngine::sharpen(std::size_t slot) {
+  Part& part = parts_.back();
+  for (int i = 0;; ++i) {
+    t_ = part.begin + part.length;
+    fill(now_, end_);
+    const Fall fall = fall_of(slot, end_);
+    const bool sharp = std::abs(fall.off) <= std::max(0.25 * resolution_at(t_, 0.0), fall.blur);
+    if (i == most_corrections || sharp) return fall.blur;
+    part.length = std::max(0.0, part.length + fall.off);
+    oscillators_.advance(part.at, forces_, part.length, now_);
+  }
+}
+
 Step ModalEngine::advance() {
   if (!modal_) return taylor_.advance();
   Step step;
@@ -135,11 +187,12 @@ Step ModalEngine::advance() {
         !passage.fired && (end >= segment_.end || segment_.end - end <= resolution_at(end, 0.0));
     if (last) end = segment_.end;
     const bool stuck = !passage.fired && !last && !(passage.length > 0.01 * resolution_at(t_, 0.0));
-    if (stuck || !std::isfinite(passage.length)) {
+    if (stuck && parts_.empty()) return give_way();
+    if (stuck) break;
+    if (!std::isfinite(passage.length)) {
       step.kind = Step::Kind::failed;
       step.end = t_;
-      step.reason = std::isfinite(passage.length) ? "the step has fallen below the resolution of time"
-                                                  : "the motion overflows";
+      step.reason = "the motion overflows";
       return step;
     }
     see_touches(passage, t_);
@@ -150,6 +203,7 @@ Step ModalEngine::advance() {
     now_ = std::move(next);
     t_ = end;
     if (passage.fired) {
+      step.resolution = sharpen(*passage.fired);
       step.kind = Step::Kind::event;
       step.fired = {{contact_of_guard(*passage.fired), segment_.decision->guards[*passage.fired].kind}};
       break;
@@ -161,8 +215,8 @@ Step ModalEngine::advance() {
   for (const auto& [kind, time] : last_turns_) turns_.push_back(time);
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
-  step.resolution = resolution_at(t_, parts_.back().length);
-  fill(now_, end_);
+  step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
+  if (step.kind != Step::Kind::event) fill(now_, end_);
   return step;
 }
 
@@ -192,10 +246,13 @@ void ModalEngine::fill(const ModalPoint& z, Point& point) {
   point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const ForceLaw law = proof_.law(c);
-    const Shown shown = proof_.shown(c, z);
+    const Contact& contact = model_.contacts[c];
+    const double gap = contact.gap_at(point.u);
+    const double ut =
+        contact.tangent.dot(point.u) - segment_.forcing->surface(c, segment_.decision->jet.t, 0);
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    point.forces[row] = law.N_gap * shown.gap + law.N_constant;
-    point.forces[row + 1] = law.T_gap * shown.gap + law.T_ut * shown.ut + law.T_constant;
+    point.forces[row] = law.N_gap * gap + law.N_constant;
+    point.forces[row + 1] = law.T_gap * gap + law.T_ut * ut + law.T_constant;
   }
   if (&point == &end_) {
     q_ = std::move(q);

@@ -37,11 +37,18 @@ class ModalEngine final : public Stepper {
     double begin = 0.0, length = 0.0;
     ModalPoint at;
   };
+  void say_fallback(double t, const std::string& why);
+  [[nodiscard]] Step give_way();
   [[nodiscard]] std::string obstacle(const Segment& segment);
   void set_forces(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   void fill(const ModalPoint& z, Point& point);
   void find_turns(const ModalPoint& from, double begin, double length);
+  struct Fall {
+    double off = 0.0, blur = 0.0;  // times
+  };
+  [[nodiscard]] Fall fall_of(std::size_t slot, const Point& point) const;
+  [[nodiscard]] double sharpen(std::size_t slot);
   void see_touches(const Passage& passage, double begin);
 
   const Model& model_;

@@ -107,6 +107,13 @@ double ModalProof::value(const Watched& guard, const ModalPoint& at) const {
   return guard.constant + sum_of(guard.place, at.z) + sum_of(guard.rate, at.rate);
 }
 
+double ModalProof::magnitude(std::size_t slot, const ModalPoint& at) const {
+  const auto guard =
+      std::find_if(guards_.begin(), guards_.end(), [&](const Watched& w) { return w.slot == slot; });
+  if (guard == guards_.end()) return 0.0;
+  return std::abs(guard->constant) + size_of_sum(guard->place, at.z) + size_of_sum(guard->rate, at.rate);
+}
+
 /// Of the guard's leading order.
 double ModalProof::derivative(const Watched& guard, const ModalPoint& at) const {
   const std::size_t order = arming_.leading(guard.slot);
@@ -289,8 +296,9 @@ double ModalProof::only_fall(const Watched& guard, const ModalPoint& at, double 
   return x;
 }
 
-/// event: the place of the first fall so far; limit: the place up to which nothing falls.
-void ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+/// event: the place of the first fall so far; limit: the place up to which nothing falls. False: what the
+/// guard's derivatives at the start said is doubted from now on.
+bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                         double& event) {
   std::vector<double> p;
   double slack = 0.0;
@@ -315,35 +323,35 @@ void ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& pas
     q[0] -= std::min(guard.ripple + rounding::of_many * scale, 0.5 * q[0]);
     if (!(q[0] > 0.0)) {
       arming_.doubt(guard.slot);
-      limit = 0.0;
-      return;
+      return false;
     }
     const FirstFall fall = first_fall(q.data(), q.size() - 1, 0.0);
     if (fall.kind == FirstFall::Kind::fall) limit = std::min(limit, 0.9 * fall.x);
-    return;
+    return true;
   }
   if (unknown(guard)) {
     p[0] += guard.noise + slack;
     const FirstFall fall = first_fall(p.data(), degree_, 0.0);
     if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
-    return;
+    return true;
   }
   if (all_slow) {
     const FirstFall fall = first_fall(p.data(), degree_, slack);
     if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
     if (fall.kind == FirstFall::Kind::touch) passage.touches.push_back(guard.slot);
-    return;
+    return true;
   }
   const double off = slack + guard.ripple, start = p[0];
   p[0] = start - 2.0 * off;
   const FirstFall doubtful = first_fall(p.data(), degree_, 0.0);
-  if (doubtful.kind != FirstFall::Kind::fall || doubtful.x >= event) return;
+  if (doubtful.kind != FirstFall::Kind::fall || doubtful.x >= event) return true;
   p[0] = start + off;
   const FirstFall certain = first_fall(p.data(), degree_, 0.0);
   if (certain.kind == FirstFall::Kind::fall && decreases(guard, p, doubtful.x, certain.x))
     fires(only_fall(guard, at, doubtful.x, certain.x));
   else
     limit = std::min(limit, doubtful.x);
+  return true;
 }
 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {
@@ -355,8 +363,12 @@ Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   expand(at);
   Passage passage;
   double limit = 1.0, event = 2.0;
-  for (const Watched& guard : guards_) settle(guard, at, passage, limit, event);
-  if (limit == 0.0) return pass(at, remaining);
+  bool doubted = false;
+  for (const Watched& guard : guards_) doubted = !settle(guard, at, passage, limit, event) || doubted;
+  if (doubted || (limit == 0.0 && !full_)) {  // else a guard is too near to zero for any ripple
+    full_ = full_ || !doubted;
+    return pass(at, remaining);
+  }
   if (limit < event) passage.fired.reset();
   const double x = std::min(limit, event > 1.0 ? 1.0 : event);
   full_ = !passage.fired && x < 1e-3;

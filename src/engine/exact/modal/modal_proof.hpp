@@ -45,6 +45,8 @@ class ModalProof {
   [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
   /// After a passage without event: which guards are armed now.
   void rearm(const ModalPoint& at);
+  /// Sum of the magnitudes of a guard's terms.
+  [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
   [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
   /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact leave what they
@@ -90,7 +92,8 @@ class ModalProof {
   [[nodiscard]] bool decreases(const Watched& guard, const std::vector<double>& p, double from,
                                double to) const;
   [[nodiscard]] double only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const;
-  void settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit, double& event);
+  [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                            double& event);
   /// It starts at zero, and its leading derivative is watched; or nothing is known of it.
   [[nodiscard]] bool leaves(const Watched& guard) const { return arming_.leading(guard.slot) > 0; }
   [[nodiscard]] bool unknown(const Watched& guard) const {

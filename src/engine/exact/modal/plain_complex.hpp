@@ -28,12 +28,14 @@ struct Complex {
 };
 
 [[nodiscard]] inline double inverse(double a) { return 1.0 / a; }
+[[nodiscard]] inline long double inverse(long double a) { return 1.0L / a; }
 [[nodiscard]] inline Complex inverse(Complex a) {
   const double factor = 1.0 / (a.re * a.re + a.im * a.im);
   return {a.re * factor, -a.im * factor};
 }
 [[nodiscard]] inline Complex operator/(Complex a, Complex b) { return a * inverse(b); }
 [[nodiscard]] inline double size_of(double a) { return std::abs(a); }
+[[nodiscard]] inline long double size_of(long double a) { return std::abs(a); }
 [[nodiscard]] inline double size_of(Complex a) { return std::hypot(a.re, a.im); }
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }

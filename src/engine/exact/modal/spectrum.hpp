@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +88,7 @@ class Spectrum {
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
 
  private:
+  using Wide = long double;  // for real roots and their vectors
   template <class S>
   bool search(std::vector<S>& offset);
   template <class S>
@@ -108,11 +110,18 @@ class Spectrum {
     std::size_t first = 0, count = 0;
   };
   template <class S>
+  S gather(std::size_t home, S own, Local<S>& local) const;
+  template <class S>
+  std::optional<S> trace(std::size_t home, S own, Local<S>& local) const;
+  [[nodiscard]] Wide polished(std::size_t home, Wide own) const;
+  template <class S>
   void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
   template <class S>
   void settle_home(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
+  template <class S, class W>
+  void keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c, const SmallVector<W>& d);
   template <class S>
   void project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const;
   void project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;

@@ -100,26 +100,17 @@ void Spectrum::group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local
   }
 }
 
+/// G0, its slope and sum 1/(l - D_i) over the poles outside the group of `home`, which is returned.
 template <class S>
-typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::vector<S>& offset,
-                                                      const std::vector<S>& shift) const {
-  const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-  Local<S> local;
+S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
-  const std::size_t home = home_[k], squares = rank_ * rank_;
   local.first = group_begin_[home];
   local.count = group_end_[home] - local.first;
-  const double base = poles_.base[home], tiny = poles_.tiny[home];
-  const S own = offset[k];
-  S poles{}, sum{};
+  const std::size_t squares = rank_ * rank_;
+  S poles{};
   for (std::size_t i = 0; i < n_; ++i) {
-    const S f = (own - offset[i]) + ((base - poles_.base[home_[i]]) + (tiny - poles_.tiny[home_[i]]));
-    if (i >= local.first && i < local.first + local.count) {
-      if (i != k && size_of(f) > 0.0) sum -= inverse(f);
-      continue;
-    }
-    const S one = inverse(own + ((base - poles_.base[i]) + (tiny - poles_.tiny[i])));  // 1 / (l - D_i)
-    const S two = one * one;
+    if (i >= local.first && i < local.first + local.count) continue;
+    const S one = inverse(own - S(poles_.between(i, home))), two = one * one;  // 1 / (l - D_i)
     const double* term = terms_.data() + i * squares;
     for (std::size_t a = 0; a < rank_; ++a)
       for (std::size_t b = 0; b < rank_; ++b) {
@@ -128,13 +119,16 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
         local.slope[a][b] += two * w;
       }
     poles += one;
-    if (i == k)
-      sum += one;
-    else if (size_of(f) > 0.0)  // 1/(l - D_i) - 1/(l - l_i), whose terms nearly cancel
-      sum += shift[i] * one * inverse(f);
   }
+  return poles;
+}
+
+/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nothing where a matrix is singular.
+template <class S>
+std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
+  const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
   const SmallLu<S> lu(local.g, rank_);
-  if (lu.singular()) return {S(0.0), S(0.0)};
+  if (lu.singular()) return std::nullopt;
   group_matrix(lu, own, home, local);
   // S' = -1 - U G0^-1 G0' G0^-1 V^T
   SmallMatrix<S> change{};
@@ -152,9 +146,44 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
     }
   }
   const SmallLu<S> group(local.s, local.count);
-  if (group.singular()) return {S(0.0), S(0.0)};
-  const S trace = lu.trace_of_solution(local.slope) + group.trace_of_solution(change);
-  return {inverse(poles + trace), inverse(sum + trace)};
+  if (group.singular()) return std::nullopt;
+  return lu.trace_of_solution(local.slope) + group.trace_of_solution(change);
+}
+
+template <class S>
+typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::vector<S>& offset,
+                                                      const std::vector<S>& shift) const {
+  Local<S> local;
+  const std::size_t home = home_[k];
+  const S own = offset[k];
+  const S poles = gather(home, own, local);
+  const std::optional<S> slope = trace(home, own, local);
+  if (!slope) return {S(0.0), S(0.0)};
+  S sum{};
+  for (std::size_t i = 0; i < n_; ++i) {
+    const S f = (own - offset[i]) + poles_.between(home, home_[i]);
+    const bool apart = size_of(f) > 0.0;
+    if (i >= local.first && i < local.first + local.count) {
+      if (i != k && apart) sum -= inverse(f);
+      continue;
+    }
+    const S one = inverse(own + poles_.between(home, i));
+    if (i == k)
+      sum += one;
+    else if (apart)  // 1/(l - D_i) - 1/(l - l_i), whose terms nearly cancel
+      sum += shift[i] * one * inverse(f);
+  }
+  return {inverse(poles + *slope), inverse(sum + *slope)};
+}
+
+/// One of Newton's steps, in extended precision: what is lost to close roots is won back.
+Spectrum::Wide Spectrum::polished(std::size_t home, Wide own) const {
+  Local<Wide> local;
+  const Wide poles = gather(home, own, local);
+  const std::optional<Wide> slope = trace(home, own, local);
+  if (!slope) return own;
+  const Wide next = own - inverse(poles + *slope);
+  return size_of(next - own) <= nearly * size_of(own) ? next : own;
 }
 
 /// To the nearest pole.
@@ -255,7 +284,10 @@ bool Spectrum::part_kinds(const std::vector<Complex>& offset) {
 
 template bool Spectrum::search(std::vector<double>&);
 template bool Spectrum::search(std::vector<Complex>&);
-template void Spectrum::group_matrix(const SmallLu<double>&, double, std::size_t, Local<double>&) const;
+template double Spectrum::gather(std::size_t, double, Local<double>&) const;
+template Complex Spectrum::gather(std::size_t, Complex, Local<Complex>&) const;
+template Spectrum::Wide Spectrum::gather(std::size_t, Wide, Local<Wide>&) const;
+template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
 
 }  // namespace signorini

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace signorini {
 namespace {
@@ -12,28 +14,24 @@ constexpr std::size_t most_neighbours = 6;
 
 }  // namespace
 
+/// Null vectors of the small matrices, for real roots in extended precision: where roots lie close to each
+/// other double loses up to five digits of them.
 template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
-  const std::size_t squares = rank_ * rank_;
+  constexpr bool is_real = std::is_same_v<S, double>;
+  using W = std::conditional_t<is_real, Wide, S>;
   for (std::size_t k = 0; k < roots.size(); ++k) {
     const std::size_t home = roots.home[k];
-    const S own = roots.offset[k];
-    roots.value.push_back(own + (poles_.base[home] + poles_.tiny[home]));
-    Local<S> local;
-    local.first = group_begin_[home];
-    local.count = group_end_[home] - local.first;
-    for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (i >= local.first && i < local.first + local.count) continue;
-      const S one = inverse(S(poles_.between(i, home)) - own);
-      const double* term = terms_.data() + i * squares;
-      for (std::size_t a = 0; a < rank_; ++a)
-        for (std::size_t b = 0; b < rank_; ++b) local.g[a][b] += one * *term++;
-    }
-    const SmallLu<S> lu(local.g, rank_);
+    W own = roots.offset[k];
+    if constexpr (is_real) own = polished(home, own);
+    roots.offset[k] = static_cast<S>(own);
+    roots.value.push_back(roots.offset[k] + (poles_.base[home] + poles_.tiny[home]));
+    Local<W> local;
+    (void)gather(home, own, local);
+    const SmallLu<W> lu(local.g, rank_);
     group_matrix(lu, own, home, local);
-    SmallVector<S> right{}, left{}, c{}, d{};  // of the group, and what they are outside
-    SmallLu<S>(local.s, local.count).null_vectors(right, left);
+    SmallVector<W> right{}, left{}, c{}, d{};  // of the group, and what they are outside
+    SmallLu<W>(local.s, local.count).null_vectors(right, left);
     for (std::size_t j = 0; j < local.count; ++j)
       for (std::size_t a = 0; a < rank_; ++a) {
         const auto row = static_cast<Eigen::Index>(local.first + j), column = static_cast<Eigen::Index>(a);
@@ -42,27 +40,34 @@ void Spectrum::find_vectors(Roots<S>& roots) {
       }
     c = lu.solve(c);
     d = lu.solve_transposed(d);
-    double x_size = 0.0, y_size = 0.0;
-    S product{};
-    for (std::size_t i = 0; i < n_; ++i) {
-      const S one = inverse(S(poles_.between(i, home)) - own);
-      S x{}, y{};
-      for (std::size_t a = 0; a < rank_; ++a) {
-        x += c[a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-        y += d[a] * v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-      }
-      x *= one;
-      y *= one;
-      x_size = std::hypot(x_size, size_of(x));
-      y_size = std::hypot(y_size, size_of(y));
-      product += x * y;
-    }
-    condition_ = std::max(condition_, x_size * y_size / size_of(product));
-    const S to_right = S(1.0 / x_size), to_left = inverse(product) * x_size;
+    keep_vectors(roots, k, own, c, d);
+  }
+}
+
+/// Scaled to |x| = 1 and y^T x = 1.
+template <class S, class W>
+void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c,
+                            const SmallVector<W>& d) {
+  double x_size = 0.0, y_size = 0.0;
+  W product{};
+  for (std::size_t i = 0; i < n_; ++i) {
+    const W one = inverse(W(poles_.between(i, roots.home[k])) - own);
+    W x{}, y{};
     for (std::size_t a = 0; a < rank_; ++a) {
-      roots.right.push_back(c[a] * to_right);
-      roots.left.push_back(d[a] * to_left);
+      x += c[a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+      y += d[a] * v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
     }
+    x *= one;
+    y *= one;
+    x_size = std::hypot(x_size, static_cast<double>(size_of(x)));
+    y_size = std::hypot(y_size, static_cast<double>(size_of(y)));
+    product += x * y;
+  }
+  condition_ = std::max(condition_, x_size * y_size / static_cast<double>(size_of(product)));
+  const W to_right = W(1.0 / x_size), to_left = inverse(product) * x_size;
+  for (std::size_t a = 0; a < rank_; ++a) {
+    roots.right.push_back(static_cast<S>(c[a] * to_right));
+    roots.left.push_back(static_cast<S>(d[a] * to_left));
   }
 }
 
@@ -95,9 +100,11 @@ void Spectrum::part_close_roots() {
 
 /// x^T x, of which the pole nearest to the root makes most.
 void Spectrum::find_squares() {
+  double worst = 1.0;
   const auto square = [&](const auto& roots, std::size_t k) {
     using S = typename std::decay_t<decltype(roots.offset)>::value_type;
     S sum{};
+    double beside = 1.0;  // |x|, of which the unseen modes may have most: they are nearly parallel then
     for (std::size_t i = 0; i < n_; ++i) {
       S entry{};
       for (std::size_t a = 0; a < rank_; ++a)
@@ -108,7 +115,10 @@ void Spectrum::find_squares() {
     for (std::size_t j = 0; j < unseen_.size(); ++j) {
       const S entry = moved(roots, k, j, unseen_poles_[j]);
       sum += entry * entry;
+      beside = std::hypot(beside, size_of(entry));
     }
+    // Its left vector is as long as the condition says, of the seen part alone.
+    worst = std::max(worst, std::isfinite(beside) ? beside : std::numeric_limits<double>::infinity());
     return sum;
   };
   for (const std::size_t k : order_) {
@@ -118,6 +128,7 @@ void Spectrum::find_squares() {
     value_offset_.push_back(seen ? real_.offset[k] + poles_.tiny[real_.home[k]] : 0.0);
   }
   for (std::size_t k = 0; k < pairs_.size(); ++k) pair_squares_.push_back(square(pairs_, k));
+  condition_ *= worst;
 }
 
 double Spectrum::product(std::size_t k, std::size_t l, const std::vector<double>& c,

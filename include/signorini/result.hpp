@@ -5,6 +5,7 @@
 // A Recorder receives rows as they come; Result is the Recorder that keeps them in memory.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,19 @@ struct Energy {
   [[nodiscard]] double balance() const { return stored() + damping + friction + impact - loads - surface; }
 };
 
+/// The energies by name; `balance` follows from them.
+struct EnergyColumn {
+  const char* name;
+  double Energy::*value;
+};
+inline constexpr std::array energy_columns = {
+    EnergyColumn{"kinetic", &Energy::kinetic},   EnergyColumn{"elastic", &Energy::elastic},
+    EnergyColumn{"contact", &Energy::contact},   EnergyColumn{"damping", &Energy::damping},
+    EnergyColumn{"friction", &Energy::friction}, EnergyColumn{"impact", &Energy::impact},
+    EnergyColumn{"loads", &Energy::loads},       EnergyColumn{"surface", &Energy::surface},
+};
+inline constexpr const char* balance_column = "balance";
+
 /// The state at an output time. u, v: of the physical degrees of freedom.
 struct Sample {
   double t = 0.0;
@@ -48,6 +62,12 @@ struct MotionRow {
   ContactSample sample;
 };
 
+/// curves.csv: displacements and energies as a picture needs them.
+struct Curves {
+  std::vector<std::string> names;         ///< "t" first
+  std::vector<std::vector<double>> rows;  ///< a value a name; t ascends, and may repeat
+};
+
 class Recorder {
  public:
   virtual ~Recorder() = default;
@@ -55,10 +75,12 @@ class Recorder {
   virtual void sample(const Sample& sample) = 0;
   /// At the times of RunSpec::frames: a deformed shape.
   virtual void frame(const Sample& /*sample*/) {}
-  /// Whether `motion` is of use: it costs a little.
+  /// Whether `motion` and `curves` are of use: they cost a little.
   [[nodiscard]] virtual bool wants_motion() const { return false; }
   /// At the end of a run, once a contact: its motion as a picture needs it (run/motion_record.hpp).
   virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
+  /// At the end of a run, once: the rest of what a picture needs (run/curve_record.hpp).
+  virtual void curves(const Curves& /*curves*/) {}
   /// Called often with the time reached; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };

@@ -45,6 +45,9 @@ class Tracker : public Recorder {
   void frame(const Sample& sample) override;
   [[nodiscard]] bool wants_motion() const override { return next_ != nullptr && next_->wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
+  void curves(const Curves& curves) override {
+    if (next_ != nullptr) next_->curves(curves);
+  }
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;

@@ -31,6 +31,7 @@ class Live : public Recorder {
   void frame(const Sample& sample) override { next_.frame(sample); }
   [[nodiscard]] bool wants_motion() const override { return next_.wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override { next_.motion(contact, rows); }
+  void curves(const Curves& curves) override { next_.curves(curves); }
   bool progress(double t) override;
 
   /// At most this many are shown in full; of more, the first and the last ones.

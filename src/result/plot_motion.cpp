@@ -11,7 +11,7 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
+constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name; curves.csv has them
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
@@ -69,10 +69,11 @@ std::string displacement_script(const PlottedRun& run) {
     std::vector<std::string> elements;
     for (std::size_t j = 0; j < shown; ++j) {
       const std::string& name = run.columns[p.columns[j]];
+      const TableColumn curve = curve_of(run, "history.csv", name, p.columns[j] + 1);
       elements.push_back(fmt::format(
-          "'../history.csv' skip 1{} using 1:{} with lines linewidth {} {} title {}", every(run, 1, 0),
+          "{} using 1:{} with lines linewidth {} {} title {}", curve.data,
           // Curves that coincide show through: every other one is thinner and dashed, on top.
-          p.columns[j] + 1, j % 2 == 0 ? "1.9" : "1.2", colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
+          curve.number, j % 2 == 0 ? "1.9" : "1.2", colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
           quoted(name.substr(0, name.size() - p.suffix.size()))));
     }
     if (shown < p.columns.size()) {
@@ -96,22 +97,23 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
       {"work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
   }};
   const std::string unit = run.facts.units.force + " " + run.facts.units.length;
-  const std::string data = "'../energy.csv' skip 1" + every(run, 1, 0);
   std::string s = begin_script(run, {"energy", "Where the energy is, where it went, and the balance", 760});
   s += panel(run, 0.34, 0.915, "energy [" + unit + "]", false);
   std::vector<std::string> elements;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!used[i + 1]) continue;
-    elements.push_back(fmt::format("{} using 1:{} with lines {} title {}", data, i + 2, parts[i].second,
-                                   quoted(parts[i].first)));
+    const TableColumn curve = curve_of(run, "energy.csv", energy_columns[i].name, i + 2);
+    elements.push_back(fmt::format("{} using 1:{} with lines {} title {}", curve.data, curve.number,
+                                   parts[i].second, quoted(parts[i].first)));
   }
-  if (elements.empty()) elements.push_back(data + " using 1:2 with lines title 'kinetic'");
+  const TableColumn balance = curve_of(run, "energy.csv", balance_column, 10);
+  if (elements.empty()) elements.push_back(balance.data + " using 1:(0) with lines title 'kinetic'");
   s += plot_command(elements);
   s += panel(run, 0.08, 0.305, "balance off by [" + unit + "]", true);
   s += "set format y '%.1e'\n";
   s +=
-      plot_command({fmt::format("{} using 1:($10-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
-                                data, shortest(start), quoted("drift"))});
+      plot_command({fmt::format("{} using 1:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
+                                balance.data, balance.number, shortest(start), quoted("drift"))});
   s += "set format y '%g'\n";
   return s + end_script();
 }

@@ -47,6 +47,14 @@ std::string contact_rows(const PlottedRun& run, std::size_t k) {
   return "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
 }
 
+TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
+                     std::size_t number) {
+  const auto found = std::find(run.curves.begin(), run.curves.end(), name);
+  if (found != run.curves.end())
+    return {"'../curves.csv' skip 1", static_cast<std::size_t>(found - run.curves.begin()) + 1};
+  return {quoted("../" + table) + " skip 1" + every(run, 1, 0), number};
+}
+
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
   std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";

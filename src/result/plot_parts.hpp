@@ -37,6 +37,7 @@ struct PlottedRun {
     std::size_t first = 0, count = 0;
   };
   std::vector<Rows> motion;
+  std::vector<std::string> curves;  ///< columns of curves.csv; none in runs that have no such table
 };
 
 /// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
@@ -52,6 +53,15 @@ inline constexpr int picture_width = 1120;
 
 /// The rows of a contact: of motion.csv, else of contacts.csv; both have the same columns.
 [[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k);
+
+/// A table for gnuplot, and the number of one of its columns, from 1.
+struct TableColumn {
+  std::string data;
+  std::size_t number = 0;
+};
+/// A column by name: of curves.csv where it has it, else of `table`, where it is the number-th.
+[[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
+                                   std::size_t number);
 
 /// Size and headings of a picture.
 struct Picture {

@@ -142,12 +142,20 @@ std::string band_table(const std::vector<PlottedRun::Band>& bands) {
 
 std::string energy_script_of(const fs::path& directory, PlottedRun run) {
   CsvReader energy(directory / "energy.csv");
-  std::vector<bool> used(energy.header().size(), false);
+  std::vector<bool> used(energy_columns.size() + 1, false);  // as columns of energy.csv
+  const auto look = [&](const CsvReader& reader) {
+    for (std::size_t i = 0; i < energy_columns.size(); ++i)
+      used[i + 1] = used[i + 1] || reader.number(reader.column(energy_columns[i].name)) != 0.0;
+  };
   double start = 0.0;
   run.times = 0;
   for (; energy.next(); ++run.times) {
-    for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || energy.number(i) != 0.0;
-    if (run.times == 0) start = energy.number(energy.column("balance"));
+    look(energy);
+    if (run.times == 0) start = energy.number(energy.column(balance_column));
+  }
+  if (!run.curves.empty()) {
+    CsvReader curves(directory / "curves.csv");
+    while (curves.next()) look(curves);
   }
   return energy_script(run, used, start);
 }
@@ -211,6 +219,9 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
                                  shortest(window.to.value_or(run.t_last))));
   run.slugs = make_slugs(run.facts.contacts);
   read_bands(directory, run);
+  std::error_code missing;
+  if (fs::is_regular_file(directory / "curves.csv", missing))
+    run.curves = CsvReader(directory / "curves.csv").header();
   run.from = window.from.value_or(run.t_first);
   run.to = window.to.value_or(run.t_last);
   const bool closer = !window.from && !window.to && zoom_helps(run);

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 11> run_files = {
-    "events.csv", "history.csv", "errors.csv",         "contacts.csv", "motion.csv", "loads.csv",
-    "energy.csv", "frames.csv",  "frame_contacts.csv", "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 12> run_files = {
+    "events.csv", "history.csv", "errors.csv", "contacts.csv",       "motion.csv",   "curves.csv",
+    "loads.csv",  "energy.csv",  "frames.csv", "frame_contacts.csv", "summary.json", "run.toml"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -153,6 +153,19 @@ void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
   Writers& w = writers();
   if (!w.motion) w.motion = std::make_unique<ContactWriter>(path_ / "motion.csv", model_);
   w.motion->write(contact, rows);
+}
+
+void RunDirectory::curves(const Curves& curves) {
+  writers();
+  CsvFile file(path_ / "curves.csv");
+  CsvBlock block;
+  for (const std::string& name : curves.names) block.text(name);
+  block.end_row();
+  for (const std::vector<double>& row : curves.rows) {
+    for (const double value : row) block.number(value);
+    block.end_row();
+  }
+  file.write(block);
 }
 
 bool RunDirectory::progress(double /*t*/) {

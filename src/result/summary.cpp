@@ -10,7 +10,6 @@
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
 #include "result/certificate_json.hpp"
-#include "result/energy_columns.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
 #include "signorini/error.hpp"

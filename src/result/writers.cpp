@@ -2,8 +2,6 @@
 
 #include <variant>
 
-#include "result/energy_columns.hpp"
-
 namespace signorini {
 
 EventWriter::EventWriter(const std::filesystem::path& path, const Model& model) : model_(model), file_(path) {

@@ -4,7 +4,7 @@
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
 //   motion.csv    the same, contact by contact
 //   history.csv   t, then the model's columns
-//   energy.csv    t, the columns of result/energy_columns.hpp, balance
+//   energy.csv    t, the columns of signorini/result.hpp, balance
 //
 // Each writer writes its header when it is made and keeps a reference to the model. Errors: FileError.
 #pragma once

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "contact/conditions.hpp"
 #include "contact/work.hpp"
@@ -150,6 +151,16 @@ Energy Auditor::energy(double t, const Mode& mode, const Point& point) {
       std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});
   audit_.energy_scale = std::max(begun_ ? audit_.energy_scale : 0.0, exchanged);
   if (begun_) raise(audit_.energy, std::abs(e.balance() - audit_.initial.balance()), t);
+  return e;
+}
+
+Energy Auditor::energy_before(const Works& works, const Mode& mode, const Point& point) const {
+  Energy e = stored(mode, point);
+  e.impact = work_.impact;
+  e.loads = work_.loads - works.loads;
+  e.damping = work_.damping - works.damping;
+  e.friction = work_.friction - std::accumulate(works.friction.begin(), works.friction.end(), 0.0);
+  e.surface = work_.surface - std::accumulate(works.surface.begin(), works.surface.end(), 0.0);
   return e;
 }
 

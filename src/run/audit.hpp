@@ -29,6 +29,8 @@ class Auditor {
                bool load_jumps);
   /// Energies now; also audits the balance.
   Energy energy(double t, const Mode& mode, const Point& point);
+  /// Energies at a point before these works, which have been added; audits nothing.
+  [[nodiscard]] Energy energy_before(const Works& works, const Mode& mode, const Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
                                      const ContactState& state, const Point& point) const;
 

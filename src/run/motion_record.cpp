@@ -1,9 +1,11 @@
 #include "run/motion_record.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <utility>
 
 #include "model/assembly/parts.hpp"
+#include "run/thinned.hpp"
 
 namespace signorini {
 namespace {
@@ -94,29 +96,9 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
 }
 
 void MotionRecord::thin(Track& track) const {
-  std::vector<MotionRow>& rows = track.rows;
-  std::vector<MotionRow> kept;
-  for (std::size_t begin = 0; begin < rows.size();) {
-    const double bin = std::floor(rows[begin].t / track.width);
-    std::size_t end = begin;
-    while (end < rows.size() && std::floor(rows[end].t / track.width) == bin) ++end;
-    std::vector<std::size_t> chosen{begin, end - 1};
-    for (double ContactSample::*what :
-         {&ContactSample::N, &ContactSample::T, &ContactSample::gap, &ContactSample::ut}) {
-      std::size_t least = begin, greatest = begin;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (rows[i].sample.*what < rows[least].sample.*what) least = i;
-        if (rows[i].sample.*what > rows[greatest].sample.*what) greatest = i;
-      }
-      chosen.push_back(least);
-      chosen.push_back(greatest);
-    }
-    std::sort(chosen.begin(), chosen.end());
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    for (const std::size_t i : chosen) kept.push_back(rows[i]);
-    begin = end;
-  }
-  rows = std::move(kept);
+  constexpr std::array what{&ContactSample::N, &ContactSample::T, &ContactSample::gap, &ContactSample::ut};
+  track.rows = thinned(std::move(track.rows), track.width, what.size(),
+                       [&](const MotionRow& row, std::size_t i) { return row.sample.*what[i]; });
 }
 
 void MotionRecord::write(Recorder& recorder) const {

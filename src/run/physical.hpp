@@ -30,6 +30,7 @@ class PhysicalRecorder : public Recorder {
   void frame(const Sample& sample) override { recorder_.frame(in_scene(sample)); }
   [[nodiscard]] bool wants_motion() const override { return recorder_.wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
+  void curves(const Curves& curves) override { recorder_.curves(curves); }  // they are in the scene's units
   bool progress(double t) override { return recorder_.progress(t * model_.unit.time); }
 
  private:

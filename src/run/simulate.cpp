@@ -12,6 +12,7 @@
 #include "run/audit.hpp"
 #include "run/breakpoints.hpp"
 #include "run/choose_engine.hpp"
+#include "run/curve_record.hpp"
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
 #include "run/motion_record.hpp"
@@ -45,6 +46,7 @@ class Loop {
         log_(model, recorder, report_),
         samples_(model, spec, auditor_, recorder),
         motion_(model, spec.t_end, recorder),
+        curves_(model, spec.t_end, recorder),
         standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),
         forcing_(model, 0.0, Side::after) {
@@ -137,11 +139,13 @@ class Loop {
       engine_->evaluate(t, point_);
       if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
       motion_.add(t, auditor_, forcing_, decision_.mode, point_);
+      if (curves_.needs(t)) add_curves(t, step.end);
     }
     t_ = step.end;
     engine_->evaluate(t_, point_);
     if (step.kind != Step::Kind::event && motion_.needs(t_))
       motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
+    if (step.kind != Step::Kind::event && curves_.needs(t_)) add_curves(t_, t_);
   }
 
   /// Decides the states at t_, applies and records them.
@@ -154,6 +158,7 @@ class Loop {
     std::vector<std::size_t> changed;
     for (const Fired& f : fired) changed.push_back(f.contact);
     motion_.before(t_, auditor_, forcing_, decision_.mode, point_);
+    if (curves_.wanted()) add_curves(t_, t_);
     now.fired = std::move(fired);
     // States that an engine found itself come first; a breakpoint at the same time is the next instant.
     const bool load_jumps = !adopted && pass_breakpoints(now);
@@ -202,6 +207,14 @@ class Loop {
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     if (const double next = samples_.next(); next <= t_) emit(next, point_);
     motion_.after(t_, auditor_, forcing_, decision_.mode, point_, changed);
+    curves_.add(t_, point_.u, last_energy_);
+  }
+
+  /// The point at t; the auditor has works up to `to`.
+  void add_curves(double t, double to) {
+    works_.clear();
+    if (t < to) engine_->integrate(t, to, works_);
+    curves_.add(t, point_.u, auditor_.energy_before(works_, decision_.mode, point_));
   }
 
   void emit(double t, const Point& point) {
@@ -221,7 +234,9 @@ class Loop {
     report_.counters = engine_->counters;
     log_.finish();
     if (motion_.last() < t_) motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
+    if (curves_.last() < t_) add_curves(t_, t_);
     motion_.write(recorder_);
+    curves_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
     report_ = physical(std::move(report_), model_.unit);
@@ -242,6 +257,7 @@ class Loop {
   EventLog log_;
   Samples samples_;
   MotionRecord motion_;
+  CurveRecord curves_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;
   Forcing forcing_;  // after t_

@@ -72,6 +72,11 @@ TEST_CASE("cli plot: small gaps have ticks that differ, and loads have a picture
     CHECK(shell.read("out/plots/loads.svg").find("load 1") != std::string::npos);
   }
   CHECK(shell.read("out/plots/contact-left.gp").find("motion.csv") != std::string::npos);
+  for (const char* script : {"out/plots/displacement.gp", "out/plots/energy.gp"}) {
+    CHECK(shell.read(script).find("curves.csv") != std::string::npos);
+    CHECK(shell.read(script).find("history.csv") == std::string::npos);
+    CHECK(shell.read(script).find("energy.csv") == std::string::npos);
+  }
   CHECK(shell.read("out/loads.csv").find("\n0.1,0\n") != std::string::npos);
 }
 

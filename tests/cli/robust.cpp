@@ -200,6 +200,33 @@ TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {
   CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] == "done");
 }
 
+TEST_CASE("cli: of many contacts the first 24 are drawn, and it is said") {
+  const Shell shell;
+  std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\n"
+      "t_end = 1.0\n[nodes]\n";
+  for (int i = 0; i < 30; ++i) text += "b" + std::to_string(i) + " = [0.0, 0.0]\n";
+  for (int i = 0; i < 30; ++i) {
+    const std::string node = "node = \"b" + std::to_string(i) + "\"\n";
+    text += "[[masses]]\n" + node + "mass = 1.0\n[[contacts]]\nname = \"c" + std::to_string(i) + "\"\n" +
+            node + "law = \"slider\"\ntangent = [1.0, 0.0]\nnormal_force = 1.0\nfriction = 0.3\n";
+  }
+  shell.write("many.toml", text);
+  fake_gnuplot(shell, "touch \"$2.drawn\"");
+  CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" $SIGNORINI run many.toml >.out 2>.err") == 0);
+  CHECK(has(shell.read(".out"), "of the first 24 contacts"));
+  int drawn = 0, scripts = 0;
+  for (const auto& entry : fs::directory_iterator(shell / "many-run/plots")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("contact-")) continue;
+    drawn += name.ends_with(".drawn");
+    scripts += name.ends_with(".gp");
+  }
+  CHECK(scripts == 30);
+  CHECK(drawn == 24);
+  CHECK(exists(shell, "many-run/plots/states.gp.drawn"));
+}
+
 TEST_CASE("cli: --vary with bytes that are no text is a wrong command line") {
   const Shell shell;
   shell.write("belt.toml", belt(5));

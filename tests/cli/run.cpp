@@ -204,7 +204,9 @@ TEST_CASE("cli run: a killed run leaves whole rows, but for a last one that ends
   CHECK(shell.run({"plot", "belt-run"}).code == 0);
   std::filesystem::copy(shell / "belt-run", shell / "copy", std::filesystem::copy_options::recursive);
   CHECK(shell.run({"compare", "belt-run", "copy"}).code == 0);
-  const std::size_t rows = lines(shell.read("belt-run/history.csv")) - 1;
+  // The kill may have come between the tables.
+  const long rows =
+      std::min(lines(shell.read("belt-run/history.csv")), lines(shell.read("belt-run/contacts.csv"))) - 1;
   CHECK(has(shell.read("belt-run/plots/displacement.gp"), "::" + std::to_string(rows - 1) + " using"));
 }
 

@@ -61,9 +61,9 @@ class Folder {
 
 /// Only names that a run or a sweep has.
 bool is_known(const std::string& name) {
-  for (const char* known :
-       {"events.csv", "history.csv", "contacts.csv", "energy.csv", "frames.csv", "motion.csv", "loads.csv",
-        "frame_contacts.csv", "summary.json", "sweep.json", "rows/000001.json", "rows/000002.json"})
+  for (const char* known : {"events.csv", "history.csv", "contacts.csv", "energy.csv", "frames.csv",
+                            "motion.csv", "curves.csv", "loads.csv", "frame_contacts.csv", "summary.json",
+                            "sweep.json", "rows/000001.json", "rows/000002.json"})
     if (name == known) return true;
   return false;
 }

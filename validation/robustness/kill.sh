@@ -16,7 +16,7 @@ sed 's/^t_end = .*/t_end = 5e6\noutput_dt = 5.0/' "$root/models/belt.toml" >belt
 shopt -s nullglob
 page=$(getconf PAGESIZE) cut=0 wrong=0
 complain() { echo "kill.sh: $*" >&2; wrong=$((wrong + 1)); }
-lines() { wc -l <"$1" 2>/dev/null || echo 0; }
+lines() { if [[ -e "$1" ]]; then wc -l <"$1"; else echo 0; fi; }
 
 for ((i = 0; i < times; ++i)); do
   if ((i % 3)); then rm -rf out; fi  # every third run replaces the one that was killed

@@ -13,7 +13,8 @@
 namespace signorini {
 namespace {
 
-constexpr double unlucky = 16.0;  // times noise and resolution, where decisions go in circles
+// Times noise and resolution, where decisions go in circles, or an engine and a decision contradict.
+constexpr double unlucky = 16.0;
 
 /// How a guard passed through zero, from the motion in the mode that it ended.
 Crossing crossing(const Form& form, const MotionJet& jet) {
@@ -148,8 +149,10 @@ std::vector<Block> Decider::react(Course& course) const {
       continue;
     }
     jointly[block_of_[c]] = true;
-    // It was to leave, but in the mode that came of it g' is nothing.
-    if (f.guard == Guard::closing && f.sign.order > 1 && found.known[c].touches) found.stays[c] = true;
+    // It was to leave, but in the mode that came of it g' is nothing; or it fell and g' was nothing.
+    if (f.guard == Guard::closing && f.sign.order > 1 &&
+        (found.known[c].touches || course.instant.has_fired(c, Guard::closing)))
+      found.stays[c] = true;
     // It was left at its static limit, and that falls.
     if (slips && found.decided[c]) found.kinetic[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
@@ -215,14 +218,19 @@ Refusal Decider::enumerate(std::size_t block, Course& course) {
   return {};
 }
 
+/// Zeros were told by one sample of rounding, and by the clock, perhaps too sharply. False: they were blurred
+/// before.
+bool Decider::blur(Course& course) {
+  if (std::exchange(course.blurred, true)) return false;
+  course.instant.blur = unlucky;
+  course.instant.resolution *= unlucky;
+  return true;
+}
+
 /// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
 /// sliders may have to be decided together; then rounding cannot tell, and all combinations are weighed.
 Refusal Decider::leave_circle(Course& course) {
-  Instant& instant = course.instant;
-  if (!course.blurred) {
-    course.blurred = true;
-    instant.blur = unlucky;
-    instant.resolution *= unlucky;
+  if (blur(course)) {
     course.seen.clear();
     return {};
   }
@@ -240,6 +248,15 @@ Refusal Decider::leave_circle(Course& course) {
   return {};
 }
 
+/// How what fell with others, by the rounding of its gap, passed through zero.
+void Decider::note_hits(Course& course) const {
+  Decision& d = course.decision;
+  if (d.rounds > 1) return;
+  for (std::size_t c = 0; c < d.impulses.size(); ++c)
+    if (d.impulses[c].hit && !d.crossings[c].failed)
+      d.crossings[c] = crossing(guards(model_.contacts[c], course.instant.mode[c])[0].form, course.jets[c]);
+}
+
 /// The next mode, from the guards that failed in the last one.
 Refusal Decider::try_next(Course& course) {
   Decision& d = course.decision;
@@ -248,6 +265,7 @@ Refusal Decider::try_next(Course& course) {
   if (!jointly.empty()) {
     Refusal why = touching_.decide(course.instant, course.after, course.jets, course.failed, jointly,
                                    course.found, d, course.mode);
+    note_hits(course);
     if (why) {
       if (!course.failed.empty()) why.reason += " (after " + names_of(model_, course.failed) + ")";
       return why;
@@ -269,6 +287,10 @@ Refusal Decider::go(const Forcing& before, Course& course) {
   if (Refusal why = begin(before, course)) return why;
   course.seen.push_back(course.mode);
   look(course, true);
+  if (course.failed.empty() && !course.instant.fired.empty() && !course.instant.jump) {
+    blur(course);  // an engine saw a guard fall: what holds it up may be rounding
+    look(course, true);
+  }
   Decision& d = course.decision;
   while (!course.failed.empty() || (course.instant.start && d.rounds == 0)) {
     if (++d.rounds > max_rounds_)
@@ -307,15 +329,28 @@ void Decider::finish(Course& course) const {
   }
 }
 
-Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
+/// grounded: whether a flight was taken as rest for its height alone.
+Decision Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after,
+                          bool& grounded) {
   const std::size_t count = model_.contacts.size();
-  Course course{std::move(instant), after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
+  Course course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
   course.decision.crossings.resize(count);
   course.decision.refusal = go(before, course);
   if (!course.decision.refusal) finish(course);
+  grounded = course.found.grounded;
   return std::move(course.decision);
+}
+
+Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
+  bool grounded = false;
+  Decision decision = attempt(instant, before, after, grounded);
+  if (!decision.refusal || !grounded) return decision;
+  // What chatters towards a state without continuation flies on until the clock resolves no more of it.
+  instant.low_flights = true;
+  Decision flying = attempt(instant, before, after, grounded);
+  return flying.refusal ? decision : flying;
 }
 
 Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {

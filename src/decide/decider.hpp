@@ -8,7 +8,8 @@
 // velocities first where one closes with g' < 0, then accelerations and their derivatives. Sliders without
 // tangential stiffness join them if their own states repeat. Where rounds go in circles, what rounding has
 // made of zeros was told too sharply: first blurred, then all combinations of states are tried
-// (decide/enumeration.hpp). If no mode is consistent the decision says so.
+// (decide/enumeration.hpp). If no mode is consistent the decision says so; where a flight was taken as rest
+// for nothing but its height, it is made once more with that flight flown.
 #pragma once
 
 #include "decide/enumeration.hpp"
@@ -33,13 +34,17 @@ class Decider {
  private:
   /// One decision under way.
   struct Course;
+  [[nodiscard]] Decision attempt(const Instant& instant, const Forcing& before, const Forcing& after,
+                                 bool& grounded);
   [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
   [[nodiscard]] std::vector<Block> react(Course& course) const;
   void stop(const std::vector<std::size_t>& turning, Course& course) const;
   [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);
+  void note_hits(Course& course) const;
   [[nodiscard]] Refusal try_next(Course& course);
+  static bool blur(Course& course);
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   void finish(Course& course) const;

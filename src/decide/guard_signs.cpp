@@ -27,11 +27,17 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
   std::optional<Failure> soonest;
   for (const GuardForm& guard : all) {
     if (guard.kind == Guard::none) continue;
-    // What the integrator located is zero, also where the last rounding leaves it positive.
-    const bool located = before && instant.has_fired(c, guard.kind) && guard.form.value(jet.motion[0]) > 0.0;
+    // What the integrator located is zero, also where the last rounding leaves it positive; and it fell, so
+    // that a rate which is positive all the same is what an integrator's rounding has made of zero.
+    const bool fell = before && instant.has_fired(c, guard.kind);
     Known guard_known = known.of(guard.kind);
-    if (located) guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    const Sign sign = sign_of_guard(guard.form, jet, instant, guard_known);
+    if (fell && guard.form.value(jet.motion[0]) > 0.0)
+      guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
+    Sign sign = sign_of_guard(guard.form, jet, instant, guard_known);
+    if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
+      guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
+      sign = sign_of_guard(guard.form, jet, instant, guard_known);
+    }
     // The guard that fails soonest counts: a friction limit exceeded at once before a compression that
     // will end. At a tie separation, the first: with N = 0 the friction limit is zero too.
     if (sign.sign >= 0 || (soonest && sign.order >= soonest->sign.order)) continue;

@@ -24,9 +24,13 @@ struct Instant {
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
+  /// When each contact was last at g = 0, the start where it never was; empty: not known.
+  std::vector<double> touched = {};
   bool jump = false;   ///< the forcing is not smooth here
   double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
   bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
+  /// A flight lower than the rounding of its gap is flown, not taken as rest: a series knows it all the same.
+  bool low_flights = false;
 
   [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const {
     return std::any_of(fired.begin(), fired.end(),

@@ -37,17 +37,20 @@ double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const 
          forcing.surface_rounding(c, instant.t);
 }
 
-/// g' from which on a contact with g = 0 leaves. Slower, and pulled back, it stays: its flight would be
-/// shorter than the clock resolves, lower than the rounding of its gap, or a rebound below capture_velocity.
-double Touching::leaving_velocity(std::size_t c, const MotionJet& free, const Instant& instant) const {
+/// A contact with g = 0 that is pulled back stays where its flight would be shorter than the clock resolves.
+/// It is low where that would be lower than the rounding of its gap, or a lift below capture_velocity.
+Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
-  const double pull = -free.motion[0].an;
+  const ContactMotion &m = free.motion[0], &noise = free.noise[0];
+  const double pull = -m.an;
   // What stands still moves by the rounding of its equilibrium, not of its velocity.
   const double rounding =
-      free.noise[0].vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
-  if (!(pull > 0.0)) return rounding;
-  return rounding + std::max({std::sqrt(2.0 * pull * free.noise[0].gap),
-                              contact.capture_velocity.value_or(capture_velocity_)});
+      instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
+  if (m.vn <= rounding) return Departure::stays;
+  if (!(pull > 0.0)) return Departure::leaves;
+  const double low =
+      std::max(std::sqrt(2.0 * pull * noise.gap), contact.capture_velocity.value_or(capture_velocity_));
+  return m.vn <= rounding + low ? Departure::low : Departure::leaves;
 }
 
 /// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
@@ -105,6 +108,17 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
   return rests;
 }
 
+/// What rounding has carried into g and g'. da, that of g'', gives dv = t da in all velocities since the
+/// beginning and du = t^2/2 da in displacements. When the contact touched last g and g' were known exactly;
+/// since then, for the time s, dv has moved g, da g', and du both through the stiffness of the structure: by
+/// du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency.
+Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
+  if (instant.touched.empty()) return {};
+  const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
+  const double angle = std::min(1.0, w * s);
+  return {t * da * s + du * 0.5 * angle * angle, da * s + du * w * angle};
+}
+
 Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
                              const std::vector<Failure>& failed, const Block& block, const Mode& mode) const {
   const auto is_zero = [&](double value, double noise, double rate) {
@@ -114,16 +128,17 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   for (const std::size_t c : block) {
     if (!model_.contacts[c].takes_impulses()) continue;
     const ContactMotion &m = jets[c].motion[0], &noise = jets[c].noise[0];
+    const Carried carried = carried_by(c, noise.an, instant);
     // One whose gap has become negative touches, too: it fell with others, within the resolution of the
     // clock.
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
     if (mode[c].is_open() && !instant.has_fired(c, Guard::closing) && !fell &&
-        !is_zero(m.gap, noise.gap, m.vn))
+        !is_zero(m.gap, noise.gap + carried.gap, m.vn))
       continue;
     met.contacts.push_back(c);
     met.apart = met.apart || m.gap != 0.0;
-    met.hit = met.hit || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn, m.an));
+    met.hit = met.hit || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn + carried.rate, m.an));
   }
   return met;
 }
@@ -162,7 +177,11 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     const Contact& contact = model_.contacts[c];
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
     const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
-    if (!struck.rests && !found.stays[c] && m.vn > leaving_velocity(c, free[c], instant)) continue;
+    if (!struck.rests && !found.stays[c]) {
+      const Departure how = departure(c, free[c], instant);
+      if (how == Departure::leaves || (how == Departure::low && instant.low_flights)) continue;
+      found.grounded = found.grounded || how == Departure::low;
+    }
     found.stays[c] = true;
     const double zero =
         noise.vt + rounding_of_slide(c, forcing, instant) + instant.resolution * std::abs(m.at);

@@ -25,6 +25,7 @@ struct Findings {
       : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), known(n) {}
   bool hit = false;                       ///< the last decision began with an impact
   bool sliders = false;                   ///< sliders that stick rigidly take part
+  bool grounded = false;                  ///< a flight was taken as rest for its height alone
   std::vector<bool> decided;              ///< took part
   std::vector<bool> kinetic;              ///< its slip has begun: the static coefficient is gone
   std::vector<bool> stays, rests;         ///< vn, vt count as zero
@@ -48,6 +49,10 @@ class Touching {
     Block contacts;
     bool hit = false, apart = false;  // one closes; a gap is not exactly zero
   };
+  struct Carried {
+    double gap = 0.0, rate = 0.0;
+  };
+  [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
   [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
                          const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
   [[nodiscard]] Refusal strike(Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
@@ -63,8 +68,9 @@ class Touching {
                                 Findings& found) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
                                          const Instant& instant) const;
-  [[nodiscard]] double leaving_velocity(std::size_t contact, const MotionJet& free,
-                                        const Instant& instant) const;
+  /// What becomes of a contact with g = 0 by its g'.
+  enum class Departure : unsigned char { stays, low, leaves };  // low: it would, but below its rounding
+  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, const Instant& instant) const;
 
   const Model& model_;
   ModeSystems& systems_;

@@ -15,6 +15,7 @@
 #include "run/curve_record.hpp"
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
+#include "run/last_touch.hpp"
 #include "run/motion_record.hpp"
 #include "run/physical.hpp"
 #include "run/samples.hpp"
@@ -47,6 +48,7 @@ class Loop {
         samples_(model, spec, auditor_, recorder),
         motion_(model, spec.t_end, recorder),
         curves_(model, spec.t_end, recorder),
+        touches_(model.contacts.size()),
         standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),
         forcing_(model, 0.0, Side::after) {
@@ -160,6 +162,7 @@ class Loop {
     motion_.before(t_, auditor_, forcing_, decision_.mode, point_);
     if (curves_.wanted()) add_curves(t_, t_);
     now.fired = std::move(fired);
+    now.touched = touches_.times();
     // States that an engine found itself come first; a breakpoint at the same time is the next instant.
     const bool load_jumps = !adopted && pass_breakpoints(now);
     now.t = t_;
@@ -176,6 +179,7 @@ class Loop {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return refuse(next.refusal);
     }
+    touches_.instant(t_, old_mode, next);
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
     warn_of_gain();
@@ -258,6 +262,7 @@ class Loop {
   Samples samples_;
   MotionRecord motion_;
   CurveRecord curves_;
+  LastTouch touches_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;
   Forcing forcing_;  // after t_

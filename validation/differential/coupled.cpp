@@ -19,12 +19,14 @@ namespace {
 
 // Of the greatest displacement, or velocity, of the run: what is nearer touches, or rests; what is between
 // leaves the question open.
-constexpr double touches = 1e-13, nearly = 1e-7;
+constexpr double touches = 64.0 * std::numeric_limits<double>::epsilon(), nearly = 1e-7;
 // Where the run stops the motion is known a little before.
 constexpr double touches_before_stop = 1e-11, nearly_before_stop = 1e-8;
 constexpr double before_stop = 1e-14;  // of t_end
-constexpr double same = 1e-6;          // accelerations, of their size
-constexpr long most_events = 3000;     // of a run
+// What stays at rest moves by the rounding of what acts on it: 128 operations of eps/2, as everywhere.
+constexpr double rest = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double same = 1e-6;       // accelerations, of their size
+constexpr long most_events = 3000;  // of a run
 
 /// One instant of a motion.
 struct State {
@@ -45,6 +47,7 @@ class Mechanics {
     length_ = std::max(length_, s.u.cwiseAbs().maxCoeff());
     speed_ = std::max(speed_, s.v.cwiseAbs().maxCoeff());
     acceleration_ = std::max(acceleration_, by_loads.norm() + by_structure.norm());
+    still_ = std::max(still_, rest * static_cast<double>(by_loads.norm()) * s.t);
   }
 
   /// Speeds of contacts at events: at rows all may be at rest.
@@ -74,6 +77,7 @@ class Mechanics {
   double capture_;
   Eigen::LDLT<ExtendedMatrix> mass_;
   double length_ = std::numeric_limits<double>::min(), speed_ = length_;
+  double still_ = 0.0;  // a speed that rounding alone gives
   long double acceleration_ = 0.0L;
 };
 
@@ -88,19 +92,25 @@ std::array<Extended, 2> Mechanics::free_acceleration(const State& s) const {
 
 std::optional<Mechanics::Touch> Mechanics::touch(const State& s, double zero, double nearly_zero) const {
   Touch result;
-  std::vector<int> sliding;
+  const double no_gap = zero * length_ + still_ * s.t, small_gap = std::max(nearly_zero * length_, no_gap);
+  const double no_speed = zero * speed_ + still_, slow = std::max(nearly_zero * speed_, no_speed);
+  const bool hits = std::any_of(model_.contacts.begin(), model_.contacts.end(), [&](const Contact& contact) {
+    return contact.gap_at(s.u) <= no_gap && contact.normal.dot(s.v) < -no_speed;
+  });
+  result.hit = hits;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const Contact& contact = model_.contacts[c];
-    const double gap = contact.gap_at(s.u) / length_, vn = contact.normal.dot(s.v) / speed_,
-                 vt = contact.tangent.dot(s.v) / speed_;
-    if (gap > nearly_zero || (std::abs(gap) <= zero && vn > nearly_zero)) continue;
-    if (std::abs(gap) > zero || (vn > zero && vn <= nearly_zero)) return std::nullopt;
-    if (vn < -zero && vn > -nearly_zero) return std::nullopt;
-    result.hit = result.hit || vn < -zero;
-    if (contact.has_friction() && std::abs(vt) > zero && std::abs(vt) <= nearly_zero) return std::nullopt;
+    const double gap = contact.gap_at(s.u), vn = contact.normal.dot(s.v), vt = contact.tangent.dot(s.v);
+    // What leaves takes part in its neighbour's hit, which may throw it back.
+    const bool leaves = std::abs(gap) <= no_gap && vn > slow;
+    if (gap > small_gap || (leaves && !hits)) continue;
+    if (std::abs(gap) > no_gap || (vn > no_speed && !leaves)) return std::nullopt;
+    if (vn < -no_speed && vn > -slow) return std::nullopt;
+    const bool slides = std::abs(vt) > no_speed;
+    if (contact.has_friction() && slides && std::abs(vt) <= slow) return std::nullopt;
     result.contacts.push_back(c);
     result.question.friction.push_back(contact.friction.kinetic);
-    result.question.sliding.push_back(std::abs(vt) <= zero ? 0 : vt > 0.0 ? 1 : -1);
+    result.question.sliding.push_back(!slides ? 0 : vt > 0.0 ? 1 : -1);
   }
   const auto m = static_cast<Eigen::Index>(result.contacts.size());
   result.question.W.resize(2 * m, 2 * m);
@@ -235,6 +245,17 @@ void confirm(const Mechanics& mechanics, const Result& run, CoupledFinding& foun
   }
 }
 
+/// What would follow if all that nearly touches, or nearly rests, did so: the end of a chatter.
+std::string at_rest(const Mechanics& mechanics, const State& state) {
+  const auto touch = mechanics.touch(state, nearly, nearly);
+  if (!touch || touch->hit) return "";
+  const Continuations all = continuations(touch->question);
+  if (all.condition > greatest_condition) return "; as if it did: condition above 1e8";
+  if (all.responses.empty()) return "; as if it did: no motion goes on";
+  if (all.responses.size() > 1) return "; as if it did: several motions go on";
+  return all.sharp ? "; as if it did: one motion goes on" : "; as if it did: another all but goes on";
+}
+
 /// Does what could follow explain the stop?
 void explain(const Mechanics& mechanics, const Result& run, CoupledFinding& found) {
   using Verdict = CoupledFinding::Verdict;
@@ -249,13 +270,14 @@ void explain(const Mechanics& mechanics, const Result& run, CoupledFinding& foun
   const Result::Row& last = run.rows.back();
   State state{outcome.t, last.u + (outcome.t - last.t) * last.v, last.v};
   auto touch = mechanics.touch(state, touches_before_stop, nearly_before_stop);
-  if (!touch) return say(Verdict::unclear, "something nearly touches");
+  if (!touch) return say(Verdict::unclear, "something nearly touches" + at_rest(mechanics, state));
   if (touch->hit) {
     const auto after = mechanics.after_hit(state, *touch);
     if (!after) return say(Verdict::rightly, "no impact, or several");
     state = *after;
     touch = mechanics.touch(state, touches_before_stop, nearly_before_stop);
-    if (!touch || touch->hit) return say(Verdict::unclear, "something nearly touches after the impact");
+    if (!touch || touch->hit)
+      return say(Verdict::unclear, "something nearly touches after the impact" + at_rest(mechanics, state));
   }
   const Continuations all = continuations(touch->question);
   if (all.condition > greatest_condition) return say(Verdict::rightly, "condition above 1e8");

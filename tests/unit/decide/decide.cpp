@@ -46,6 +46,29 @@ Model blocks(const std::vector<std::vector<double>>& mass, const std::vector<dou
   return model;
 }
 
+/// Frictionless rigid floors under masses that move each other.
+Model on_floors(const std::vector<std::vector<double>>& mass, const std::vector<double>& force) {
+  Model model = blocks(mass, force, 0.0);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    Contact c;
+    c.name = "c" + std::to_string(i);
+    c.law = Law::rigid;
+    c.normal.terms = {{static_cast<int>(i), 1.0}};
+    c.restitution = 0.5;
+    model.contacts[i] = c;
+  }
+  return model;
+}
+
+Decision fallen(const Model& model, Instant instant) {
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  const Forcing forcing(model, instant.t, Side::after);
+  instant.mode.assign(model.contacts.size(), {State::open, 0.0});
+  instant.fired = {{0, Guard::closing}};
+  return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+}
+
 Decision start(const Model& model) {
   const Structure structure(model);
   ModeSystems systems(model, structure);
@@ -151,6 +174,40 @@ TEST_CASE("a refusal says what kind it is") {
   model.contacts.push_back(model.contacts[0]);
   CHECK(start(model).refusal.kind == Refusal::Kind::dependent);
   CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).refusal.kind == Refusal::Kind::none);
+}
+
+TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of its rate") {
+  Model model = on_floors({{1.0}}, {0.0});
+  model.loads[0].history = History(Piece{0.0, {0.0, -1.0}, 0.0, 0.0, 0.0});  // g'' = 0, g''' < 0
+  Instant instant;
+  instant.u = Vector::Zero(1);
+  instant.v = Vector::Constant(1, 1e-20);
+  const Decision d = fallen(model, instant);
+  REQUIRE(d.consistent);
+  CHECK(d.mode[0].state == State::closed);
+  CHECK(d.v[0] == 0.0);
+}
+
+TEST_CASE("contacts that land within what rounding has carried into their gaps hit together") {
+  const Model model = on_floors({{2.0, 1.0}, {1.0, 2.0}}, {-1.0, -1.0});
+  Instant instant;
+  instant.t = 1.0;
+  instant.resolution = 1e-14;
+  instant.u = Vector::Zero(2);
+  instant.u[1] = 1e-13;  // a hundred times what its own digits and the clock's say
+  instant.v = Vector::Constant(2, -1.0);
+  const auto hits = [](const Decision& d, std::size_t c) { return !d.impulses.empty() && d.impulses[c].hit; };
+  instant.touched = {0.0, 1.0 - 1e-12};
+  const Decision apart = fallen(model, instant);  // it has not flown for long enough
+  CHECK(hits(apart, 0));
+  CHECK_FALSE(hits(apart, 1));
+  instant.t = 100.0;
+  instant.touched = {0.0, 0.0};
+  const Decision together = fallen(model, instant);
+  CHECK(hits(together, 0));
+  CHECK(hits(together, 1));
+  CHECK(together.v[0] == together.v[1]);
+  CHECK(together.crossings[1].failed);
 }
 
 TEST_SUITE_END();

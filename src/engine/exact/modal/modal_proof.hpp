@@ -85,6 +85,7 @@ class ModalProof {
   [[nodiscard]] std::size_t first_fast() const;
   void choose_step(double remaining);
   void bound_ripples();
+  void expand_real(const ModalPoint& at);
   void expand_modes(const ModalPoint& at);
   [[nodiscard]] Size sum(const Amplitudes& row, double still, std::vector<double>& out) const;
   void expand(const ModalPoint& at);

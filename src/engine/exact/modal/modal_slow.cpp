@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Core>
+
 #include "engine/exact/modal/modal_proof.hpp"
 #include "engine/falls/first_fall.hpp"
 
@@ -109,6 +111,28 @@ double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& know
   return h_;
 }
 
+/// taylor_of_mode for all slow real modes at once, term by term.
+void ModalProof::expand_real(const ModalPoint& at) {
+  const double* l = oscillators_->real().data();
+  const double square = h_ * h_, *z = at.z.real.data(), *rate = at.rate.real.data();
+  double* first = coefficients_.data();
+  for (std::size_t k = 0; k < fast_; ++k) first[k] = z[k];
+  double* second = first + fast_;
+  for (std::size_t k = 0; k < fast_; ++k) second[k] = h_ * rate[k];
+  const double* p = forces_->real.data();
+  for (std::size_t j = 0; j + 2 < count_; ++j) {
+    double* next = second + fast_;
+    const double down = 1.0 / static_cast<double>(j + 2);
+    const double pull = square * down / static_cast<double>(j + 1), drag = alpha_ * h_ * down;
+    if (j == 0)
+      for (std::size_t k = 0; k < fast_; ++k) next[k] = (p[k] - l[k] * first[k]) * pull - second[k] * drag;
+    else
+      for (std::size_t k = 0; k < fast_; ++k) next[k] = -(l[k] * first[k]) * pull - second[k] * drag;
+    first = second;
+    second = next;
+  }
+}
+
 /// Coefficients of the slow modes in t / h, `count_` of each.
 void ModalProof::expand_modes(const ModalPoint& at) {
   const std::vector<double>& l = oscillators_->real();
@@ -119,9 +143,7 @@ void ModalProof::expand_modes(const ModalPoint& at) {
   degree_ = std::min<std::size_t>(most_degree, 10 + static_cast<std::size_t>(5.5 * reach));
   count_ = degree_ + 3;
   coefficients_.resize(count_ * fast_);
-  for (std::size_t k = 0; k < fast_; ++k)
-    taylor_of_mode(at.z.real[k], at.rate.real[k], forces_->real[k], l[k], alpha_, h_, count_, fast_,
-                   coefficients_.data() + k);
+  expand_real(at);
   pair_coefficients_.resize(count_ * pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (pair_slow_[k])
@@ -134,16 +156,14 @@ void ModalProof::expand_modes(const ModalPoint& at) {
 ModalProof::Size ModalProof::sum(const Amplitudes& row, double still, std::vector<double>& out) const {
   const std::vector<Complex>& pairs = oscillators_->pairs();
   out.assign(count_, 0.0);
-  for (std::size_t j = 0; j < count_; ++j) {
-    const double* c = coefficients_.data() + j * fast_;
-    double total = 0.0;
-    for (std::size_t k = 0; k < fast_; ++k) total += row.real[k] * c[k];
-    out[j] = total;
-  }
-  double left = 0.0;  // each mode's series falls by half and more a term from here on
-  for (std::size_t j = degree_ + 1; j < count_; ++j)
-    for (std::size_t k = 0; k < fast_; ++k)
-      left += 2.0 * std::abs(row.real[k] * coefficients_[j * fast_ + k]);
+  const auto slow = static_cast<Eigen::Index>(fast_), terms = static_cast<Eigen::Index>(count_);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> of_modes(
+      coefficients_.data(), terms, slow);
+  const Eigen::Map<const Eigen::VectorXd> shown(row.real.data(), slow);
+  Eigen::Map<Eigen::VectorXd>(out.data(), terms).noalias() = of_modes * shown;
+  // each mode's series falls by half and more a term from here on
+  const auto rest = static_cast<Eigen::Index>(count_ - degree_ - 1);
+  double left = 2.0 * (of_modes.bottomRows(rest).cwiseAbs() * shown.cwiseAbs()).sum();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!pair_slow_[k]) {
       still += whole(row.pair[k] * forces_->pair[k] * inverse(pairs[k]));

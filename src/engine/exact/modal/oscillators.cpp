@@ -1,6 +1,8 @@
 #include "engine/exact/modal/oscillators.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/rounding.hpp"
 
@@ -57,15 +59,59 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
   for (const Complex l : pairs_) pair_turning_.push_back(root_of(l - Complex(0.25 * alpha * alpha)));
 }
 
+/// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the last
+/// one of the block says that no more is to come.
+void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const {
+  constexpr std::size_t width = 8;
+  const double square = time * time;
+  for (std::size_t begin = 0; begin < count; begin += width) {
+    const std::size_t end = std::min(count, begin + width);
+    std::array<double, width> a{}, b{}, l{}, sum{}, slope{}, force{};
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = k - begin;
+      a[i] = to.z.real[k];
+      b[i] = to.rate.real[k] * time;
+      l[i] = real_[k] * square;
+      force[i] = p.real[k] * square;
+      sum[i] = a[i] + b[i];
+      slope[i] = b[i];
+    }
+    const double most = std::max(std::abs(l[0]), std::abs(l[end - begin - 1]));
+    double bound = 1.0, next_bound = 1.0;
+    for (std::size_t j = 0; j < most_terms; ++j) {
+      const double down = 1.0 / static_cast<double>(j + 2), pull = down / static_cast<double>(j + 1);
+      const double drag = alpha_ * time * down;
+      for (std::size_t i = 0; i < width; ++i) {
+        const double next = (force[i] - a[i] * l[i]) * pull - b[i] * drag;
+        force[i] = 0.0;
+        sum[i] += next;
+        slope[i] += next * static_cast<double>(j + 2);
+        a[i] = b[i];
+        b[i] = next;
+      }
+      const double last = bound * most * pull + next_bound * drag;
+      bound = next_bound;
+      next_bound = last;
+      if ((bound + last) * static_cast<double>(j + 2) <= 1e-3 * rounding::eps && j > 2) break;
+    }
+    for (std::size_t k = begin; k < end; ++k) {
+      to.z.real[k] = sum[k - begin];
+      if (time > 0.0) to.rate.real[k] = slope[k - begin] / time;
+    }
+  }
+}
+
 void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const {
   to = from;
   const double decay = std::exp(-0.5 * alpha_ * time), square = time * time;
-  double area = 0.0;
-  for (std::size_t k = 0; k < real_.size(); ++k)
-    if (real_[k] * square > small_turn && turning_[k] * time > 0.5)
-      in_closed_form(to.z.real[k], to.rate.real[k], p.real[k], real_[k], turning_[k], alpha_, decay, time);
-    else
-      by_series(to.z.real[k], to.rate.real[k], area, p.real[k], real_[k], alpha_, time);
+  const auto turns = [&](std::size_t k) {
+    return real_[k] * square > small_turn && turning_[k] * time > 0.5;
+  };
+  std::size_t first = 0;  // eigenvalues ascend
+  while (first < real_.size() && !turns(first)) ++first;
+  slow_by_series(p, first, time, to);
+  for (std::size_t k = first; k < real_.size(); ++k)
+    in_closed_form(to.z.real[k], to.rate.real[k], p.real[k], real_[k], turning_[k], alpha_, decay, time);
   Complex complex_area;
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     if (size_of(pairs_[k]) * square > small_turn && size_of(pair_turning_[k]) * time > 0.5)

@@ -33,6 +33,7 @@ class Oscillators {
                  Amplitudes& out) const;
 
  private:
+  void slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const;
   double alpha_ = 0.0;
   std::vector<double> real_, turning_;
   std::vector<Complex> pairs_, pair_turning_;

@@ -1,17 +1,19 @@
 // certify.hpp: which digits of a run are right?
 //
-//   D_k       = greatest |t - t'| over the events k-4 to k                t': of the same event of the
-//   companion t_error_k = c D_k + l t_uncertainty_k + 2 eps t_k                     c, l:
-//   certify/companion.hpp
-//
 // A companion computes the same motion again: the exact flow, or the same engine with a finer setting. What
-// the two differ by bounds the error of the run, that of all earlier events included. The events of each
-// contact are paired in their order, and the sequence is certain until
-//   an event has no partner         another event, from or to
-//   c |change of t - t'|            from one event of a contact to the next is more than half the time
-//   between them:
-//                                   errors that both share shift no event past another
+// the two differ by bounds the error of the run, that of all earlier events included. t': of the same event
+// of the companion; c, l: src/certify/companion.hpp.
+//
+//   D_k = greatest |t - t'| over the events k-4 to k
+//   t_error_k = c D_k + l t_uncertainty_k + 2 eps t_k
+//
+// The events of each contact are paired in their order. The sequence is certain until
+//
+//   an event has no partner: another one, from or to
+//   c |change of t - t'|, from one event of a contact to the next, exceeds half the time between them
+//     (errors that both share shift no event past another)
 //   the companion has stopped
+//
 // The order of events of different contacts that lie closer than their errors is counted, and ends nothing.
 // How often that holds: validation/certified.
 //

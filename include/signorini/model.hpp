@@ -151,6 +151,10 @@ struct Model {
   }
   /// To which columns and drawing refer.
   [[nodiscard]] const std::vector<Dof>& physical_dofs() const { return reduction ? reduction->dofs : dofs; }
+  /// Of a rotation, or of an angular velocity?
+  [[nodiscard]] bool turns(const Column& column) const {
+    return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+  }
 };
 
 /// Assembles, finds frequencies, damping, initial state and scales. Errors: SceneError.

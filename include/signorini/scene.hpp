@@ -91,6 +91,8 @@ struct RunSpec {
   Flow flow = Flow::automatic;
   Certify certify = Certify::automatic;
   Companion companion = Companion::automatic;
+  /// ida, no key: flights are low by so many times the tolerance (of a finer companion: by that of its run).
+  double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
   SourcePlace place;

@@ -16,8 +16,7 @@ double tolerance_of(const Model& model, std::size_t index, double greatest, cons
   if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
   if (index >= model.columns.size()) return t.rtol * greatest + t.force;
   const Column& column = model.columns[index];
-  const bool rotation =
-      column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+  const bool rotation = model.turns(column);
   const double atol = column.velocity ? (rotation ? t.angular_velocity : t.velocity)
                                       : (rotation ? t.rotation : t.displacement);
   return t.rtol * greatest + atol;

@@ -21,9 +21,7 @@ constexpr double finer_tolerance = 0.01, finer_step = 0.5;
 /// What is the same in all companions.
 CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
-  const double capture = tolerance_of(model, run).capture_velocity();
-  for (Contact& contact : companion.model.contacts)
-    if (!contact.capture_velocity) contact.capture_velocity = capture;
+  hold_capture(companion.model, tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
   return companion;
 }
@@ -58,6 +56,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
     case Accuracy::tolerance:
       plan.factor = by_tolerance;
       companion.run.rtol *= finer_tolerance;
+      companion.run.flight_tolerances /= finer_tolerance;
       make_finer(companion.run.atol);
       plan.name = fmt::format("{}, rtol {:g}", engine.name, companion.run.rtol);
       break;
@@ -85,6 +84,11 @@ void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
 }
 
 }  // namespace
+
+void hold_capture(Model& model, double capture_velocity) {
+  for (Contact& contact : model.contacts)
+    if (!contact.capture_velocity) contact.capture_velocity = capture_velocity;
+}
 
 CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   const bool itself = run.engine == Engine::exact;

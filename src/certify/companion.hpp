@@ -1,19 +1,18 @@
 // companion.hpp: what a run is certified by, and whether that is worth it.
 //
-//   run              companion  how                                            c
-//   any but exact    exact      as it is                                       1.5
-//   ida              finer      rtol / 100, absolute tolerances too            2
-//   steps of given   finer      dt / 2                                         3
-//   exact            finer      twice, every datum off by about one rounding   5
-//
-// Why these c. Beside exact the difference is the error. At 1e-8 ida's errors are no longer ~ rtol, and
-// rtol / 10 is not enough. With half the step the error is 4/3 of the difference at order two, 2 at order
-// one. Exact beside itself is two draws of a random error.
+//   run       companion  how                              c    why
+//   not exact exact      as it is                         1.5  the difference is the error
+//   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 errors may be alike
+//   of a dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
+//   exact     finer      twice, data off by one rounding  5    two draws of a random error
 //
 // Beside exact the difference contains ida's own local error: a tenth of t_uncertainty is added, for what
 // guards that graze hide of it. Else all of it, since the companion's own error is not known.
 //
-// Velocities below which rebounds rest are the run's own in all of them. Why these c: validation/certified.
+// What is decided by a tolerance is decided by the run's in all of them: velocities below which
+// rebounds rest, and heights below which ida leaves flights to the series. A finer run that integrated
+// flights which its run takes exactly would be the worse of the two: the errors of thousands of hits add up.
+// Why these c: validation/certified.
 #pragma once
 
 #include <string>
@@ -38,6 +37,9 @@ struct CompanionPlan {
   double cost = 0.0;   ///< expected, of that of the run; 0: nobody knows
   double steps = 0.0;  ///< expected, of one companion; 0: nobody knows
 };
+
+/// Gives every contact of `model` that has none the capture velocity of this run.
+void hold_capture(Model& model, double capture_velocity);
 
 /// run.engine is not automatic. Errors: SceneError where a companion is asked for that refuses the model.
 [[nodiscard]] CompanionPlan plan_companion(const Model& model, const RunSpec& run);

@@ -2,11 +2,13 @@
 //
 //   D_k = greatest |t - t'| over the last five events, all contacts and companions
 //   t_error = c D_k + uncertainty + 2 eps t
-//   of neighbours of one contact:  c |(t_i - t'_i) - (t_i-1 - t'_i-1)| <= (t_i - t_i-1) / 2,
-//                                  or the sequence ends to be certain
 //
-// Events of jumps of loads happen at a time that is known: their error is rounding, and they are no part
-// of D.
+// The sequence ends to be certain where neighbours of one contact have
+//
+//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| > (t_i - t_i-1) / 2
+//
+// Events of jumps of loads happen at a time that is known: their error is rounding, and D knows nothing of
+// them.
 #pragma once
 
 #include <cstddef>

@@ -89,7 +89,8 @@ std::unique_ptr<Stepper> make_exact(const EngineParts& p) {
 }
 
 std::unique_ptr<Stepper> make_ida(const EngineParts& p) {
-  return std::make_unique<IdaEngine>(p.model, p.structure, p.systems, p.tolerance, p.max_order, p.run.t_end);
+  return std::make_unique<IdaEngine>(p.model, p.structure, p.systems, p.tolerance, p.max_order, p.run.t_end,
+                                     p.run.flight_tolerances);
 }
 
 std::unique_ptr<Stepper> make_newmark(const EngineParts& p) {

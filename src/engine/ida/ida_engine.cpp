@@ -12,10 +12,11 @@
 namespace signorini {
 
 IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems,
-                     const Tolerance& tolerance, int max_order, double t_end)
+                     const Tolerance& tolerance, int max_order, double t_end, double flight_tolerances)
     : model_(model),
       consistent_(systems),
       tolerance_(tolerance),
+      flight_tolerances_(flight_tolerances),
       powers_(model, structure),
       bdf_(model, structure, tolerance, max_order, counters),
       history_(guard_count(model.contacts.size()) + powers_.count()),
@@ -41,7 +42,7 @@ void IdaEngine::fill(double t, const Point& point, double* out) {
 double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   double size = std::abs(contact.gap) + contact.normal.magnitude(u), absolute = 0.0;
   for (const auto& [dof, factor] : contact.normal.terms) absolute += std::abs(factor);  // tolerances add up
-  const double tolerance = tolerance_.rtol * size + absolute * tolerance_.displacement;
+  const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
 }

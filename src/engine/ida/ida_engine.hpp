@@ -19,7 +19,7 @@ class IdaEngine final : public Stepper {
  public:
   /// The first three must outlive it.
   IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems, const Tolerance& tolerance,
-            int max_order, double t_end);
+            int max_order, double t_end, double flight_tolerances);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -43,6 +43,7 @@ class IdaEngine final : public Stepper {
   const Model& model_;
   ConsistentMotion consistent_;
   const Tolerance tolerance_;
+  const double flight_tolerances_;
   Powers powers_;
   BdfIntegrator bdf_;
   StepHistory history_;

@@ -5,8 +5,7 @@ namespace signorini {
 std::vector<ObservedColumn> observed_columns(const Model& model) {
   std::vector<ObservedColumn> list;
   for (const Column& column : model.columns) {
-    const bool rotation =
-        column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+    const bool rotation = model.turns(column);
     list.push_back({column.name, column.velocity ? (rotation ? "angular_velocity" : "velocity")
                                                  : (rotation ? "rotation" : "displacement")});
   }

@@ -2,9 +2,10 @@
 //
 //   x_h = x + C h^2 + O(h^3)
 //   order p = log2( rms(x_h - x_h/2) / rms(x_h/2 - x_h/4) )
-//   R = x_h/4 + (x_h/4 - x_h/2) / 3                       the second order is gone
+//
+//   R  = x_h/4 + (x_h/4 - x_h/2) / 3      the second order is gone
 //   R' = x_h/2 + (x_h/2 - x_h) / 3
-//   bar = greatest of 2 |R - R'| + |x_h/2 - x_h/4| / 50 so far and soon after
+//   bar = greatest of 2 |R - R'| + |x_h/2 - x_h/4| / 50, so far and soon after
 //
 // What is left of R is of third order, a h^3 / 8; R' has a h^3, so |R - R'| is seven times what is left,
 // where a is smooth. It is not at events, whose place within a step is chance: R and R' may then be off

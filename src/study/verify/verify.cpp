@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "certify/companion.hpp"
 #include "engine/tolerance.hpp"
 #include "run/engines.hpp"
 #include "run/expected.hpp"
@@ -30,9 +31,7 @@ class Study {
     run_.output_times.emplace();
     for (int k = 1; k <= request.rows; ++k) run_.output_times->push_back(run_.t_end * k / request.rows);
     const double capture = tolerance_of(own, run_).capture_velocity();
-    for (Model* m : {&model_, &own_})
-      for (Contact& contact : m->contacts)
-        if (!contact.capture_velocity) contact.capture_velocity = capture;
+    for (Model* m : {&model_, &own_}) hold_capture(*m, capture);
   }
 
   Verification verification() {

@@ -1,17 +1,18 @@
 // verify.hpp: IDA against the paper's Newmark algorithm, on one scene.
 //
-//   newmark at dt, dt/2, dt/4 -> order, R, bar (richardson.hpp)
-//   |ida - R| <= bar + what IDA's certificate says of its own error          at every event and output time
+//   newmark at dt, dt/2, dt/4 -> order, R, bar                 (richardson.hpp)
+//   |ida - R| <= bar + what IDA's certificate says of its own error
 //
-// for the times of events, displacements, velocities, and N and T of the contacts, at as many output times as
-// `VerifyRequest::rows`. Output times that an event of one run may have passed and of another not are left
-// out. Everything counts up to the first instant from which IDA's sequence is not certain, or that of newmark
-// changes with its step.
+// at every event and output time: for the times of events, displacements, velocities, and N and T of the
+// contacts, at as many output times as `VerifyRequest::rows`. Output times that an event of one run may have
+// passed and of another not are left out. Everything counts up to the first instant from which IDA's sequence
+// is not certain, or that of newmark changes with its step.
 //
 //   agree      all of it does, to the end
 //   differ     something does not: which event or quantity, when, by how much
-//   undecided  steps are too coarse, or something is not certain to the end; or the third witness, exact
-//              where it takes the scene, stands with IDA: it is newmark's bar that is too short
+//   undecided  steps are too coarse, or something is not certain to the end;
+//              or the third witness, exact where it takes the scene, stands
+//              with IDA, so that it is newmark's bar that is too short
 //
 // Without a dt it is halved from some coarse one until the sequence and the orders have settled, as far as
 // the expected cost allows.

@@ -41,6 +41,11 @@ struct HistoryErrors {
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
 
+/// What leaving modes out may have changed at the contacts (src/certify/truncation.hpp).
+struct Truncation {
+  double displacement = 0.0, force = 0.0;
+};
+
 struct Certificate {
   std::string companion;  ///< "exact", "ida, rtol 1e-10", ...
   std::string choice;     ///< why this one: "as given" or "auto: ..."
@@ -56,6 +61,7 @@ struct Certificate {
   HistoryErrors history;
   std::vector<std::optional<Peak>> peaks;                     ///< bounds, one a contact; none unless complete
   std::vector<std::vector<std::optional<Landing>>> landings;  ///< bounds, as Report::landings
+  std::optional<Truncation> reduction;                        ///< of a reduced model
   double wall_time = 0.0;                                     ///< s, of all companions
   double wait = 0.0;  ///< s, from the end of the run to that of the companions
 

@@ -17,6 +17,7 @@
 #include "certify/companion.hpp"
 #include "certify/judge.hpp"
 #include "certify/tracker.hpp"
+#include "certify/truncation.hpp"
 #include "run/choose_engine.hpp"
 #include "run/engines.hpp"
 
@@ -174,6 +175,7 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   result.t_errors = std::move(verdict.t_errors);
   result.unordered = verdict.unordered;
   bound_extremes(result, kept_run, kept, settings);
+  if (model.reduction) result.reduction = truncation_of(model, *model.reduction, report.peaks);
   return result;
 }
 

@@ -1,27 +1,8 @@
 #include "result/certificate_json.hpp"
 
-#include <algorithm>
-
 namespace signorini {
-namespace {
 
-/// What the modes that are left out may have moved contacts, and the forces that belong to it. An estimate: a
-/// change of force may shift an event.
-Json truncation_json(const Reduction& reduction, const Report& report) {
-  double displacement = reduction.ringing, force = 0.0;
-  for (const ComplianceShare& share : reduction.shares) {
-    if (share.contact < 0 || static_cast<std::size_t>(share.contact) >= report.peaks.size()) continue;
-    const Peak& peak = report.peaks[static_cast<std::size_t>(share.contact)];
-    const double followed = share.residual * (share.normal ? peak.N : peak.T);
-    displacement = std::max(displacement, reduction.ringing + followed);
-    if (share.compliance > 0.0) force = std::max(force, (reduction.ringing + followed) / share.compliance);
-  }
-  return {{"displacement", displacement}, {"force", force}};
-}
-
-}  // namespace
-
-Json certificate_json(const Model& model, const CertifiedReport& run) {
+Json certificate_json(const CertifiedReport& run) {
   if (!run.certificate) return nullptr;
   const Certificate& c = *run.certificate;
   Json json = {{"until", c.until},
@@ -35,7 +16,8 @@ Json certificate_json(const Model& model, const CertifiedReport& run) {
   json["first_uncertain"] = c.first_uncertain ? Json(*c.first_uncertain + 1) : Json(nullptr);
   json["wall_time"] = c.wall_time;
   json["wait"] = c.wait;
-  if (model.reduction) json["reduction"] = truncation_json(*model.reduction, run.report);
+  if (c.reduction)
+    json["reduction"] = {{"displacement", c.reduction->displacement}, {"force", c.reduction->force}};
   return json;
 }
 

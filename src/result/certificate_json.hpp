@@ -7,7 +7,7 @@
 namespace signorini {
 
 /// `certified`; null where there is no certificate.
-[[nodiscard]] Json certificate_json(const Model& model, const CertifiedReport& run);
+[[nodiscard]] Json certificate_json(const CertifiedReport& run);
 
 /// Bounds of the peaks of contact k; null where nobody knows.
 [[nodiscard]] Json peak_errors_json(const CertifiedReport& run, std::size_t k);

@@ -243,7 +243,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   long total = 0;
   for (const auto& [type, count] : report.events_by_type) total += count;
   json["events"] = {{"total", total}, {"by_type", report.events_by_type}};
-  json["certified"] = certificate_json(model, run);
+  json["certified"] = certificate_json(run);
   if (!run.certificate && !run.why_not.empty()) json["not_certified"] = run.why_not;
   json["counters"] = counter_json(report.counters);
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);

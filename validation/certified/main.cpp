@@ -34,6 +34,7 @@ struct Asked {
   std::vector<double> rtols = {1e-6, 1e-8, 1e-10};
   long random = 0, from = 1;
   double seconds = 20.0;  ///< a run may take
+  std::vector<std::string> changes;
 };
 
 /// Ends a run after its time.
@@ -190,6 +191,16 @@ void print(std::map<Setting, Tally>& tallies) {
   }
 }
 
+std::vector<Override> overrides(const std::vector<std::string>& changes) {
+  std::vector<Override> list;
+  for (const std::string& change : changes) {
+    const std::size_t at = change.find('=');
+    if (at == std::string::npos) throw UsageError("--set: expected PATH=VALUE");
+    list.push_back({change.substr(0, at), change.substr(at + 1)});
+  }
+  return list;
+}
+
 int run(const Asked& asked) {
   std::map<Setting, Tally> tallies;
   const auto attempt = [&](const std::string& name, const auto& scene) {
@@ -199,7 +210,8 @@ int run(const Asked& asked) {
       fmt::print(stderr, "{}: {}\n", name, error.what());
     }
   };
-  for (const std::string& path : asked.scenes) attempt(path, [&] { return read_scene(path); });
+  for (const std::string& path : asked.scenes)
+    attempt(path, [&] { return read_scene(path, overrides(asked.changes)); });
   for (long seed = asked.from; seed < asked.from + asked.random; ++seed) {
     const std::string name = fmt::format("seed-{}", seed);
     attempt(name, [&] {
@@ -221,6 +233,7 @@ int main(int argc, char** argv) {
   app.add_option("--from", asked.from, "the first seed");
   app.add_option("--rtol", asked.rtols, "tolerances of ida")->delimiter(',');
   app.add_option("--seconds", asked.seconds, "a run may take");
+  app.add_option("--set", asked.changes, "PATH=VALUE in each SCENE");
   CLI11_PARSE(app, argc, argv);
   return run(asked);
 }

@@ -97,7 +97,11 @@ struct BdfIntegrator::Memory {
     return 0;
   }
   static int weights(N_Vector y, N_Vector w, void* self) {
-    static_cast<Memory*>(self)->problem.weights(NV_DATA_S(y), NV_DATA_S(w));
+    auto* m = static_cast<Memory*>(self);
+    long steps = 0;
+    double h = m->first;
+    if (IDAGetNumSteps(m->ida, &steps) == IDA_SUCCESS && steps > 0) IDAGetLastStep(m->ida, &h);
+    m->problem.weights(NV_DATA_S(y), h > 0.0 ? 1.0 / h : 0.0, NV_DATA_S(w));
     return 0;
   }
   static int roots(realtype t, N_Vector y, N_Vector yp, realtype* g, void* self) {
@@ -124,6 +128,7 @@ struct BdfIntegrator::Memory {
     problem.fill(jet, 1, NV_DATA_S(yp));
     check(IDAReInit(ida, jet.t, y, yp), "IDAReInit");
     IDASetInitStep(ida, h0);
+    first = h0;
     IDASetStopTime(ida, segment.end);
     // Surfaces move in the guards alone, so the error test does not see them; their polynomials must.
     const double shaking = segment.forcing->surface_omega();
@@ -143,7 +148,7 @@ struct BdfIntegrator::Memory {
     const double remaining = segment.end - jet.t;
     double h = remaining;
     problem.fill(jet, 0, NV_DATA_S(y));
-    problem.weights(NV_DATA_S(y), NV_DATA_S(work));
+    problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
     double factorial = 1.0;
     for (std::size_t order = 2; order <= static_cast<std::size_t>(Jet::orders); ++order) {
       factorial *= static_cast<double>(order);
@@ -207,6 +212,7 @@ struct BdfIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
   double start_part = first_step_part;
+  double first = 0.0;  // step of the segment
   std::vector<int> directions;
   Segment segment;
   std::string message;

@@ -53,6 +53,11 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
   for (std::size_t g : group) members[g] += 1.0;
   for (std::size_t i = 0; i < size; ++i)
     factor_.push_back(std::sqrt(static_cast<double>(size) / members[group[i]]) / local_part);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& contact = model.contacts[k];
+    if (contact.takes_impulses()) stop(contact.normal, layout_.force(k));
+    if (contact.takes_impulses() || contact.sticks_rigidly()) stop(contact.tangent, layout_.force(k) + 1);
+  }
   for (int i = 0; i < layout_.dofs; ++i) {
     if (layout_.velocity[static_cast<std::size_t>(i)] >= 0) continue;
     Massless own{i, model.stiffness.coeff(i, i), {}};
@@ -70,6 +75,13 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
     }
     if (own.stiffness > 0.0) massless_.push_back(std::move(own));
   }
+}
+
+void IdaProblem::stop(const Combination& form, int force) {
+  double compliance = 0.0;
+  for (const auto& [dof, factor] : form.terms)
+    if (const double mass = model_.mass.coeff(dof, dof); mass > 0.0) compliance += factor * factor / mass;
+  if (compliance > 0.0) stops_.push_back({&form, force, 1.0 / compliance});
 }
 
 void IdaProblem::start(const Segment& segment, const Watch& watch) {
@@ -155,7 +167,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   }
 }
 
-void IdaProblem::weights(const double* y, double* w) const {
+void IdaProblem::weights(const double* y, double rate, double* w) const {
   for (std::size_t i = 0; i < atol_.size(); ++i)
     w[i] = factor_[i] / (tolerance_.rtol * std::abs(y[i]) + atol_[i]);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
@@ -171,6 +183,12 @@ void IdaProblem::weights(const double* y, double* w) const {
     };
     limit(layout_.force(k), contact.normal_stiffness * gap);
     limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
+  }
+  for (const Stop& stop : stops_) {
+    const auto i = static_cast<std::size_t>(stop.force);
+    const auto velocity = by_dof([&](std::size_t, int v) { return v >= 0 ? y[v] : 0.0; });
+    const double rounding = rounding_floor * stop.mass * rate * stop.form->magnitude(velocity);
+    if (rounding * w[i] > factor_[i]) w[i] = factor_[i] / rounding;
   }
   widen_massless(y, w);
 }

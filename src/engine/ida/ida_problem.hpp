@@ -27,8 +27,8 @@ class IdaProblem {
   void linearise(double t, const double* y, const double* yp);
   /// Greatest entry of the residual of the equation of motion. Unit: force.
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
-  /// Error weights; see below.
-  void weights(const double* y, double* w) const;
+  /// Error weights; see below. rate: of the clock, 1/h; 0 before the first step is known.
+  void weights(const double* y, double rate, double* w) const;
   /// Scaled guards, one a slot; masked ones are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
   /// y^(order) from a jet.
@@ -64,6 +64,9 @@ class IdaProblem {
   /// that they carry.
   void widen_massless(const double* y, double* w) const;
 
+  /// One more of stops_, where the form moves mass.
+  void stop(const Combination& form, int force);
+
   const Model& model_;
   const Structure& structure_;
   Layout layout_;
@@ -83,6 +86,15 @@ class IdaProblem {
     std::vector<std::pair<int, double>> forces;  ///< of contacts on it: unknown, factor
   };
   std::vector<Massless> massless_;
+  // Forces without springs stop a mass: a velocity of the last step that is off by its rounding is made up
+  // for within one step, by m v eps / h. No tolerance below that can be met, and a smaller step would only
+  // raise it.
+  struct Stop {
+    const Combination* form;
+    int force;
+    double mass;  ///< behind the form, of the diagonal of M
+  };
+  std::vector<Stop> stops_;
   std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
   Momentum momentum_;
   std::vector<double> forces_;  // of all degrees of freedom, where some have no mass

@@ -65,6 +65,11 @@ TEST_CASE("companion: rebounds rest below the run's own velocity in all") {
   CHECK(*plan_of(scene).runs.at(0).model.contacts[0].capture_velocity == 1e-3);
 }
 
+TEST_CASE("companion: a finer one leaves those flights to the series that its run leaves") {
+  const CompanionPlan plan = plan_of(scene_of("engine = \"ida\"\nrtol = 1e-6\ncompanion = \"finer\""));
+  CHECK(plan.runs.at(0).run.flight_tolerances == doctest::Approx(100.0));
+}
+
 TEST_CASE("companion: laws without a closed flow have a finer one; asking for exact is refused") {
   const std::string stribeck = "{ static = 0.4, kinetic = 0.3, stribeck_velocity = 0.1 }";
   CHECK(plan_of(scene_of("engine = \"ida\"", stribeck)).name == "ida, rtol 1e-10");

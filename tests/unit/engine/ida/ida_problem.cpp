@@ -42,11 +42,35 @@ TEST_CASE("no tolerance of a force lies below the rounding of the difference tha
   std::vector<double> y(8, 0.0), w(8);
   y[0] = -3.0;
   y[1] = 0.5;
-  problem.weights(y.data(), w.data());
+  problem.weights(y.data(), 0.0, w.data());
   // In the norm of the group of N and T, of which a step may spend a fifth.
   const double part = std::sqrt(8.0 / 2.0) / 0.2, epsilon = std::numeric_limits<double>::epsilon();
   CHECK(part / w[6] == doctest::Approx(20.0 * epsilon * 1e12 * 5.0));
   CHECK(part / w[7] == doctest::Approx(20.0 * epsilon * 1e11 * 0.5));
+}
+
+TEST_CASE(
+    "no tolerance of a force that stops a mass lies below what a rounding of its velocity takes in a step") {
+  const Model model =
+      coupled("law = \"rigid\"\nnormal = { d0 = 3.0 }\ntangent = { d1 = 7.0 }\nfriction = 0.3");
+  Tolerance tolerance;
+  tolerance.rtol = tolerance.displacement = tolerance.velocity = tolerance.force = 1e-14;
+  const Structure structure(model);
+  const Forcing forcing(model, 0.0, Side::after);
+  IdaProblem problem(model, structure, tolerance);
+  Decision decision;
+  decision.mode = {{State::stick, 0.0}};
+  const Watch watch;
+  problem.start({1.0, &decision, &forcing}, watch);
+  std::vector<double> y(8, 0.0), w(8);
+  y[3] = -0.5;
+  y[4] = 0.25;
+  const double part = std::sqrt(8.0 / 2.0) / 0.2, epsilon = std::numeric_limits<double>::epsilon();
+  problem.weights(y.data(), 1e6, w.data());
+  CHECK(part / w[6] == doctest::Approx(20.0 * epsilon * (2.0 / 9.0) * 1e6 * 3.0 * 0.5));
+  CHECK(part / w[7] == doctest::Approx(20.0 * epsilon * (1.7 / 49.0) * 1e6 * 7.0 * 0.25));
+  problem.weights(y.data(), 0.0, w.data());
+  CHECK(part / w[6] == doctest::Approx(1e-14));
 }
 
 TEST_CASE("the acceleration of a held degree of freedom is exactly what its contact says") {

@@ -92,11 +92,10 @@ void hold_capture(Model& model, double capture_velocity) {
 
 CompanionPlan plan_companion(const Model& model, const RunSpec& run) {
   const bool itself = run.engine == Engine::exact;
-  if (run.companion == Companion::exact && !itself) {
-    RunSpec exact = run;
-    exact.engine = Engine::exact;
-    engine_row(Engine::exact).refuse(model, exact);
-  }
+  if (run.companion == Companion::exact && !itself && !exact_takes(model, run))
+    throw SceneError(
+        run.place, "run.companion",
+        "\"exact\" does not take this scene (signorini check --engine exact says why); use \"finer\"");
   const bool may_be_exact = !itself && run.companion != Companion::finer && exact_takes(model, run);
   const bool may_be_finer = itself || run.companion != Companion::exact;
   std::optional<CompanionPlan> exact, finer;

@@ -204,6 +204,7 @@ std::string certification(const Model& model, const CertifiedReport& run) {
     if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
   const std::string beside =
       fmt::format("beside {}, {:.2f} s and {:.2f} s of waiting", c.companion, c.wall_time, c.wait);
+  if (c.complete && c.t_errors.empty()) return fmt::format("certain to the end: no event ({})\n", beside);
   const std::string times = fmt::format("times within {:.1e} {}", greatest, model.units.time);
   std::string text =
       c.complete

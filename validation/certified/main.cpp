@@ -104,7 +104,8 @@ void judge_run(const std::string& name, const Track& track, const Certificate& c
     const auto k = static_cast<std::size_t>(event.contact);
     const std::size_t number = next[k]++;
     const bool certain = certificate.certain(i);
-    if (event.t >= truth.certificate.until) continue;  // nobody knows
+    const double off_by = certain ? certificate.t_errors[i] : 0.0;
+    if (event.t + off_by >= truth.certificate.until) continue;  // nobody knows
     ++tally.events;
     tally.certain += certain ? 1 : 0;
     const auto* answer = number < answers.of_contact[k].size() ? &answers.of_contact[k][number] : nullptr;
@@ -123,7 +124,7 @@ void judge_run(const std::string& name, const Track& track, const Certificate& c
     ++tally.right;
     if (!certain) continue;
     ++tally.certain_right;
-    const double bound = certificate.t_errors[i], off = std::abs(event.t - answer->event->t);
+    const double bound = off_by, off = std::abs(event.t - answer->event->t);
     if (!event.fell || answer->error * sharper > bound) continue;
     ++tally.judged;
     if (off > 0.0) tally.overestimates.push_back(bound / off);

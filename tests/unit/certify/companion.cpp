@@ -73,7 +73,8 @@ TEST_CASE("companion: a finer one leaves those flights to the series that its ru
 TEST_CASE("companion: laws without a closed flow have a finer one; asking for exact is refused") {
   const std::string stribeck = "{ static = 0.4, kinetic = 0.3, stribeck_velocity = 0.1 }";
   CHECK(plan_of(scene_of("engine = \"ida\"", stribeck)).name == "ida, rtol 1e-10");
-  CHECK_THROWS_AS((void)plan_of(scene_of("engine = \"ida\"\ncompanion = \"exact\"", stribeck)), SceneError);
+  CHECK_THROWS_WITH_AS((void)plan_of(scene_of("engine = \"ida\"\ncompanion = \"exact\"", stribeck)),
+                       doctest::Contains("run.companion: \"exact\" does not take this scene"), SceneError);
 }
 
 TEST_CASE("companion: exact has itself, twice, disturbed; it costs twice the run") {

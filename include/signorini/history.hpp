@@ -56,6 +56,12 @@ class History {
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
   /// F(t) = integral of f from 0 to t, continuous.
   [[nodiscard]] History integrated() const;
+  /// c0 f + c1 f' + c2 f'', piece by piece: what f does at a jump has no derivative here.
+  [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
+  /// f(t - dt).
+  [[nodiscard]] History shifted(double dt) const;
+  /// f on [from, from + period), again and again, `rounds` times; before and after as f is.
+  [[nodiscard]] History repeated(double from, double period, int rounds) const;
   [[nodiscard]] bool is_constant() const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<double>& starts() const { return starts_; }

@@ -36,11 +36,18 @@ struct Column {
   bool velocity = false;
 };
 
+/// What a load comes from. strain: of a member, by temperature or as built; support: one that moves.
+enum class LoadKind : unsigned char { force, moment, distributed, weight, base, strain, support };
+
 struct Load {
   std::string name;  ///< "gravity", "load 1", ...
   Combination direction;
-  History history;         ///< amplitude included
-  bool is_static = false;  ///< counts for initial = "static": gravity and constants that hold since ever
+  History history;  ///< amplitude included
+  /// Counts for initial = "static": gravity, constants that hold since ever, supports where they are at t = 0.
+  bool is_static = false;
+  LoadKind kind = LoadKind::force;
+  /// direction . u is a length times `of_direction`, the history has `of_history`: a force together, at a point.
+  Unit of_direction{}, of_history{1, 0, 0};
 };
 
 /// Typical magnitudes, from which absolute tolerances follow. Units in the names.
@@ -48,10 +55,29 @@ struct Scales {
   double displacement = 1.0, rotation = 1.0, velocity = 1.0, angular_velocity = 1.0, force = 1.0;
 };
 
-/// What the static start found (initial = "static").
+/// A change of state in a frictional start.
+struct StageEvent {
+  std::string stage;
+  double part = 0.0;  ///< of the stage, 0 to 1
+  int contact = -1;   ///< index into Model::contacts
+  State from = State::open, to = State::open;
+};
+
+/// Contacts at the end of a part of a stage.
+struct StageEnd {
+  std::string stage;
+  double part = 1.0;
+  std::vector<State> states;
+  std::vector<double> N, T;  ///< force
+};
+
+/// What the static start found (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;          ///< -N a contact, >= 0
   std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
+  bool frictional = false;
+  std::vector<StageEvent> events;  ///< frictional
+  std::vector<StageEnd> stages;    ///< frictional
 };
 
 // What deformed shapes are drawn from; empty in matrix scenes. dofs (ux, uy, rz): -1 where fixed or absent.

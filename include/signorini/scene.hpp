@@ -29,6 +29,11 @@ struct Factors {
   double force = 1.0, length = 1.0, time = 1.0;
 };
 
+/// Of a quantity: force^a length^b time^c; all zero: a plain number.
+struct Unit {
+  int force = 0, length = 0, time = 0;
+};
+
 enum class HistoryType { constant, step, rectangle, triangle, half_sine, harmonic, polynomial, table };
 
 /// f(t) = offset + amplitude * shape(t). A load's amplitude stands outside its history, so for loads
@@ -45,7 +50,17 @@ struct HistorySpec {
   std::vector<double> times, values;  ///< table
   bool steffen = false;               ///< table: interpolation = "steffen"
   bool start_given = false;           ///< without it a constant holds since ever
+  bool hold = false;                  ///< table: the last value holds from the last time on
+  double shift = 0.0;                 ///< all of it later by this
+  double period = 0.0;                ///< > 0: the shape begins anew every so long, `rounds` times
+  int rounds = 1;
   SourcePlace place;
+
+  [[nodiscard]] static HistorySpec zero() {
+    HistorySpec spec;
+    spec.amplitude = 0.0;
+    return spec;
+  }
 };
 
 /// A direction in the space of displacements: a node and a plane vector, or degrees of freedom by name.
@@ -101,9 +116,27 @@ struct RunSpec {
   [[nodiscard]] std::vector<double> grid() const;
 };
 
-/// initial = "static", or a state: by degree of freedom in the order of [matrices] dofs, or by node.
+/// A step of a frictional start: these loads grow slowly from what they were to what they are at t = 0.
+struct StageSpec {
+  std::string name;
+  std::vector<std::string> loads;  ///< as Model::loads calls them, or "temperature", "supports": all of these
+  int steps = 1;                   ///< parts of the stage after which its state is told
+  SourcePlace place;
+};
+
+/// Where a run stood: everything that its motion goes on from.
+struct SavedState {
+  std::vector<std::pair<std::string, double>> motions;  ///< by the names of Dof: displacement, velocity
+  std::vector<std::pair<std::string, double>> shears;   ///< T of contacts by name
+};
+
+/// initial = "static" or "frictional", the state of a run, or a state: by degree of freedom in the order of
+/// [matrices] dofs, or by node.
 struct InitialSpec {
   bool is_static = false;
+  bool is_frictional = false;
+  std::vector<StageSpec> stages;  ///< frictional; empty: all static loads at once
+  std::optional<SavedState> saved;
   std::vector<double> u, v;  ///< matrices: one a degree of freedom; empty: zero
   struct Component {
     std::string node, component;  ///< component: ux uy rz vx vy wz
@@ -151,6 +184,10 @@ struct Member {
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
   SourcePlace place;
+  std::vector<std::string> release = {};  ///< first or last node, or both: hinged there
+  double thermal_expansion = 0.0;         ///< strain per temperature
+  HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
+  HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
 };
 
 struct PointMass {
@@ -166,12 +203,16 @@ struct Spring {
   std::array<double, 2> direction{1.0, 0.0};  ///< normalised by the reader
   double stiffness = 0.0, damping = 0.0;
   SourcePlace place;
+  double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
 };
 
 struct Support {
   std::string node;
   bool ux = false, uy = false, rz = false;
   SourcePlace place;
+  /// What the one held degree of freedom follows; absent: it rests.
+  std::optional<HistorySpec> motion = {};
+  bool motion_is_acceleration = false;  ///< its second derivative, from rest at zero
 };
 
 enum class Law { compliant, rigid, slider };
@@ -222,11 +263,18 @@ struct BaseMotionSpec {
   SourcePlace place;
 };
 
+enum class LoadType { force, moment, distributed };
+
+/// A force or a moment at a node, or a force per length on pieces of members.
 struct LoadSpec {
-  Direction direction;
+  Direction direction;  ///< moment: its node only
   double amplitude = 0.0;
   HistorySpec history;
   SourcePlace place;
+  std::string name = {};  ///< in results and stages; empty: "load 1", by its number
+  LoadType type = LoadType::force;
+  std::vector<std::string> pieces = {};  ///< distributed: nodes; from each to the next a piece of a member
+  bool member_axes = false;              ///< distributed: direction is (along, to the left) of the piece
 };
 
 /// Triplets (row, column, value), symmetric ones written out in full.
@@ -261,7 +309,7 @@ struct Scene {
   std::vector<Support> supports;
   std::vector<ContactSpec> contacts;
   std::vector<LoadSpec> loads;
-  std::optional<BaseMotionSpec> base_motion;
+  std::vector<BaseMotionSpec> base_motion;
   std::optional<MatricesSpec> matrices;
   std::optional<ReductionSpec> reduction;
   std::string resolved;  ///< the same scene as TOML with every default filled in (run.toml)

@@ -79,7 +79,9 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
                c.has_friction() ? number(static_friction(c) * std::abs(s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n",
-                     model.static_start ? "in static equilibrium" : "in the given initial state") +
+                     model.statics.frictional ? "after a start with friction"
+                     : model.static_start     ? "in static equilibrium"
+                                              : "in the given initial state") +
          table.str() + more(report.contacts.size()) + "\n";
 }
 

@@ -45,6 +45,18 @@ A motion that only friction could stop is held at the first contact that can, wh
 on it, and `check` names it. A motion that the loads would drive is refused, and so is a support that would have
 to pull. With `[matrices]`, such a constant load must say what the weight is.
 
+`initial = "frictional"`: from the undeformed state the loads grow slowly, one stage after the other, with friction and
+open contacts in force; so a frame keeps its thrust, and a hot pipe the friction that it slid against. What grows is
+named under `[[run.stages]]`; without stages all static loads grow together. Each comes to what it is at t = 0 and stays
+there. Between two changes of state everything goes along lines, so the changes are exact; `run` prints them, and
+summary.json has them (`model.frictional_start`). Contacts with a gap below zero come apart first, in a stage "fit".
+Refused by name: a structure that nothing holds at some part of a stage, one that could only go on by moving, a contact
+that begins to slip where its kinetic friction is below the static one.
+
+`initial = { run = "DIR", t = 3.2 }` goes on from a state that the run in DIR kept in its states.csv: displacements and
+velocities of all degrees of freedom, and the shears of contacts. Its t_end and its `frames` are kept. The structure must
+be the same; loads may be others. Time begins at 0 again: `shift = -3.2` takes a history along.
+
 Otherwise displacements and velocities are as given, and zero where they are not:
 
 ```toml
@@ -54,6 +66,21 @@ initial = { A = { ux = 0.01, vy = -0.2 } }           # with [nodes]
 # initial = { u = [0.0, 0.01], v = [0.0, 0.0] }      # with [matrices]
 ```)"},
     {"run.initial.*", "### `run.initial.NODE`", ""},
+    {"run.stages[]", "### `[[run.stages]]`",
+     R"(```toml
+[run]
+t_end = 20.0
+initial = "frictional"
+
+[[run.stages]]
+name = "weight"
+loads = ["gravity"]
+
+[[run.stages]]
+name = "heat"
+loads = ["temperature", "supports"]
+steps = 10
+```)"},
     {"damping", "## `[damping]`",
      R"(```toml
 [damping]
@@ -99,6 +126,17 @@ mass_per_length = 0.4
 A = [0.0, 0.0]
 B = [0.0, 6.0]
 ```)"},
+    {"lines[]", "## `[[lines]]`",
+     R"(Nodes P0, P1, ..., P20 from (0, 4) to (60, 4), behind those of `[nodes]`. Members, supports, contacts and stops may name
+them as a row, `nodes = ["P0..P20:4"]`.
+
+```toml
+[[lines]]
+name = "P"
+from = [0.0, 4.0]
+to = [60.0, 4.0]
+pieces = 20
+```)"},
     {"members[]", "## `[[members]]`",
      R"(```toml
 [[members]]
@@ -110,6 +148,13 @@ elements = [4, 12]          # of A-B and of B-D
 nodes = ["A", "D"]
 section = "brace"
 type = "bar"                # hinged at both ends
+
+[[members]]
+nodes = ["P0..P20"]         # of a line of nodes
+section = "pipe"
+release = ["P20"]           # a hinge at its end
+thermal_expansion = 1.2e-5
+temperature = { type = "table", times = [0.0, 60.0], values = [0.0, 80.0], hold = true }
 ```)"},
     {"masses[]", "## `[[masses]]`",
      R"(```toml
@@ -118,13 +163,23 @@ node = "B"
 mass = 0.5
 ```)"},
     {"supports[]", "## `[[supports]]`",
-     R"(What is held moves neither way for ever. A support that may open is a contact.
+     R"(What is held moves neither way for ever, or as `motion` says. A support that may open is a contact.
 
 ```toml
 [[supports]]
 node = "A"
 fix = ["ux", "uy"]
-```)"},
+
+[[supports]]
+node = "D"
+fix = ["uy"]
+motion = { type = "table", times = [0.0, 1.0], values = [0.0, -0.02], interpolation = "steffen", hold = true }
+```
+
+The force of supports that move is -K s - C s' - M s'', of the rows of what is free and the columns of what moves; the
+audit's energy is that of what is free, and books the work of this force with that of the loads. A motion that jumps, or
+has a kink where mass moves with the support, is refused: it would need an impulse. Displacements are absolute;
+`[base_motion]` is the same for all supports at once, seen from them.)"},
     {"springs[]", "## `[[springs]]`",
      R"(```toml
 [[springs]]
@@ -133,6 +188,10 @@ against = "D"               # the ground without it
 direction = [1.0, 0.0]
 stiffness = 200.0
 damping = 1.5
+
+[[springs]]
+node = "B"
+rotation_stiffness = 350.0  # a soft footing
 ```)"},
     {"matrices", "## `[matrices]`",
      R"(Whatever another program assembled, instead of gravity, nodes, members, masses, springs, supports and damping.
@@ -227,6 +286,19 @@ normal_force = { type = "harmonic", offset = 10.0, amplitude = 4.0, omega = 3.0 
 friction = { static = 0.4, kinetic = 0.3 }
 surface_velocity = 0.2
 ```)"},
+    {"stops[]", "## `[[stops]]`",
+     R"(A guide or a line stop: contacts on both sides of a node. All other keys are those of a contact with a gap, for either
+side. With [matrices] a stop has no friction.
+
+```toml
+[[stops]]
+name = "line-stop"
+node = "P40"
+law = "compliant"
+direction = [1.0, 0.0]
+gap = 0.01
+normal_stiffness = 1e5
+```)"},
     {"base_motion", "## `[base_motion]`",
      R"(The ground shakes: displacements and velocities are then relative to it, and the load is -M r a(t), with r the
 direction on all translations, fixed ones included.
@@ -235,9 +307,23 @@ direction on all translations, fixed ones included.
 [base_motion]
 direction = [1.0, 0.0]
 acceleration = { type = "table", times = [0.0, 0.1, 0.2], values = [0.0, 3.0, 0.0] }
+```
+
+Along several directions at once: tables under `[[base_motion]]`. An acceleration may be given in g, and as a record of
+PEER:
+
+```toml
+[[base_motion]]
+direction = [1.0, 0.0]
+acceleration = { type = "table", file = "RSN1111_000.AT2" }
+
+[[base_motion]]
+direction = [0.0, 1.0]
+acceleration = { type = "table", file = "up.txt", time_step = 0.005, unit = "g", amplitude = 0.7 }
 ```)"},
     {"loads[]", "## `[[loads]]`",
-     R"(A force amplitude * f(t) along a direction. Several may act on one node.
+     R"(A force amplitude * f(t) along a direction, a moment, or a force per length of members, with the end forces and moments
+that a beam under it would have if it were clamped. Several may act on one node.
 
 ```toml
 [[loads]]
@@ -245,9 +331,19 @@ node = "B"
 direction = [0.7071067811865476, 0.7071067811865476]
 amplitude = 100.0
 history = { type = "rectangle", start = 0.0, end = 0.1 }
+
+[[loads]]
+node = "B"
+moment = 12.0
+
+[[loads]]
+name = "snow"
+nodes = ["B", "D"]
+direction = [0.0, -1.0]
+distributed = 3.5
 ```)"},
     {"history", "## Histories",
-     R"(The course of a load, of `normal_force` or of `surface_velocity` in time.
+     R"(The course of a load, a temperature, the motion of a support, of `normal_force` or of `surface_velocity` in time.
 
 | type | f(t) | needs |
 |---|---|---|
@@ -260,7 +356,8 @@ history = { type = "rectangle", start = 0.0, end = 0.1 }
 | `polynomial` | c0 + c1 (t - start) + c2 (t - start)^2 + ... | coefficients |
 | `table` | through the points | times and values, or file |
 
-f is zero before start and from end on, a table outside its times; it has neither start nor end. At a jump f
+f is zero before start and from end on, a table outside its times (after them with `hold` as it last was); it has neither
+start nor end. `period` begins the shape anew every so long, `shift` moves all of it. At a jump f
 already has its new value. Where it jumps or has a kink the integration stops and restarts, so that no pulse is
 stepped over, however short.
 
@@ -270,6 +367,10 @@ history = { type = "harmonic", frequency = 2.0, start = 0.5, end = 4.5 }
 
 ```toml
 history = { type = "table", times = [0.0, 0.1, 0.1, 0.3], values = [0.0, 1.0, 0.5, 0.0] }
+```
+
+```toml
+history = { type = "rectangle", start = 0.0, end = 0.2, period = 1.0, shift = 0.5 }     # once a second
 ```)"},
 };
 

@@ -134,6 +134,25 @@ std::string method_of(const Method& method) {
 
 }  // namespace
 
+std::string start_table(const Model& model) {
+  constexpr std::size_t most = 24;
+  if (!model.statics.frictional) return "";
+  std::string stages;
+  for (const StageEnd& end : model.statics.stages)
+    if (end.part == 1.0) stages += fmt::format("{}{}", stages.empty() ? "" : ", ", end.stage);
+  const std::string title = fmt::format("before t = 0, slowly and with friction: {}", stages);
+  if (model.statics.events.empty()) return title + "; no contact changed its state\n";
+  Table table({"stage", "part", "contact", "from -> to"}, {false, true, false, false});
+  for (std::size_t i = 0; i < model.statics.events.size() && i < most; ++i) {
+    const StageEvent& e = model.statics.events[i];
+    table.row({e.stage, fmt::format("{:.6g}", e.part), name_of(model, e.contact),
+               fmt::format("{} -> {}", to_string(e.from), to_string(e.to))});
+  }
+  if (model.statics.events.size() > most)
+    table.line(fmt::format("... {} more; all are in summary.json", model.statics.events.size() - most));
+  return title + "\n" + table.str();
+}
+
 std::string event_table(const Live& live, const Model& model, const Certificate* certificate) {
   EventTable table(model, certificate);
   const auto& first = live.first_events();

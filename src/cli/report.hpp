@@ -9,6 +9,9 @@
 
 namespace signorini::cli {
 
+/// The changes of state in a frictional start; empty without.
+[[nodiscard]] std::string start_table(const Model& model);
+
 /// One row an event; of many, the first and the last ones. N and T as they are just before the event. A
 /// certificate, or null, says how far off each time may be, and where the sequence ends to be certain.
 [[nodiscard]] std::string event_table(const Live& live, const Model& model, const Certificate* certificate);

@@ -93,6 +93,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   if (options.json) print(summary);
   if (options.tables()) {
     if (!scene.title.empty()) print(scene.title + "\n\n");
+    if (const std::string start = start_table(model); !start.empty()) print(start + "\n");
     print(events + "\n");
     const std::string contacts = contact_table(model, report);
     if (!contacts.empty()) print(contacts + "\n");

@@ -10,7 +10,9 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
+#include "model/assembly/loads.hpp"
 #include "model/doubts.hpp"
+#include "model/frictional_start.hpp"
 #include "model/initial_state.hpp"
 #include "model/machine_units.hpp"
 #include "model/massless.hpp"
@@ -27,11 +29,23 @@
 namespace signorini {
 namespace {
 
+/// The shears that contacts had, from which their anchors follow.
+void take_shears(const SavedState& saved, Model& model) {
+  for (const auto& [name, T] : saved.shears)
+    for (Contact& c : model.contacts)
+      if (c.name == name && c.tangential_stiffness && c.has_friction()) c.initial_shear = T;
+}
+
 void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
+  if (scene.initial.is_frictional) {
+    start_with_friction(scene, map, model);
+    return;
+  }
   if (!scene.initial.is_static) {
     const InitialState state = given_state(scene, map);
     model.u0 = state.u;
     model.v0 = state.v;
+    if (scene.initial.saved) take_shears(*scene.initial.saved, model);
     return;
   }
   bool loaded = false;
@@ -79,6 +93,13 @@ void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& mo
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
+/// Moving supports take part in the Rayleigh damping.
+void damp_supports(const Scene& scene, const DofMap& map, const Assembly& assembly, Model& model) {
+  std::erase_if(model.loads, [](const Load& load) { return load.kind == LoadKind::support; });
+  for (Load& load : support_loads(scene, map, assembly, model.alpha, model.beta))
+    model.loads.push_back(std::move(load));
+}
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -105,6 +126,7 @@ Model assembled(const Scene& scene, const Factors& unit) {
   const std::vector<bool> closed = closed_at_start(model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   set_damping(scene.damping, assembly.dampers, model);
+  damp_supports(scene, map, assembly, model);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   check_rigid_contacts(scene, model);

@@ -10,6 +10,7 @@
 #include "base/listed.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/contacts.hpp"
+#include "model/assembly/loads.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/null_motions.hpp"
@@ -48,7 +49,7 @@ class Doubts {
  private:
   void idle_loads() {
     for (const Load& load : model_.loads) {
-      if (load.name == "gravity" || load.name == "base motion") continue;
+      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support) continue;
       const auto& terms = load.direction.terms;
       const bool idle =
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
@@ -154,7 +155,7 @@ class Doubts {
   }
 
   void shear() {
-    if (!model_.static_start) return;
+    if (!model_.static_start || model_.statics.frictional) return;
     std::vector<std::size_t> loose;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k)
       if (model_.contacts[k].initial_shear != 0.0) loose.push_back(k);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <unordered_map>
 
 namespace signorini {
 namespace {
@@ -18,11 +19,31 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   return Eigen::Map<const Vector>(values.data(), n);
 }
 
+/// Of a run: the degrees of freedom of the same names.
+InitialState saved_state(const InitialSpec& spec, const DofMap& map) {
+  InitialState state{Vector::Zero(map.size()), Vector::Zero(map.size())};
+  std::unordered_map<std::string, double> values;
+  for (const auto& [name, value] : spec.saved->motions) values.emplace(name, value);
+  const auto value_of = [&](const std::string& name) {
+    const auto found = values.find(name);
+    if (found == values.end())
+      throw SceneError(spec.place, "run.initial.run",
+                       fmt::format("the saved state has no {}: expected a run of the same structure", name));
+    return found->second;
+  };
+  for (int i = 0; i < map.size(); ++i) {
+    state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
+    state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
+  }
+  return state;
+}
+
 }  // namespace
 
 InitialState given_state(const Scene& scene, const DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
+  if (spec.saved) return saved_state(spec, map);
   if (map.matrices())
     return {given_vector(spec.u, n, spec, "run.initial.u"), given_vector(spec.v, n, spec, "run.initial.v")};
   InitialState state{Vector::Zero(n), Vector::Zero(n)};

@@ -78,11 +78,12 @@ Sizes sizes_of(const Scene& scene, int length) {
     sizes.force.add(c.normal_force.offset);
     sizes.force.add(c.normal_force.amplitude);
   }
-  for (const LoadSpec& load : scene.loads) sizes.force.add(load.amplitude);
+  for (const LoadSpec& load : scene.loads)
+    if (load.type == LoadType::force) sizes.force.add(load.amplitude);
   for (const double g : scene.gravity) sizes.acceleration.add(g);
-  if (scene.base_motion) {
-    sizes.acceleration.add(scene.base_motion->acceleration.offset);
-    sizes.acceleration.add(scene.base_motion->acceleration.amplitude);
+  for (const BaseMotionSpec& motion : scene.base_motion) {
+    sizes.acceleration.add(motion.acceleration.offset);
+    sizes.acceleration.add(motion.acceleration.amplitude);
   }
   add_initial(scene.initial, sizes);
   return sizes;

@@ -57,12 +57,9 @@ class Rescaling {
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
-  /// Weight stands in the direction, masses that the base moves too; all other loads have their force in the
-  /// history.
   void operator()(Load& load) const {
-    const bool weight = load.name == "gravity", inertia = load.name == "base motion";
-    (*this)(load.direction, weight ? unit::force : inertia ? unit::mass : unit::plain);
-    (*this)(load.history, weight ? unit::plain : inertia ? unit::acceleration : unit::force);
+    (*this)(load.direction, load.of_direction);
+    (*this)(load.history, load.of_history);
   }
 
   void operator()(Contact& c) const {
@@ -132,6 +129,9 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.u0, unit::plain);
   rescale(model.v0, unit::rate);
   for (double& reaction : model.statics.reactions) rescale(reaction, unit::force);
+  for (StageEnd& end : model.statics.stages)
+    for (std::vector<double>* forces : {&end.N, &end.T})
+      for (double& force : *forces) rescale(force, unit::force);
   rescale(model.scales);
   rescale(model.alpha, unit::rate);
   rescale(model.beta, unit::time);

@@ -61,6 +61,18 @@ double greatest_mass(const Model& model, const DofMap& map) {
   return greatest;
 }
 
+double diagonal_of(const DofMap& map) {
+  if (map.mesh.nodes.empty()) return 0.0;
+  double x0 = map.mesh.nodes[0].x, x1 = x0, y0 = map.mesh.nodes[0].y, y1 = y0;
+  for (const MeshNode& node : map.mesh.nodes) {
+    x0 = std::min(x0, node.x);
+    x1 = std::max(x1, node.x);
+    y0 = std::min(y0, node.y);
+    y1 = std::max(y1, node.y);
+  }
+  return std::hypot(x1 - x0, y1 - y0);
+}
+
 double force_of(const Model& model, const DofMap& map, double t_end) {
   double force = 0.0;
   for (double reaction : model.statics.reactions) force = std::max(force, reaction);
@@ -68,16 +80,32 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
     if (c.is_pressed()) force = std::max(force, magnitude(c.normal_force, t_end));
     if (c.has_spring()) force = std::max(force, c.normal_stiffness * -std::min(0.0, c.gap_at(model.u0)));
   }
+  double held = 0.0;  // by what does not follow; what does takes none of it
   for (const Load& load : model.loads) {
-    if (load.name == "gravity" || load.name == "base motion") {
-      if (load.is_static && model.static_start) continue;
-      const double weight = weight_of(full(load.direction, model.size()), map);
-      force = std::max(force, weight * magnitude(load.history, t_end));
-    } else {
-      force = std::max(force, force_factor(load.direction, map) * magnitude(load.history, t_end));
+    const double most = magnitude(load.history, t_end);
+    const Vector direction = full(load.direction, model.size());
+    switch (load.kind) {
+      case LoadKind::weight:
+      case LoadKind::base:
+      case LoadKind::distributed:
+        if (load.is_static && model.static_start) continue;
+        force = std::max(force, weight_of(direction, map) * most);
+        break;
+      case LoadKind::force:
+        force = std::max(force, force_factor(load.direction, map) * most);
+        break;
+      case LoadKind::moment:  // a couple across the whole structure
+        if (const double arm = diagonal_of(map); arm > 0.0)
+          force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
+        break;
+      case LoadKind::strain:
+      case LoadKind::support:
+        held = std::max(held, greatest_translation(direction, map) * most);
+        break;
     }
   }
   if (usable(force)) return force;
+  if (usable(held)) return held;
   // Free vibration: the forces of the initial state, then those that would stop it.
   force = std::max(greatest_translation(model.stiffness * model.u0, map),
                    greatest_translation(model.damping * model.v0, map));
@@ -156,18 +184,6 @@ double spring_answer(const Model& model, double force) {
     consider(c.tangential_stiffness.value_or(0.0));
   }
   return softest > 0.0 ? force / softest : 0.0;
-}
-
-double diagonal_of(const DofMap& map) {
-  if (map.mesh.nodes.empty()) return 0.0;
-  double x0 = map.mesh.nodes[0].x, x1 = x0, y0 = map.mesh.nodes[0].y, y1 = y0;
-  for (const MeshNode& node : map.mesh.nodes) {
-    x0 = std::min(x0, node.x);
-    x1 = std::max(x1, node.x);
-    y0 = std::min(y0, node.y);
-    y1 = std::max(y1, node.y);
-  }
-  return std::hypot(x1 - x0, y1 - y0);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ constexpr int pieces = 1200;                     // about a pixel each
 constexpr std::size_t most_breakpoints = 10000;  // more than a picture can show
 
 /// The base's acceleration acts as -M r a.
-double sign_of(const Load& load) { return load.name == "base motion" ? -1.0 : 1.0; }
+double sign_of(const Load& load) { return load.kind == LoadKind::base ? -1.0 : 1.0; }
 
 }  // namespace
 

@@ -12,7 +12,7 @@ std::string loads_script(const PlottedRun& run, const std::vector<std::string>& 
   constexpr std::size_t most_curves = 24;
   std::vector<std::string> forces, base;
   for (std::size_t i = 1; i < columns.size() && i <= most_curves; ++i) {
-    const bool moves = columns[i] == "base motion";
+    const bool moves = columns[i].starts_with("base motion");
     (moves ? base : forces)
         .push_back(fmt::format(
             "'../loads.csv' skip 1 using 1:{} with lines linewidth 1.6 linecolor '{}' title {}", i + 1,

@@ -9,6 +9,7 @@
 #include "result/frames.hpp"
 #include "result/load_table.hpp"
 #include "result/plots.hpp"
+#include "result/states.hpp"
 #include "result/summary.hpp"
 #include "result/writers.hpp"
 #include "signorini/error.hpp"
@@ -19,9 +20,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 12> run_files = {
-    "events.csv", "history.csv", "errors.csv", "contacts.csv",       "motion.csv",   "curves.csv",
-    "loads.csv",  "energy.csv",  "frames.csv", "frame_contacts.csv", "summary.json", "run.toml"};
+constexpr std::array<std::string_view, 13> run_files = {
+    "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
+    "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
+    "summary.json", "run.toml",    "states.csv"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -103,6 +105,7 @@ struct RunDirectory::Writers {
   ContactWriter contacts;
   EnergyWriter energy;
   std::unique_ptr<FrameWriter> frames;
+  std::unique_ptr<StateWriter> states;
   std::unique_ptr<ContactWriter> motion;
 };
 
@@ -141,12 +144,20 @@ void RunDirectory::sample(const Sample& sample) {
   w.history.write(sample);
   w.contacts.write(sample);
   w.energy.write(sample);
+  if (sample.t == scene_.run.t_end) keep_state(sample);
+}
+
+void RunDirectory::keep_state(const Sample& sample) {
+  Writers& w = writers();
+  if (!w.states) w.states = std::make_unique<StateWriter>(path_, model_);
+  w.states->write(sample);
 }
 
 void RunDirectory::frame(const Sample& sample) {
   Writers& w = writers();
   if (!w.frames) w.frames = std::make_unique<FrameWriter>(path_, model_);
   w.frames->write(sample);
+  keep_state(sample);
 }
 
 void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {

@@ -52,6 +52,8 @@ class RunDirectory : public Recorder {
 
  private:
   struct Writers;
+  /// Everything from which another run may go on.
+  void keep_state(const Sample& sample);
   Writers& writers();
 
   std::filesystem::path path_;

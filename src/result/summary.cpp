@@ -54,6 +54,28 @@ Json version_json() {
   return {{"signorini", version}, {"sundials", sundials_version}, {"compiler", "g++ " __VERSION__}};
 }
 
+/// How the loads came: changes of state, and the contacts at the end of each part of a stage.
+Json frictional_json(const Model& model) {
+  Json events = Json::array(), stages = Json::array();
+  const auto name = [&](int k) { return model.contacts[static_cast<std::size_t>(k)].name; };
+  for (const StageEvent& e : model.statics.events)
+    events.push_back({{"stage", e.stage},
+                      {"part", e.part},
+                      {"contact", name(e.contact)},
+                      {"from", to_string(e.from)},
+                      {"to", to_string(e.to)}});
+  for (const StageEnd& end : model.statics.stages) {
+    Json contacts = Json::array();
+    for (std::size_t k = 0; k < end.states.size(); ++k)
+      contacts.push_back({{"name", model.contacts[k].name},
+                          {"state", to_string(end.states[k])},
+                          {"N", end.N[k]},
+                          {"T", end.T[k]}});
+    stages.push_back({{"stage", end.stage}, {"part", end.part}, {"contacts", contacts}});
+  }
+  return {{"events", events}, {"stages", stages}};
+}
+
 Json model_json(const Model& model) {
   long massless = 0;
   for (const Dof& dof : model.dofs) massless += dof.massless ? 1 : 0;
@@ -65,6 +87,7 @@ Json model_json(const Model& model) {
                {"omega_max", model.omega_max},
                {"static_start", model.static_start}};
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
+  if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
                     {"rotation", model.scales.rotation},
                     {"velocity", model.scales.velocity},

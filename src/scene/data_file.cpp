@@ -36,6 +36,131 @@ bool is_binary(const std::string& line) {
   return false;
 }
 
+bool says(const std::string& line, const std::string& word) {
+  std::string upper;
+  for (const char c : line) upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return upper.find(word) != std::string::npos;
+}
+
+/// Line after line of one file of numbers.
+class TableReader {
+ public:
+  TableReader(std::istream& in, const std::string& file, const std::string& key, const TableLayout& layout)
+      : in_(in), file_(file), key_(key), layout_(layout) {}
+
+  TimeTable read() {
+    if (layout_.peer) read_peer_heading();
+    const bool values_only = layout_.peer || layout_.time_step > 0.0;
+    while (next()) {
+      if (!layout_.peer && words_[0][0] == '#') continue;
+      last_ = number_;
+      const bool heading = heading_allowed_ && !parse_number(words_[0]);
+      heading_allowed_ = false;
+      if (heading) continue;
+      if (values_only)
+        for (const std::string& word : words_) add(time_of_next(), number(word, "a value"));
+      else
+        read_row();
+    }
+    number_ = last_;
+    if (in_.bad()) fail("cannot be read");
+    if (table_.times.size() < 2)
+      fail(fmt::format("found {}, expected two or more",
+                       count_of(table_.times.size(), values_only ? "value" : "row")));
+    if (layout_.peer && table_.times.size() != points_)
+      fail(fmt::format("found {}, expected {} as NPTS says", count_of(table_.times.size(), "value"), points_));
+    return std::move(table_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw SceneError({file_, number_, 0}, key_, message);
+  }
+
+  /// The next line that is not blank.
+  bool next() {
+    while (read_line(in_, line_)) {
+      ++number_;
+      if (number_ == 1 && line_.starts_with("\xef\xbb\xbf")) line_.erase(0, 3);  // written by spreadsheets
+      if (is_binary(line_)) fail("found binary data, expected lines of time and value");
+      if (line_.size() > longest_line)
+        fail(fmt::format("found a line of more than {} characters", longest_line));
+      words_ = words_of(line_);
+      if (!words_.empty()) return true;
+    }
+    return false;
+  }
+
+  double number(const std::string& word, const char* what) const {
+    const auto value = parse_number(word);
+    if (!value || !std::isfinite(*value))
+      fail(fmt::format("found \"{}\", expected {}", excerpt(word), what));
+    return *value;
+  }
+
+  void read_peer_heading() {
+    for (int line = 1; line <= 4; ++line) {
+      if (!next()) fail("the file ends, expected the four lines of a PEER file's heading");
+      table_.in_g = table_.in_g || (line < 4 && says(line_, "UNITS OF G"));
+    }
+    std::vector<double> numbers;
+    for (char& c : line_)
+      if (c == '=' || c == ',') c = ' ';
+    for (const std::string& word : words_of(line_))
+      if (const auto value = parse_number(word)) numbers.push_back(*value);
+    const bool whole = numbers.size() >= 2 && numbers[0] >= 2.0 &&
+                       numbers[0] <= static_cast<double>(most_rows) && numbers[0] == std::floor(numbers[0]);
+    if (!says(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
+      fail("found no \"NPTS= 5372, DT= .0050\", expected it in the fourth line of a PEER file");
+    points_ = static_cast<std::size_t>(numbers[0]);
+    layout_.time_step = numbers[1];
+    heading_allowed_ = false;
+  }
+
+  [[nodiscard]] double time_of_next() const {
+    return static_cast<double>(table_.times.size()) * layout_.time_step;
+  }
+
+  void read_row() {
+    const auto column = static_cast<std::size_t>(layout_.column == 0 ? 2 : layout_.column);
+    const bool fits = layout_.column == 0 ? words_.size() == 2 : words_.size() >= column;
+    const auto t = parse_number(words_[0]);
+    const auto value = fits ? parse_number(words_[column - 1]) : std::nullopt;
+    if (!t || !value || !std::isfinite(*t) || !std::isfinite(*value)) {
+      while (!line_.empty() && line_.back() == '\r') line_.pop_back();
+      fail(layout_.column == 0
+               ? fmt::format("found \"{}\", expected two numbers, time and value", excerpt(line_))
+               : fmt::format("found \"{}\", expected a time first and a value in column {}", excerpt(line_),
+                             column));
+    }
+    const std::size_t n = table_.times.size();
+    if (n > 0 && *t < table_.times[n - 1]) {
+      fail(fmt::format("found time {} after {}, expected ascending times", shortest(*t),
+                       shortest(table_.times[n - 1])));
+    }
+    if (n > 1 && *t == table_.times[n - 2]) {
+      fail(fmt::format("found time {} three times, expected at most twice (a jump)", shortest(*t)));
+    }
+    add(*t, *value);
+  }
+
+  void add(double t, double value) {
+    if (table_.times.size() == most_rows) fail(fmt::format("found more than {} rows", most_rows));
+    table_.times.push_back(t);
+    table_.values.push_back(value);
+  }
+
+  std::istream& in_;
+  const std::string &file_, &key_;
+  TableLayout layout_;
+  TimeTable table_;
+  std::string line_;
+  std::vector<std::string> words_;
+  int number_ = 0, last_ = 1;  // lines: this one, the last one that was not skipped
+  std::size_t points_ = 0;
+  bool heading_allowed_ = true;
+};
+
 }  // namespace
 
 bool read_line(std::istream& in, std::string& line) {
@@ -62,47 +187,9 @@ std::ifstream open_data_file(const Table& table, std::string_view key, const fs:
   return in;
 }
 
-TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key) {
-  TimeTable table;
-  int number = 0, last = 1;  // lines: this one, the last one that was not skipped
-  const auto fail = [&](const std::string& message) { throw SceneError({file, number, 0}, key, message); };
-  bool heading_allowed = true;
-  for (std::string line; read_line(in, line);) {
-    ++number;
-    if (number == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // written by spreadsheets
-    if (is_binary(line)) fail("found binary data, expected lines of time and value");
-    if (line.size() > longest_line)
-      fail(fmt::format("found a line of more than {} characters", longest_line));
-    const std::vector<std::string> words = words_of(line);
-    if (words.empty() || words[0][0] == '#') continue;
-    last = number;
-    const auto t = parse_number(words[0]);
-    const auto value = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
-    const bool heading = heading_allowed && !t;
-    heading_allowed = false;
-    if (heading) continue;
-    if (!t || !value || !std::isfinite(*t) || !std::isfinite(*value)) {
-      while (!line.empty() && line.back() == '\r') line.pop_back();
-      fail(fmt::format("found \"{}\", expected two numbers, time and value", excerpt(line)));
-    }
-    const std::size_t n = table.times.size();
-    if (n > 0 && *t < table.times[n - 1]) {
-      fail(fmt::format("found time {} after {}, expected ascending times", shortest(*t),
-                       shortest(table.times[n - 1])));
-    }
-    if (n > 1 && *t == table.times[n - 2]) {
-      fail(fmt::format("found time {} three times, expected at most twice (a jump)", shortest(*t)));
-    }
-    if (n == most_rows) fail(fmt::format("found more than {} rows", most_rows));
-    table.times.push_back(*t);
-    table.values.push_back(*value);
-  }
-  number = last;
-  if (in.bad()) fail("cannot be read");
-  if (table.times.size() < 2) {
-    fail(fmt::format("found {}, expected two or more", count_of(table.times.size(), "row")));
-  }
-  return table;
+TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key,
+                          const TableLayout& layout) {
+  return TableReader(in, file, key, layout).read();
 }
 
 }  // namespace signorini

@@ -4,7 +4,12 @@
 //   0.0,1.5        two numbers a line, separated by a comma, a semicolon or blanks
 //   # ...          comments and blank lines are skipped
 //
-// Times ascend; a time that stands twice is a jump.
+// Times ascend; a time that stands twice is a jump. With a column the file may have more than two. With a time
+// step all numbers are values, however many stand on a line. A file of PEER (.AT2) says its own step:
+//
+//   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, the third with its unit
+//   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT
+//   .1E-04  .2E-04 ...                          NPTS values
 #pragma once
 
 #include <filesystem>
@@ -28,9 +33,18 @@ bool read_line(std::istream& in, std::string& line);
 
 struct TimeTable {
   std::vector<double> times, values;
+  bool in_g = false;  ///< the file says that its values are multiples of the acceleration of gravity
+};
+
+/// What the file holds; 0: as it says itself.
+struct TableLayout {
+  int column = 0;          ///< of the values, from 2 on; 0: the second of two
+  double time_step = 0.0;  ///< > 0: values only
+  bool peer = false;
 };
 
 /// Errors: SceneError at the line of the file; `key` stands in front of the message.
-[[nodiscard]] TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key);
+[[nodiscard]] TimeTable read_time_table(std::istream& in, const std::string& file, const std::string& key,
+                                        const TableLayout& layout = {});
 
 }  // namespace signorini

@@ -86,7 +86,7 @@ History table(const HistorySpec& spec, const std::string& key) {
   }
   if (starts.empty()) throw SceneError(spec.place, key, "all times of the table are the same");
   starts.push_back(t.back());
-  pieces.push_back(Piece{});
+  pieces.push_back(spec.hold ? polynomial(t.back(), {y.back()}) : Piece{});
   return History(std::move(starts), std::move(pieces));
 }
 
@@ -130,7 +130,13 @@ History shape(const HistorySpec& spec, const std::string& key) {
 }  // namespace
 
 History make_history(const HistorySpec& spec, const std::string& key) {
-  return shape(spec, key).scaled(spec.amplitude, spec.offset);
+  History f = shape(spec, key);
+  if (spec.period > 0.0) {
+    const double start = spec.type == HistoryType::table ? spec.times.front() : spec.start;
+    f = f.repeated(start, spec.period, spec.rounds);
+  }
+  if (spec.shift != 0.0) f = f.shifted(spec.shift);
+  return f.scaled(spec.amplitude, spec.offset);
 }
 
 }  // namespace signorini

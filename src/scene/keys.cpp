@@ -23,6 +23,7 @@ constexpr Key table_of_keys[] = {
     {"", "damping", table, "", "", "", "Damping of the structure: C = alpha M + beta K, K without contact springs."},
     {"", "sections", table, "", "", "", "Cross-sections of members, by name."},
     {"", "nodes", table, "", "", "", "Points of the structure, by name; their order is the order of the degrees of freedom."},
+    {"", "lines", tables, "", "", "", "Nodes in a row, at equal distances."},
     {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
     {"", "masses", tables, "", "", "", "Point masses."},
     {"", "supports", tables, "", "", "", "Degrees of freedom that are held."},
@@ -30,8 +31,9 @@ constexpr Key table_of_keys[] = {
     {"", "reduction", table, "", "", "", "Modes above a cutoff leave their static compliance only; all modes count where absent."},
     {"", "matrices", table, "", "", "", "Mass, damping and stiffness matrices, instead of nodes and members."},
     {"", "contacts", tables, "", "", "", "Unilateral or frictional contacts."},
+    {"", "stops", tables, "", "", "", "Contacts on both sides of a node: guides and line stops."},
     {"", "loads", tables, "", "", "", "Loads that vary with time."},
-    {"", "base_motion", table, "", "", "", "Ground acceleration; displacements and velocities are then relative to the base."},
+    {"", "base_motion", one_or_many, "", "", "", "Ground acceleration; displacements and velocities are then relative to the base."},
 
     {"units", "force", choice, "", "required", "N kN MN", "Unit of force; must be mass * length / time^2."},
     {"units", "mass", choice, "", "required", "kg t", "Unit of mass."},
@@ -39,7 +41,8 @@ constexpr Key table_of_keys[] = {
     {"units", "time", choice, "", "required", "s ms", "Unit of time."},
 
     {"run", "t_end", positive, "time", "required", "", "End of the computation; it starts at 0."},
-    {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
+    {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", \"frictional\", that of a run { run = \"DIR\", t = ... }, or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
+    {"run", "stages", tables, "", "", "", "initial = \"frictional\": what is loaded after what; all static loads at once where absent."},
     {"run", "engine", choice, "", "\"ida\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
@@ -61,8 +64,10 @@ constexpr Key table_of_keys[] = {
     {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities; rtol times the scale of velocities where absent."},
     {"run.atol", "force", positive, "force", "", "", "Absolute tolerance of contact forces; rtol times the scale of forces where absent."},
 
-    {"run.initial", "u", numbers, "", "", "", "With [matrices]: initial displacement of each degree of freedom."},
-    {"run.initial", "v", numbers, "", "", "", "With [matrices]: initial velocity of each degree of freedom."},
+    {"run.initial", "u", numbers, "", "", "", "With [matrices]: initial displacement of each degree of freedom, or the name of a Matrix Market file with one column."},
+    {"run.initial", "v", numbers, "", "", "", "With [matrices]: initial velocity of each degree of freedom, in the same way."},
+    {"run.initial", "run", text, "", "", "", "Directory of a run from whose state this one goes on, beside the scene."},
+    {"run.initial", "t", number, "time", "", "", "With run: which of the states in its states.csv; the last where absent."},
     {"run.initial", "*", table, "", "", "", "Initial state of the node of this name."},
     {"run.initial.*", "ux", number, "length", "", "", "Initial horizontal displacement."},
     {"run.initial.*", "uy", number, "length", "", "", "Initial vertical displacement."},
@@ -70,6 +75,10 @@ constexpr Key table_of_keys[] = {
     {"run.initial.*", "vx", number, "length/time", "", "", "Initial horizontal velocity."},
     {"run.initial.*", "vy", number, "length/time", "", "", "Initial vertical velocity."},
     {"run.initial.*", "wz", number, "1/time", "", "", "Initial angular velocity, counter-clockwise."},
+
+    {"run.stages[]", "name", name, "", "required", "", "Name of the stage."},
+    {"run.stages[]", "loads", texts, "", "required", "", "What grows from zero to what it is at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"supports\" (motions of all)."},
+    {"run.stages[]", "steps", count, "", "1", "", "Equal parts after each of which the contacts are told in summary.json."},
 
     {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
     {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},
@@ -87,24 +96,38 @@ constexpr Key table_of_keys[] = {
 
     {"nodes", "*", vector, "length", "", "", "Position [x, y] of the node of this name."},
 
-    {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next."},
+    {"lines[]", "name", name, "", "required", "", "The nodes are called NAME0, NAME1, ..."},
+    {"lines[]", "from", vector, "length", "required", "", "Position [x, y] of the first node."},
+    {"lines[]", "to", vector, "length", "required", "", "Position [x, y] of the last node."},
+    {"lines[]", "pieces", count, "", "required", "", "Distances between them, one less than nodes."},
+
+    {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next. \"P0..P9\" stands for P0, P1, ..., P9, \"P0..P9:3\" for every third of them."},
     {"members[]", "section", name, "", "required", "", "Name of the section."},
     {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number."},
     {"members[]", "type", choice, "", "\"beam\"", "beam bar", "\"beam\": Euler-Bernoulli beam; \"bar\": truss member with EA and mass only, hinged at its ends, one element a piece."},
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
+    {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: its first node, its last, or both; its end then has a rotation of its own."},
+    {"members[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain for each unit of temperature, in whichever unit that is."},
+    {"members[]", "temperature", standing_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the member; a number or a history."},
+    {"members[]", "initial_strain", standing_history, "", "0.0", "", "Strain along the member that no force goes with, positive where it is too long; a number or a history."},
 
     {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
     {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
     {"masses[]", "inertia", non_negative, "mass*length^2", "0.0", "", "Moment of inertia about the node."},
 
-    {"supports[]", "node", name, "", "required", "", "Node that is held."},
+    {"supports[]", "node", name, "", "", "", "Node that is held; or nodes."},
+    {"supports[]", "nodes", texts, "", "", "", "Nodes that are held alike; \"P0..P9\" as in members."},
     {"supports[]", "fix", texts, "", "required", "", "What is held: any of \"ux\", \"uy\", \"rz\"."},
+    {"supports[]", "motion", standing_history, "length", "", "", "Displacement that what is held follows (rz: in rad), which must be one thing then; a number or a history. At rest where absent."},
+    {"supports[]", "acceleration", standing_history, "length/time^2", "", "", "The same as its second derivative, from rest at zero, instead of motion."},
 
     {"springs[]", "node", name, "", "required", "", "Node at one end."},
     {"springs[]", "against", name, "", "", "", "Node at the other end; the ground where absent."},
-    {"springs[]", "direction", vector, "", "required", "", "Direction of the spring; its length does not matter."},
+    {"springs[]", "direction", vector, "", "", "", "Direction of the spring; its length does not matter. Required but for a spring of rotations."},
     {"springs[]", "stiffness", non_negative, "force/length", "0.0", "", "Stiffness."},
     {"springs[]", "damping", non_negative, "force*time/length", "0.0", "", "Damper beside the spring."},
+    {"springs[]", "rotation_stiffness", non_negative, "force*length", "0.0", "", "Stiffness against rotation (rz), moment per rad."},
+    {"springs[]", "rotation_damping", non_negative, "force*length*time", "0.0", "", "Damper beside it."},
 
     {"matrices", "dofs", texts, "", "", "", "Names of the degrees of freedom; d0, d1, ... where absent."},
     {"matrices", "mass", matrix, "", "required", "", "Mass matrix, symmetric."},
@@ -112,7 +135,8 @@ constexpr Key table_of_keys[] = {
     {"matrices", "stiffness", matrix, "", "required", "", "Stiffness matrix, symmetric."},
 
     {"contacts[]", "name", name, "", "", "", "Name in results and in --set; contact1, contact2, ... where absent."},
-    {"contacts[]", "node", name, "", "", "", "Node that touches; required with [nodes]."},
+    {"contacts[]", "node", name, "", "", "", "Node that touches; required with [nodes], or nodes."},
+    {"contacts[]", "nodes", texts, "", "", "", "Nodes that touch alike, each with a contact NAME-NODE of its own; \"P0..P9\" as in members."},
     {"contacts[]", "against", KeyType::against, "", "", "", "What is touched instead of the ground: a node, or two nodes [B, C] with a straight segment between them, touched where the undeformed contact's node projects on it; its displacement is interpolated linearly between B and C."},
     {"contacts[]", "law", choice, "", "required", "compliant rigid slider", "\"compliant\": springs that open and slip; \"rigid\": g >= 0 exactly, with impacts; \"slider\": friction under a given compression."},
     {"contacts[]", "normal", direction, "", "", "", "Direction in which the contact opens; it is made a unit vector with [nodes], taken as given with [matrices]. The tangent is (ny, -nx)."},
@@ -139,12 +163,22 @@ constexpr Key table_of_keys[] = {
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
     {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Stribeck's law while the contact slips, f = kinetic + (static - kinetic) exp(-|slip rate| / stribeck_velocity); contacts without tangential_stiffness, engine \"ida\"."},
 
+    {"stops[]", "name", name, "", "", "", "Its contacts are NAME+ and NAME-; stop1, stop2, ... where absent."},
+    {"stops[]", "direction", direction, "", "required", "", "Direction of the motion that is stopped; NAME+ closes where the node moves along it, NAME- where it moves back."},
+    {"stops[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state on either side."},
+    {"stops[]", "gaps", numbers, "length", "", "", "Gaps [of NAME+, of NAME-] that differ, instead of gap."},
+
     {"base_motion", "direction", direction, "", "required", "", "Direction of the ground motion; it is made a unit vector with [nodes], taken as given with [matrices]."},
     {"base_motion", "acceleration", standing_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
 
-    {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes]."},
-    {"loads[]", "direction", direction, "", "required", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices]."},
-    {"loads[]", "amplitude", number, "force", "required", "", "Factor of the history."},
+    {"loads[]", "name", name, "", "", "", "Name in results and in stages; \"load 1\", \"load 2\", ... where absent."},
+    {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes] but for distributed loads."},
+    {"loads[]", "direction", direction, "", "", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices], where it may be the name of a Matrix Market file with one column. Required but for a moment."},
+    {"loads[]", "amplitude", number, "force", "", "", "Factor of the history; or moment, or distributed."},
+    {"loads[]", "moment", number, "force*length", "", "", "Factor of the history of a moment about the node, counter-clockwise, instead of amplitude."},
+    {"loads[]", "distributed", number, "force/length", "", "", "Factor of the history of a force per length of pieces of members, instead of amplitude."},
+    {"loads[]", "nodes", texts, "", "", "", "Distributed: from each of these nodes to the next there is a piece of a member, which is loaded; \"P0..P9\" as in members."},
+    {"loads[]", "axes", choice, "", "\"global\"", "global member", "Distributed: direction is [x, y], or with \"member\" [along the piece from node to node, to its left]."},
     {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "The load's course in time."},
 
     {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
@@ -160,7 +194,13 @@ constexpr Key table_of_keys[] = {
     {"history", "times", numbers, "time", "", "", "table: times, ascending; a repeated time is a jump."},
     {"history", "values", numbers, "", "", "", "table: one value a time."},
     {"history", "interpolation", choice, "", "\"linear\"", "linear steffen", "table: straight lines, or smooth without overshoot."},
-    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values."},
+    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2)."},
+    {"history", "column", count, "", "", "", "file: column of the values, from 2 on, where there are more than two; the first has the times."},
+    {"history", "time_step", positive, "time", "", "", "file: it has values only, any number a line, at this distance in time; the first at 0."},
+    {"history", "unit", choice, "", "", "g", "Values of an acceleration are multiples of g = 9.80665 m/s^2; a PEER file says so itself."},
+    {"history", "hold", flag, "", "false", "", "table: the last value holds on, instead of zero."},
+    {"history", "period", positive, "time", "", "", "The shape from its start (a table from its first time) begins anew every so long."},
+    {"history", "shift", number, "time", "0.0", "", "All of the history happens so much later; a number < 0 earlier."},
 };
 // clang-format on
 
@@ -183,6 +223,12 @@ std::vector<std::string> words_of(const Key& key, bool later) {
 std::span<const Key> all_keys() { return table_of_keys; }
 
 const Key* find_key(std::string_view table, std::string_view name) {
+  constexpr std::string_view stops = "stops[]";
+  if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {
+    for (const Key& key : table_of_keys)
+      if (key.table == stops && table == stops && key.name == name) return &key;
+    return find_key("contacts[]" + std::string(table.substr(stops.size())), name);
+  }
   const Key* any = nullptr;
   for (const Key& key : table_of_keys) {
     if (key.table != table) continue;
@@ -197,6 +243,9 @@ std::vector<std::string> key_names(std::string_view table) {
   for (const Key& key : table_of_keys) {
     if (key.table == table && key.name != "*" && !key.later) names.emplace_back(key.name);
   }
+  if (table == "stops[]")
+    for (const std::string& name : key_names("contacts[]"))
+      if (find_key(table, name) && find_key(table, name)->table != table) names.push_back(name);
   return names;
 }
 
@@ -241,10 +290,14 @@ std::string describe_type(const Key& key) {
       return "\"auto\" or an integer from 1 to 5";
     case automatic_flag:
       return "\"auto\", true or false";
+    case flag:
+      return "true or false";
+    case one_or_many:
+      return "a table, or tables under [[" + std::string(key.name) + "]]";
     case KeyType::elements:
       return "an integer >= 1, or an array of them, one a piece";
     case KeyType::initial:
-      return "\"static\" or a table";
+      return "\"static\", \"frictional\" or a table";
     case fraction:
       return "a number from 0 to 1";
     case KeyType::against:

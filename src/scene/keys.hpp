@@ -33,11 +33,13 @@ enum class KeyType {
   tables,
   tolerance_order,
   automatic_flag,
+  flag,
   elements,
   initial,
   friction,
   against,
   direction,
+  one_or_many,
   history,
   standing_history,
   matrix
@@ -56,7 +58,7 @@ struct Key {
 
 [[nodiscard]] std::span<const Key> all_keys();
 
-/// The key, or that of "*" in the same table, or null.
+/// The key, or that of "*" in the same table, or null. A stop has the keys of a contact besides its own.
 [[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
 
 /// Names of the keys of a table, in the order of the table; without those that are for later.

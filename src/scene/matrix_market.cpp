@@ -22,8 +22,8 @@ constexpr long long most_entries = 20'000'000;
 
 class Reader {
  public:
-  Reader(std::istream& in, const std::string& file, const std::string& key)
-      : in_(in), file_(file), key_(key) {}
+  Reader(std::istream& in, const std::string& file, const std::string& key, bool vector = false)
+      : in_(in), file_(file), key_(key), vector_(vector) {}
 
   MatrixSpec read() {
     read_header();
@@ -113,7 +113,9 @@ class Reader {
     }
     const long long rows = index(0, 1, most_dofs, "a number of rows");
     const long long columns = index(1, 1, most_dofs, "a number of columns");
-    if (rows != columns)
+    if (vector_ && (columns != 1 || symmetric_))
+      fail(fmt::format("found {} columns, expected one of a general matrix", columns));
+    if (!vector_ && rows != columns)
       fail(fmt::format("found {} rows and {} columns, expected a square matrix", rows, columns));
     matrix_.size = static_cast<int>(rows);
     if (coordinate_) {
@@ -139,7 +141,7 @@ class Reader {
     for (long long i = 0; i < count_; ++i) {
       expect(i, 3, "row, column and value");
       const auto row = static_cast<int>(index(0, 1, matrix_.size, "a row"));
-      const auto column = static_cast<int>(index(1, 1, matrix_.size, "a column"));
+      const auto column = static_cast<int>(index(1, 1, vector_ ? 1 : matrix_.size, "a column"));
       if (symmetric_ && column > row) {
         fail(
             fmt::format("found \"{}\" above the diagonal, expected only the lower half of a symmetric matrix",
@@ -162,7 +164,7 @@ class Reader {
   std::string file_, key_, line_;
   std::vector<std::string> words_;
   int number_ = 0;
-  bool coordinate_ = true, symmetric_ = false;
+  bool vector_ = false, coordinate_ = true, symmetric_ = false;
   long long count_ = 0;
   MatrixSpec matrix_;
 };
@@ -185,6 +187,13 @@ void tidy(MatrixSpec& matrix) {
   }
   entries.resize(kept);
   std::erase_if(entries, [](const auto& e) { return e.value == 0.0; });
+}
+
+std::vector<double> read_market_vector(std::istream& in, const std::string& file, const std::string& key) {
+  const MatrixSpec matrix = Reader(in, file, key, true).read();
+  std::vector<double> values(static_cast<std::size_t>(matrix.size), 0.0);
+  for (const MatrixSpec::Entry& e : matrix.entries) values[static_cast<std::size_t>(e.row)] = e.value;
+  return values;
 }
 
 MatrixSpec read_matrix_market(std::istream& in, const std::string& file, const std::string& key) {

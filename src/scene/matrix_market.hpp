@@ -24,5 +24,8 @@ void tidy(MatrixSpec& matrix);
 /// Errors: SceneError at the line of the matrix file; `key` stands in front of the message.
 [[nodiscard]] MatrixSpec read_matrix_market(std::istream& in, const std::string& file,
                                             const std::string& key);
+/// A matrix of one column, in full.
+[[nodiscard]] std::vector<double> read_market_vector(std::istream& in, const std::string& file,
+                                                     const std::string& key);
 
 }  // namespace signorini

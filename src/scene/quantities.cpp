@@ -19,6 +19,8 @@ void visit_history(HistorySpec& f, const Unit& of, const Visit& visit) {
   visit(f.end, time);
   visit(f.omega, rate);
   visit(f.phase, plain);
+  visit(f.shift, time);
+  visit(f.period, time);
   for (std::size_t j = 0; j < f.coefficients.size(); ++j)
     visit(f.coefficients[j], Unit{0, 0, -static_cast<int>(j)});
   for (double& t : f.times) visit(t, time);
@@ -45,6 +47,14 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     const bool rates = c.component[0] == 'v' || c.component[0] == 'w';
     visit(c.value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
   }
+  if (!initial.saved) return;
+  for (auto& [name, value] : initial.saved->motions) {
+    const std::string component = name.substr(name.rfind('.') + 1);
+    const bool rotation = component == "rz" || component == "wz";
+    const bool rates = component[0] == 'v' || component[0] == 'w';
+    visit(value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
+  }
+  for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
 }
 
 void visit_structure(Scene& scene, const Visit& visit) {
@@ -64,7 +74,18 @@ void visit_structure(Scene& scene, const Visit& visit) {
   for (Spring& s : scene.springs) {
     visit(s.stiffness, stiffness);
     visit(s.damping, damping);
+    visit(s.rotation_stiffness, energy);
+    visit(s.rotation_damping, Unit{1, 1, 1});
   }
+  for (Member& m : scene.members) {  // temperatures have a unit of their own
+    visit_history(m.temperature, plain, visit);
+    visit_history(m.initial_strain, plain, visit);
+  }
+  for (Support& s : scene.supports)
+    if (s.motion) {
+      const int rate = s.motion_is_acceleration ? -2 : 0;
+      visit_history(*s.motion, Unit{0, s.rz ? 0 : 1, rate}, visit);
+    }
   if (!scene.matrices) return;
   for (MatrixSpec::Entry& e : scene.matrices->mass.entries) visit(e.value, mass);
   for (MatrixSpec::Entry& e : scene.matrices->damping.entries) visit(e.value, damping);
@@ -113,10 +134,11 @@ void visit_quantities(Scene& scene, const Visit& visit) {
   visit_structure(scene, visit);
   for (ContactSpec& c : scene.contacts) visit_contact(c, visit);
   for (LoadSpec& load : scene.loads) {
-    visit(load.amplitude, force);
+    const int lengths = load.type == LoadType::moment ? 1 : load.type == LoadType::distributed ? -1 : 0;
+    visit(load.amplitude, Unit{1, lengths, 0});
     visit_history(load.history, plain, visit);
   }
-  if (scene.base_motion) visit_history(scene.base_motion->acceleration, acceleration, visit);
+  for (BaseMotionSpec& motion : scene.base_motion) visit_history(motion.acceleration, acceleration, visit);
 }
 
 Scene rescaled(Scene scene, const Factors& factors) {

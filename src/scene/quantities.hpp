@@ -14,10 +14,6 @@
 
 namespace signorini {
 
-/// Exponents; all zero: a plain number.
-struct Unit {
-  int force = 0, length = 0, time = 0;
-};
 namespace unit {
 inline constexpr Unit plain{}, force{1, 0, 0}, length{0, 1, 0}, time{0, 0, 1}, rate{0, 0, -1};
 inline constexpr Unit velocity{0, 1, -1}, acceleration{0, 1, -2}, mass{1, -1, 2}, inertia{1, 1, 2};

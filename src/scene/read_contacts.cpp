@@ -58,19 +58,23 @@ Direction tangent_of(const Direction& normal) {
 
 /// Normal, tangent and gap of a contact that opens.
 void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
-  table.require("normal", " (" + law + ")");
-  contact.normal = read_direction(table, "normal", space);
+  const char* key = table.is("stops[]") ? "direction" : "normal";
+  table.require(key, " (" + law + ")");
+  contact.normal = read_direction(table, key, space);
   if (space.matrices) {
-    const bool needed = contact.friction.any();
+    const bool needed = contact.friction.any() && !table.is("stops[]");
     if (needed) table.require("tangent", " (needed with friction)");
-    if (table.has("tangent")) contact.tangent = read_direction(table, "tangent", space);
+    if (table.is("stops[]") && contact.friction.any())
+      table.fail("friction", "found friction, expected none: with [matrices] give two contacts");
+    if (!table.is("stops[]") && table.has("tangent"))
+      contact.tangent = read_direction(table, "tangent", space);
   } else {
-    if (table.has("tangent")) {
+    if (!table.is("stops[]") && table.has("tangent")) {
       table.fail("tangent", "has no meaning beside normal; the tangent is (ny, -nx)");
     }
     contact.tangent = tangent_of(*contact.normal);
   }
-  contact.gap = table.number("gap");
+  if (!table.is("stops[]") || !table.has("gaps")) contact.gap = table.number("gap");
 }
 
 void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
@@ -143,8 +147,70 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space, const S
   contact.tangent = from_normal ? tangent_of(read_direction(table, "normal", space))
                                 : read_direction(table, "tangent", space);
   table.require("normal_force", " (slider)");
-  contact.normal_force = read_standing_history(table, "normal_force", directory_of(scene));
+  contact.normal_force = read_standing_history(table, "normal_force", scene);
   check_pressing(table, contact.normal_force, scene.run.t_end);
+}
+
+/// All of a contact but its name and nodes; `table` is that of a contact or of a stop.
+ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, const std::string& law) {
+  ContactSpec contact;
+  contact.place = table.place();
+  contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
+  contact.friction = read_friction(table);
+  contact.normal_force = constant_history(0.0);
+  switch (contact.law) {
+    case Law::compliant:
+      read_compliant(table, contact, space);
+      break;
+    case Law::rigid:
+      read_rigid(table, contact, space);
+      break;
+    case Law::slider:
+      read_slider(table, contact, space, scene);
+      break;
+  }
+  if (!takes_impulses(contact.law)) read_elements(table, contact);
+  contact.surface_velocity = read_standing_history(table, "surface_velocity", scene);
+  return contact;
+}
+
+void set_node(ContactSpec& contact, const std::string& node) {
+  if (contact.normal) contact.normal->node = node;
+  if (contact.tangent) contact.tangent->node = node;
+}
+
+Names names_of(const Scene& scene) {
+  Names names;
+  for (const ContactSpec& contact : scene.contacts) names.add(contact.name);
+  return names;
+}
+
+/// The name that is given or that of its number, recorded.
+std::string read_contact_name(Table& table, const char* kind, std::size_t number) {
+  const std::string fallback = fmt::format("{}{}", kind, number);
+  if (!table.has("name")) table.record("name", toml_string(fallback));
+  return table.optional_text("name").value_or(fallback);
+}
+
+void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene) {
+  if (!names.add(contact.name)) {
+    table.fail("name",
+               fmt::format("found \"{}\" twice, expected each contact to have its own name", contact.name));
+  }
+  scene.contacts.push_back(std::move(contact));
+}
+
+/// The other side of a stop.
+ContactSpec mirrored(ContactSpec contact) {
+  for (double& x : contact.normal->vector) x = -x;
+  for (auto& [dof, factor] : contact.normal->dofs) factor = -factor;
+  if (contact.tangent) {
+    for (double& x : contact.tangent->vector) x = -x;
+    for (auto& [dof, factor] : contact.tangent->dofs) factor = -factor;
+  }
+  contact.surface_velocity.offset = -contact.surface_velocity.offset;
+  contact.surface_velocity.amplitude = -contact.surface_velocity.amplitude;
+  return contact;
 }
 
 }  // namespace
@@ -152,44 +218,67 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space, const S
 void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   Names names;
+  std::size_t number = 0;
   for (Table& table : tables_of(top, "contacts")) {
-    ContactSpec contact;
-    contact.place = table.place();
-    const std::string fallback = fmt::format("contact{}", names.size() + 1);
-    contact.name = table.optional_text("name").value_or(fallback);
-    if (!table.has("name")) table.record("name", toml_string(fallback));
-    if (!names.add(contact.name)) {
+    const std::string name = read_contact_name(table, "contact", ++number);
+    const bool one = !table.has("nodes");
+    if (one && names.index(name))
       table.fail("name",
-                 fmt::format("found \"{}\" twice, expected each contact to have its own name", contact.name));
-    }
-
-    if (!space.matrices) table.require("node", "");
-    const std::string node = space.matrices ? "" : read_node(table, "node", space);
+                 fmt::format("found \"{}\" twice, expected each contact to have its own name", name));
+    const std::vector<std::string> nodes =
+        space.matrices ? std::vector<std::string>{""} : read_one_or_more_nodes(table, space);
     const std::string law = table.choice("law");
-    contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
-    contact.friction = read_friction(table);
-    contact.normal_force = constant_history(0.0);
-    switch (contact.law) {
-      case Law::compliant:
-        read_compliant(table, contact, space);
-        break;
-      case Law::rigid:
-        read_rigid(table, contact, space);
-        break;
-      case Law::slider:
-        read_slider(table, contact, space, scene);
-        break;
+    ContactSpec contact = read_laws(table, space, scene, law);
+    if (!space.matrices && table.has("against")) {
+      if (!one) table.fail("against", "has no meaning beside nodes");
+      read_against(table, contact, scene, space, nodes.front());
     }
-    if (!takes_impulses(contact.law)) read_elements(table, contact);
-    contact.surface_velocity = read_standing_history(table, "surface_velocity", directory_of(scene));
-    if (!space.matrices && table.has("against")) read_against(table, contact, scene, space, node);
-    if (contact.normal) contact.normal->node = node;
-    if (contact.tangent) contact.tangent->node = node;
-    const bool stray_node = space.matrices && (table.has("node") || table.has("against"));
+    const bool stray_node =
+        space.matrices && (table.has("node") || table.has("nodes") || table.has("against"));
     table.finish(stray_node ? "has no meaning with [matrices]"
                             : fmt::format("has no meaning for a contact with law = \"{}\"", law));
-    scene.contacts.push_back(std::move(contact));
+    for (const std::string& node : nodes) {
+      set_node(contact, node);
+      contact.name = one ? name : name + "-" + node;
+      add_contact(table, contact, names, scene);
+    }
     record.add("contacts", "[[contacts]]", table.record());
+  }
+}
+
+void read_stops(Table& top, Scene& scene, RecordedScene& record) {
+  const Space space = space_of(scene);
+  Names names = names_of(scene);
+  std::size_t number = 0;
+  for (Table& table : tables_of(top, "stops")) {
+    const std::string name = read_contact_name(table, "stop", ++number);
+    const bool one = !table.has("nodes");
+    const std::vector<std::string> nodes =
+        space.matrices ? std::vector<std::string>{""} : read_one_or_more_nodes(table, space);
+    const std::string law = table.choice("law");
+    if (law == "slider") table.fail("law", "found \"slider\", expected a law with a gap for a stop");
+    ContactSpec forth = read_laws(table, space, scene, law);
+    if (!space.matrices && table.has("against")) {
+      if (!one) table.fail("against", "has no meaning beside nodes");
+      read_against(table, forth, scene, space, nodes.front());
+    }
+    // `direction` was read as the normal, which points back.
+    ContactSpec back = forth;
+    forth = mirrored(std::move(forth));
+    if (const auto gaps = table.numbers("gaps")) {
+      if (table.has("gap")) table.fail("gaps", "stands beside gap, expected one of the two");
+      if (gaps->size() != 2) table.wrong("gaps", "two numbers");
+      forth.gap = (*gaps)[0];
+      back.gap = (*gaps)[1];
+    }
+    table.finish(fmt::format("has no meaning for a stop with law = \"{}\"", law));
+    for (const std::string& node : nodes)
+      for (ContactSpec* side : {&forth, &back}) {
+        set_node(*side, node);
+        side->name = (one ? name : name + "-" + node) + (side == &forth ? "+" : "-");
+        add_contact(table, *side, names, scene);
+      }
+    record.add("stops", "[[stops]]", table.record());
   }
 }
 

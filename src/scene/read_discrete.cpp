@@ -71,21 +71,44 @@ void read_springs(Table& top, Scene& scene, RecordedScene& record) {
       spring.against = read_node(table, "against", space);
       if (spring.against == spring.node) table.wrong("against", "another node than the spring's own");
     }
-    spring.direction = read_unit_vector(table, "direction");
-    spring.stiffness = table.number("stiffness");
-    spring.damping = table.number("damping");
-    table.finish();
+    spring.rotation_stiffness = table.number("rotation_stiffness");
+    spring.rotation_damping = table.number("rotation_damping");
+    const bool turns = table.has("rotation_stiffness") || table.has("rotation_damping");
+    if (!turns) table.require("direction", "");
+    if (table.has("direction")) {
+      spring.direction = read_unit_vector(table, "direction");
+      spring.stiffness = table.number("stiffness");
+      spring.damping = table.number("damping");
+    }
+    table.finish("needs a direction beside it");
     scene.springs.push_back(spring);
     record.add("springs", "[[springs]]", table.record());
   }
 }
+
+namespace {
+
+void read_support_motion(Table& table, Support& support, std::size_t held, const Scene& scene) {
+  const bool acceleration = table.has("acceleration");
+  const char* key = acceleration ? "acceleration" : "motion";
+  if (!table.has(key)) return;
+  if (acceleration && table.has("motion"))
+    table.fail("acceleration", "stands beside motion, expected one of the two");
+  if (held != 1) table.fail(key, fmt::format("needs one thing in fix that follows it, found {}", held));
+  if (acceleration && support.rz) table.fail("acceleration", "has no meaning for rz, expected motion");
+  support.motion =
+      acceleration ? read_acceleration(table, key, scene) : read_standing_history(table, key, scene);
+  support.motion_is_acceleration = acceleration;
+}
+
+}  // namespace
 
 void read_supports(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   for (Table& table : tables_of(top, "supports")) {
     Support support;
     support.place = table.place();
-    support.node = read_node(table, "node", space);
+    const std::vector<std::string> nodes = read_one_or_more_nodes(table, space);
     table.require("fix", "");
     const std::vector<std::string> held = table.texts("fix");
     if (held.empty()) table.wrong("fix", "any of \"ux\", \"uy\", \"rz\"");
@@ -95,8 +118,12 @@ void read_supports(Table& top, Scene& scene, RecordedScene& record) {
       if (fixed) table.fail("fix", "found \"" + name + "\" twice");
       fixed = true;
     }
+    read_support_motion(table, support, held.size(), scene);
     table.finish();
-    scene.supports.push_back(support);
+    for (const std::string& node : nodes) {
+      support.node = node;
+      scene.supports.push_back(support);
+    }
     record.add("supports", "[[supports]]", table.record());
   }
 }

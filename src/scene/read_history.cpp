@@ -65,7 +65,32 @@ void read_harmonic(Table& table, HistorySpec& spec) {
   spec.phase = table.number("phase");
 }
 
-void read_table_file(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+/// Where the values stand in the file. Recorded by the caller, where the file is.
+TableLayout read_layout(Table& table, const std::filesystem::path& path) {
+  TableLayout layout;
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  layout.peer = extension == ".at2";
+  for (const char* key : {"column", "time_step"})
+    if (layout.peer && table.has(key)) table.fail(key, "has no meaning for a PEER file, which says its own");
+  if (table.has("column") && table.has("time_step"))
+    table.fail("column", "stands beside time_step, expected one of the two");
+  if (const toml::node* node = table.raw("column")) {
+    constexpr int most_columns = 100;
+    const auto* number = node->as_integer();
+    if (!number || number->get() < 2 || number->get() > most_columns)
+      table.wrong("column", fmt::format("an integer from 2 to {}", most_columns));
+    layout.column = static_cast<int>(number->get());
+  }
+  if (const toml::node* node = table.raw("time_step")) {
+    layout.time_step = finite_number(*node, table.path("time_step"), "a number > 0");
+    if (!(layout.time_step > 0.0)) table.wrong("time_step", "a number > 0");
+  }
+  return layout;
+}
+
+/// True: the file says that its values are in g.
+bool read_table_file(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
   constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
   for (const char* other : {"times", "values"}) {
     if (table.has(other)) table.fail(other, "stands beside file, expected one of the two");
@@ -74,23 +99,26 @@ void read_table_file(Table& table, HistorySpec& spec, const std::filesystem::pat
   if (!node->is_string()) table.wrong("file", "the name of a file");
   const std::filesystem::path path = directory / node->as_string()->get();
   std::ifstream in = open_data_file(table, "file", path);
-  TimeTable rows = read_time_table(in, path.string(), table.path("file"));
+  const TableLayout layout = read_layout(table, path);
+  TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
   spec.times = std::move(rows.times);
   spec.values = std::move(rows.values);
   if (spec.times.size() > most_inline_rows) {
     table.record("file", toml_string(std::filesystem::absolute(path).lexically_normal().string()));
-    return;
+    if (layout.column != 0) table.record("column", std::to_string(layout.column));
+    if (layout.time_step > 0.0 && !layout.peer) table.record("time_step", toml_number(layout.time_step));
+    return rows.in_g;
   }
   table.record("times", toml_numbers(spec.times));
   table.record("values", toml_numbers(spec.values));
+  return rows.in_g;
 }
 
-void read_table(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+/// True: a file says that its values are in g.
+bool read_table(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
   spec.steffen = table.choice("interpolation") == "steffen";
-  if (table.has("file")) {
-    read_table_file(table, spec, directory);
-    return;
-  }
+  if (table.has("hold")) spec.hold = table.flag("hold");
+  if (table.has("file")) return read_table_file(table, spec, directory);
   table.require("times", " (table; or file)");
   table.require("values", " (table)");
   spec.times = *table.numbers("times");
@@ -111,10 +139,53 @@ void read_table(Table& table, HistorySpec& spec, const std::filesystem::path& di
                                       shortest(spec.times[i])));
     }
   }
+  return false;
 }
 
-HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone,
-                         const std::filesystem::path& directory) {
+/// How often the shape begins anew before t_end.
+void read_period(Table& table, HistorySpec& spec, double t_end) {
+  spec.shift = table.optional_number("shift").value_or(0.0);
+  const auto period = table.optional_number("period");
+  if (!period) return;
+  const bool tabulated = spec.type == HistoryType::table;
+  if (!tabulated && !spec.start_given) table.fail("period", "needs a start, from which it counts");
+  constexpr double most_pieces = 1e6;
+  const double first = (tabulated ? spec.times.front() : spec.start) + spec.shift;
+  const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
+  const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
+  if (!(rounds * each <= most_pieces))
+    table.fail("period", fmt::format("found the number {}, expected at most {:.0e} pieces up to t_end = {}",
+                                     shortest(*period), most_pieces, shortest(t_end)));
+  spec.period = *period;
+  spec.rounds = static_cast<int>(rounds);
+}
+
+/// 9.80665 m/s^2 in the scene's units.
+double standard_gravity(const Units& units) {
+  const double metre = units.length == "mm" ? 1000.0 : units.length == "cm" ? 100.0 : 1.0;
+  const double second = units.time == "ms" ? 1000.0 : 1.0;
+  return 9.80665 * metre / (second * second);
+}
+
+/// A load's history has its factor outside; an acceleration may be given in g.
+enum class Role { load, alone, acceleration };
+
+void read_unit(Table& table, HistorySpec& spec, bool in_g, Role role, const Units& units) {
+  if (table.has("unit")) {
+    if (role != Role::acceleration) table.fail("unit", "has no meaning here: only accelerations are given in g");
+    static_cast<void>(table.choice("unit"));
+  } else if (!in_g) {
+    return;
+  } else if (role != Role::acceleration) {
+    table.fail("file", "found a file of accelerations in units of g, expected one of values in the scene's units");
+  } else {
+    table.record("unit", toml_string("g"));
+  }
+  spec.offset *= standard_gravity(units);
+  spec.amplitude *= standard_gravity(units);
+}
+
+HistorySpec read_history(Table& parent, std::string_view key, Role role, const Scene& scene) {
   const toml::node* node = parent.raw(key);
   if (node && !node->is_table()) parent.wrong(key, describe_type(*find_key("loads[]", "history")));
   Table table(node ? node->as_table() : nullptr, "history", parent.path(key), parent.place(key));
@@ -125,7 +196,7 @@ HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone,
   const std::string type = node ? table.choice("type") : "constant";
   if (!node) table.record("type", toml_string(type));
   spec.type = type_of(type);
-  if (stands_alone) {
+  if (role != Role::load) {
     spec.offset = table.number("offset");
     spec.amplitude = table.number("amplitude");
   } else {
@@ -136,7 +207,7 @@ HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone,
   }
   read_span(table, spec);
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
-  if (spec.type == HistoryType::table) read_table(table, spec, directory);
+  const bool in_g = spec.type == HistoryType::table && read_table(table, spec, directory_of(scene));
   if (spec.type == HistoryType::polynomial) {
     table.require("coefficients", " (polynomial)");
     spec.coefficients = *table.numbers("coefficients");
@@ -145,6 +216,8 @@ HistorySpec read_history(Table& parent, std::string_view key, bool stands_alone,
       table.wrong("coefficients", fmt::format("1 to {} coefficients", most));
     }
   }
+  read_period(table, spec, scene.run.t_end);
+  read_unit(table, spec, in_g, role, scene.units);
   table.finish(fmt::format("has no meaning for a history of type \"{}\"", type));
   parent.record(key, table.record().inline_table());
   return spec;
@@ -158,18 +231,23 @@ HistorySpec constant_history(double value) {
   return spec;
 }
 
-HistorySpec read_load_history(Table& table, std::string_view key, const std::filesystem::path& directory) {
-  return read_history(table, key, false, directory);
+HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene) {
+  return read_history(table, key, Role::load, scene);
 }
 
-HistorySpec read_standing_history(Table& table, std::string_view key,
-                                  const std::filesystem::path& directory) {
+HistorySpec read_standing_history(Table& table, std::string_view key, const Scene& scene) {
   const toml::node* node = table.raw(key);
-  if (node && node->is_table()) return read_history(table, key, true, directory);
+  if (node && node->is_table()) return read_history(table, key, Role::alone, scene);
   if (node && !node->is_number()) table.wrong(key, "a number or a table { type = ... }");
   HistorySpec spec = constant_history(table.optional_number(key).value_or(0.0));
   spec.place = table.place(key);
   return spec;
+}
+
+HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene) {
+  const toml::node* node = table.raw(key);
+  if (node && node->is_table()) return read_history(table, key, Role::acceleration, scene);
+  return read_standing_history(table, key, scene);
 }
 
 }  // namespace signorini

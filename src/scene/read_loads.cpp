@@ -1,35 +1,100 @@
+// [[loads]]: forces, moments, forces per length; [base_motion].
+#include <fmt/core.h>
+
 #include "scene/readers.hpp"
 
 namespace signorini {
 
+namespace {
+
+void read_force(Table& table, LoadSpec& load, const Space& space) {
+  if (!space.matrices) table.require("node", "");
+  const std::string node = space.matrices ? "" : read_node(table, "node", space);
+  table.require("direction", "");
+  load.direction = read_direction(table, "direction", space);
+  load.direction.node = node;
+  table.require("amplitude", "");
+  load.amplitude = table.number("amplitude");
+}
+
+void read_moment(Table& table, LoadSpec& load, const Space& space) {
+  load.type = LoadType::moment;
+  table.require("node", " (moment)");
+  load.direction.node = read_node(table, "node", space);
+  load.direction.place = table.place("node");
+  load.amplitude = table.number("moment");
+}
+
+void read_distributed(Table& table, LoadSpec& load, const Space& space) {
+  load.type = LoadType::distributed;
+  table.require("nodes", " (distributed)");
+  load.pieces = read_node_names(table, "nodes", space);
+  if (load.pieces.size() < 2) table.wrong("nodes", "the names of two or more nodes");
+  table.require("direction", "");
+  load.direction = read_direction(table, "direction", space);
+  load.member_axes = table.choice("axes") == "member";
+  load.amplitude = table.number("distributed");
+}
+
+BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
+  BaseMotionSpec motion;
+  motion.place = table.place();
+  motion.direction = read_direction(table, "direction", space_of(scene));
+  table.require("acceleration", "");
+  motion.acceleration = read_acceleration(table, "acceleration", scene);
+  table.finish();
+  return motion;
+}
+
+}  // namespace
+
 void read_loads(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
+  Names names{"gravity"};
   for (Table& table : tables_of(top, "loads")) {
     LoadSpec load;
     load.place = table.place();
-    if (!space.matrices) table.require("node", "");
-    const std::string node = space.matrices ? "" : read_node(table, "node", space);
-    load.direction = read_direction(table, "direction", space);
-    load.direction.node = node;
-    load.amplitude = table.number("amplitude");
-    load.history = read_load_history(table, "history", directory_of(scene));
-    table.finish("has no meaning with [matrices]");
+    load.name = table.optional_text("name").value_or("");
+    if (!load.name.empty() && !names.add(load.name))
+      table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", load.name));
+    const bool moment = table.has("moment"), distributed = table.has("distributed");
+    for (const char* other : {"amplitude", "distributed"})
+      if (table.has(other) && (moment || (distributed && table.has("amplitude"))))
+        table.fail(other, fmt::format("stands beside {}, expected one of the two", moment ? "moment" : "distributed"));
+    if (space.matrices || !(moment || distributed))
+      read_force(table, load, space);
+    else if (moment)
+      read_moment(table, load, space);
+    else
+      read_distributed(table, load, space);
+    load.history = read_load_history(table, "history", scene);
+    table.finish(space.matrices ? "has no meaning with [matrices]"
+                 : moment       ? "has no meaning for a moment"
+                 : distributed  ? "has no meaning for a distributed load"
+                                : "has no meaning for a force at a node");
     scene.loads.push_back(std::move(load));
     record.add("loads", "[[loads]]", table.record());
   }
 }
 
 void read_base_motion(Table& top, Scene& scene, RecordedScene& record) {
-  if (!top.has("base_motion")) return;
-  Table table = top.child("base_motion");
-  BaseMotionSpec motion;
-  motion.place = table.place();
-  motion.direction = read_direction(table, "direction", space_of(scene));
-  table.require("acceleration", "");
-  motion.acceleration = read_standing_history(table, "acceleration", directory_of(scene));
-  table.finish();
-  scene.base_motion = std::move(motion);
-  record.add("base_motion", "[base_motion]", table.record());
+  const toml::node* node = top.raw("base_motion");
+  if (!node) return;
+  if (node->is_table()) {
+    Table table = top.child("base_motion");
+    scene.base_motion.push_back(read_one_motion(table, scene));
+    record.add("base_motion", "[base_motion]", table.record());
+    return;
+  }
+  const toml::array* array = node->as_array();
+  if (!array) top.wrong("base_motion", describe_type(*find_key("", "base_motion")));
+  for (const toml::node& item : *array) {
+    const std::string path = fmt::format("base_motion.{}", scene.base_motion.size() + 1);
+    if (!item.is_table()) refuse(place_of(item), path, "found " + describe(item) + ", expected a table");
+    Table table(item.as_table(), "base_motion", path, place_of(item));
+    scene.base_motion.push_back(read_one_motion(table, scene));
+    record.add("base_motion", "[[base_motion]]", table.record());
+  }
 }
 
 }  // namespace signorini

@@ -134,7 +134,7 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
   const std::filesystem::path directory = directory_of(scene);
   Table table = top.child("matrices");
   for (const char* other :
-       {"gravity", "nodes", "members", "masses", "springs", "damping", "supports", "sections"}) {
+       {"gravity", "nodes", "lines", "members", "masses", "springs", "damping", "supports", "sections"}) {
     if (top.has(other)) {
       const auto entries = entries_of(top.node());
       const auto entry =

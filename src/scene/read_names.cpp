@@ -1,6 +1,11 @@
 // Nodes and directions, as contacts, loads and springs refer to them.
+#include <fmt/core.h>
+
 #include <cmath>
 
+#include "base/number.hpp"
+#include "scene/data_file.hpp"
+#include "scene/matrix_market.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
@@ -8,6 +13,7 @@ namespace signorini {
 Space space_of(const Scene& scene) {
   Space space;
   space.matrices = scene.matrices.has_value();
+  space.directory = directory_of(scene);
   if (scene.matrices) {
     for (const std::string& name : scene.matrices->dofs) space.names.add(name);
   } else {
@@ -33,6 +39,68 @@ std::string read_node(Table& table, std::string_view key, const Space& space) {
   return name;
 }
 
+namespace {
+
+/// "P12": its letters and its number, -1 where it ends in none.
+std::pair<std::string, long long> numbered(const std::string& name) {
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  const auto number = parse_integer(name.substr(digits));
+  return {name.substr(0, digits), number && name.size() - digits < 9 ? *number : -1};
+}
+
+/// Adds "P0", "P3", ... of "P0..P9:3".
+void add_range(const std::string& text, const Table& table, std::string_view key, const Space& space,
+               std::vector<std::string>& names) {
+  const std::size_t dots = text.find(".."), colon = text.find(':', dots);
+  const auto [first, from] = numbered(text.substr(0, dots));
+  const auto [last, to] = numbered(text.substr(dots + 2, colon - dots - 2));
+  const auto step = colon == std::string::npos ? std::optional<long long>(1)
+                                               : parse_integer(text.substr(colon + 1));
+  if (first != last || from < 0 || to < from || !step || *step < 1)
+    table.fail(key, fmt::format("found \"{}\", expected a row of nodes like \"P0..P9\" or \"P0..P9:3\"", text));
+  for (long long i = from; i <= to; i += *step) {
+    names.push_back(fmt::format("{}{}", first, i));
+    check_known(names.back(), space.names, "node", table.place(key), table.path(key));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> read_node_names(Table& table, std::string_view key, const Space& space) {
+  std::vector<std::string> names;
+  for (const std::string& text : table.texts(key)) {
+    if (text.find("..") != std::string::npos) {
+      add_range(text, table, key, space, names);
+    } else {
+      check_known(text, space.names, "node", table.place(key), table.path(key));
+      names.push_back(text);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space) {
+  if (!table.has("nodes")) {
+    table.require("node", "");
+    return {read_node(table, "node", space)};
+  }
+  if (table.has("node")) table.fail("nodes", "stands beside node, expected one of the two");
+  std::vector<std::string> names = read_node_names(table, "nodes", space);
+  if (names.empty()) table.wrong("nodes", "names of nodes");
+  return names;
+}
+
+std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space) {
+  const std::size_t size = space.names.size();
+  const std::filesystem::path path = space.directory / table.raw(key)->value_or(std::string());
+  std::ifstream in = open_data_file(table, key, path);
+  std::vector<double> values = read_market_vector(in, path.string(), table.path(key));
+  if (values.size() != size)
+    table.fail(key, fmt::format("found a file of {}, expected one for each of the {} degrees of freedom",
+                                count_of(values.size(), "row"), size));
+  return values;
+}
+
 Direction read_direction(Table& table, std::string_view key, const Space& space) {
   const toml::node* node = table.raw(key);
   if (!node) table.require(key, "");
@@ -43,8 +111,19 @@ Direction read_direction(Table& table, std::string_view key, const Space& space)
     direction.vector = read_unit_vector(table, key);
     return direction;
   }
-  if (!node->is_table()) table.wrong(key, "with [matrices] a table { degree of freedom = number }");
   Record record;
+  if (node->is_string()) {
+    const std::vector<double> values = read_vector_file(table, key, space);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] == 0.0) continue;
+      direction.dofs.emplace_back(space.names.list()[i], values[i]);
+      record.set(space.names.list()[i], toml_number(values[i]));
+    }
+    if (direction.dofs.empty()) table.fail(key, "found a vector of length zero, expected a direction");
+    table.record(key, record.inline_table());
+    return direction;
+  }
+  if (!node->is_table()) table.wrong(key, "with [matrices] a table { degree of freedom = number }");
   bool zero = true;
   for (const Entry& entry : entries_of(*node->as_table())) {
     const std::string path = table.path(key) + "." + entry.name;

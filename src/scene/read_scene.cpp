@@ -114,12 +114,15 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
 
   if (top.has("matrices")) {
     read_matrices(top, scene, record);
+    read_run(top, scene, record);
   } else {
     scene.gravity = top.vector("gravity");
     record.top.set("gravity", toml_numbers(scene.gravity));
     read_nodes(top, scene, record);
+    read_lines(top, scene, record);
     if (scene.nodes.empty())
       throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes] or [matrices]");
+    read_run(top, scene, record);  // histories are read up to t_end
     read_sections(top, scene, record);
     read_members(top, scene, record);
     read_masses(top, scene, record);
@@ -128,8 +131,8 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     read_damping(top, scene, record);
   }
   read_reduction(top, scene, record);
-  read_run(top, scene, record);
   read_contacts(top, scene, record);  // compressions are checked up to t_end
+  read_stops(top, scene, record);
   read_loads(top, scene, record);
   read_base_motion(top, scene, record);
   top.finish();

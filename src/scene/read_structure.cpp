@@ -92,6 +92,55 @@ void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
   if (!scene.nodes.empty()) record.add("nodes", "[nodes]", nodes.record());
 }
 
+void read_lines(Table& top, Scene& scene, RecordedScene& record) {
+  Names names;
+  for (const Node& node : scene.nodes) names.add(node.name);
+  for (Table& table : tables_of(top, "lines")) {
+    const std::string name = table.text("name");
+    const auto from = table.vector("from"), to = table.vector("to");
+    const int pieces = table.integer("pieces");
+    if (pieces > most_elements)
+      table.fail("pieces", fmt::format("found {}, expected at most {}", pieces, most_elements));
+    for (int i = 0; i <= pieces; ++i) {
+      const double s = static_cast<double>(i) / pieces;
+      const std::string own = fmt::format("{}{}", name, i);
+      if (!names.add(own)) table.fail("name", fmt::format("node \"{}\" is there already", own));
+      scene.nodes.push_back(
+          {own, from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), table.place("name")});
+    }
+    table.finish();
+    record.add("lines", "[[lines]]", table.record());
+  }
+}
+
+namespace {
+
+void read_release(Table& table, Member& member) {
+  member.release = table.texts("release");
+  for (const std::string& end : member.release)
+    if (end != member.nodes.front() && end != member.nodes.back())
+      table.fail("release", fmt::format("found \"{}\", expected \"{}\" or \"{}\", the member's ends", end,
+                                        member.nodes.front(), member.nodes.back()));
+  if (!member.release.empty() && member.type == MemberType::bar)
+    table.fail("release", "has no meaning for a bar, which is hinged at both ends");
+  if (!member.release.empty() && member.nodes.front() == member.nodes.back())
+    table.fail("release", fmt::format("found \"{}\", which is the member's first and last node: expected a "
+                                      "member with two ends",
+                                      member.nodes.front()));
+  if (member.release.size() == 2 && member.release[0] == member.release[1])
+    table.fail("release", "found \"" + member.release[0] + "\" twice");
+}
+
+void read_strains(Table& table, Member& member, const Scene& scene) {
+  if (table.has("temperature") && !table.has("thermal_expansion"))
+    table.fail("temperature", "needs thermal_expansion beside it");
+  member.thermal_expansion = table.number("thermal_expansion");
+  member.temperature = read_standing_history(table, "temperature", scene);
+  member.initial_strain = read_standing_history(table, "initial_strain", scene);
+}
+
+}  // namespace
+
 void read_members(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   Names sections;
@@ -100,12 +149,11 @@ void read_members(Table& top, Scene& scene, RecordedScene& record) {
   for (Table& table : tables_of(top, "members")) {
     Member member;
     member.place = table.place();
-    member.nodes = table.texts("nodes");
+    if (!table.has("nodes")) table.require("nodes", "");
+    member.nodes = read_node_names(table, "nodes", space);
     if (member.nodes.size() < 2) table.wrong("nodes", "the names of two or more nodes");
     std::vector<std::size_t> nodes;
-    for (const std::string& name : member.nodes) {
-      nodes.push_back(check_known(name, space.names, "node", table.place("nodes"), table.path("nodes")));
-    }
+    for (const std::string& name : member.nodes) nodes.push_back(*space.names.index(name));
     check_pieces(table, scene, nodes);
     member.type = table.choice("type") == "bar" ? MemberType::bar : MemberType::beam;
     member.section = table.text("section");
@@ -123,6 +171,8 @@ void read_members(Table& top, Scene& scene, RecordedScene& record) {
                  fmt::format("found {} elements up to here, expected at most {}", total, most_elements));
     }
     member.mass = table.choice("mass") == "lumped" ? MassKind::lumped : MassKind::consistent;
+    read_release(table, member);
+    read_strains(table, member, scene);
     table.finish();
     scene.members.push_back(std::move(member));
     record.add("members", "[[members]]", table.record());

@@ -19,6 +19,7 @@ namespace signorini {
 struct Space {
   bool matrices = false;
   Names names;
+  std::filesystem::path directory;  ///< where files are looked for
 };
 [[nodiscard]] Space space_of(const Scene& scene);
 
@@ -33,12 +34,15 @@ void read_damping(Table& top, Scene& scene, RecordedScene& record);
 void read_reduction(Table& top, Scene& scene, RecordedScene& record);
 void read_sections(Table& top, Scene& scene, RecordedScene& record);
 void read_nodes(Table& top, Scene& scene, RecordedScene& record);
+void read_lines(Table& top, Scene& scene, RecordedScene& record);
 void read_members(Table& top, Scene& scene, RecordedScene& record);
 void read_masses(Table& top, Scene& scene, RecordedScene& record);
 void read_springs(Table& top, Scene& scene, RecordedScene& record);
 void read_supports(Table& top, Scene& scene, RecordedScene& record);
 void read_matrices(Table& top, Scene& scene, RecordedScene& record);
 void read_contacts(Table& top, Scene& scene, RecordedScene& record);
+/// After the contacts: each makes two of them.
+void read_stops(Table& top, Scene& scene, RecordedScene& record);
 void read_loads(Table& top, Scene& scene, RecordedScene& record);
 void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 
@@ -46,15 +50,23 @@ void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
 /// The name of a node, required.
 [[nodiscard]] std::string read_node(Table& table, std::string_view key, const Space& space);
-/// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name.
+/// Names of nodes, "P0..P9" and "P0..P9:3" written out; recorded as given.
+[[nodiscard]] std::vector<std::string> read_node_names(Table& table, std::string_view key,
+                                                       const Space& space);
+/// `node`, or all of `nodes`; one of the two is required.
+[[nodiscard]] std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space);
+/// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name, or the
+/// name of a file with one column.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
+/// The column of numbers in the Matrix Market file that the key names, `size` of them.
+[[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space);
 
-/// A load's history: offset 0, amplitude 1. Files of tables are looked for in `directory`.
-[[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key,
-                                            const std::filesystem::path& directory);
+/// A load's history: offset 0, amplitude 1. The scene says where files are looked for, t_end and the units.
+[[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);
 /// A history that stands alone: a number, or a table with offset and amplitude. Absent: the default, or zero.
-[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key,
-                                                const std::filesystem::path& directory);
+[[nodiscard]] HistorySpec read_standing_history(Table& table, std::string_view key, const Scene& scene);
+/// The same, which may be given in units of g.
+[[nodiscard]] HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene);
 [[nodiscard]] HistorySpec constant_history(double value);
 
 }  // namespace signorini

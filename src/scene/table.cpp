@@ -160,6 +160,15 @@ int Table::integer(std::string_view name) {
   return static_cast<int>(number->get());
 }
 
+bool Table::flag(std::string_view name) {
+  const Key& row = key(name);
+  const toml::node* found = value(row, name);
+  if (!found || !found->is_boolean()) wrong(name, describe_type(row));
+  const bool result = found->value_or(false);
+  record_.set(name, result ? "true" : "false");
+  return result;
+}
+
 std::string Table::text(std::string_view name) {
   require(name, "");
   return *optional_text(name);

@@ -35,6 +35,7 @@ class Table {
   // With a default or required, as the key table says:
   [[nodiscard]] double number(std::string_view key);
   [[nodiscard]] int integer(std::string_view key);
+  [[nodiscard]] bool flag(std::string_view key);
   [[nodiscard]] std::string text(std::string_view key);
   [[nodiscard]] std::string choice(std::string_view key);
   [[nodiscard]] std::array<double, 2> vector(std::string_view key);
@@ -56,6 +57,8 @@ class Table {
   /// Refuses keys that were given but not read. `why` ends the message.
   void finish(const std::string& why = "has no meaning here") const;
 
+  /// Whether the key table calls it so.
+  [[nodiscard]] bool is(std::string_view kind) const { return kind_ == kind; }
   [[nodiscard]] SourcePlace place() const { return place_; }
   [[nodiscard]] SourcePlace place(std::string_view key) const;
   [[nodiscard]] const std::string& path() const { return path_; }

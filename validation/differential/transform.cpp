@@ -60,8 +60,22 @@ void move(Scene& scene, const Map& map) {
     if (contact.normal) map.apply(contact.normal->vector);
     if (contact.tangent) map.apply(contact.tangent->vector);
   }
-  for (LoadSpec& load : scene.loads) map.apply(load.direction.vector);
-  if (scene.base_motion) map.apply(scene.base_motion->direction.vector);
+  for (LoadSpec& load : scene.loads) {
+    if (load.type == LoadType::moment)
+      load.amplitude *= map.turn;
+    else if (load.member_axes)
+      load.direction.vector[1] *= map.turn;  // to the left of the member
+    else
+      map.apply(load.direction.vector);
+  }
+  for (BaseMotionSpec& motion : scene.base_motion) map.apply(motion.direction.vector);
+  for (Support& support : scene.supports) {
+    if (!support.motion) continue;
+    const std::array<double, 2> along = map(support.ux ? 1.0 : 0.0, support.uy ? 1.0 : 0.0);
+    const double sign = support.rz ? map.turn : along[0] + along[1];  // quarter turns and mirrors only
+    support.motion->offset *= sign;
+    support.motion->amplitude *= sign;
+  }
   move_initial(scene.initial, map);
 }
 
@@ -117,10 +131,10 @@ std::optional<Transformed> turned(const Scene& scene, double degrees) {
   if (quarter) {  // exactly
     c = std::round(c);
     s = std::round(s);
-    if (s != 0.0)
-      for (Support& support : result.scene.supports) std::swap(support.ux, support.uy);
   }
   move(result.scene, {c, -s, s, c, 1.0});
+  if (quarter && s != 0.0)
+    for (Support& support : result.scene.supports) std::swap(support.ux, support.uy);
   return result;
 }
 

@@ -76,7 +76,7 @@ void through(Slide& block, Real t, Real a, Real slope, Real width) {
 }
 
 Slide slide() {
-  const HistorySpec a = read_scene(SIGNORINI_PUBLISHED "/" + synthetic).base_motion->acceleration;
+  const HistorySpec a = read_scene(SIGNORINI_PUBLISHED "/" + synthetic).base_motion.at(0).acceleration;
   Slide block;
   for (std::size_t i = 0; i + 1 < a.times.size(); ++i) {
     const Real width = static_cast<Real>(a.times[i + 1]) - static_cast<Real>(a.times[i]);

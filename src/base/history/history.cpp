@@ -41,6 +41,27 @@ Piece antiderivative(const Piece& p) {
   return q;
 }
 
+/// c0 p + c1 p' + c2 p''.
+Piece with_rates_of(const Piece& p, double c0, double c1, double c2) {
+  Piece q = p;
+  const std::size_t n = p.coefficients.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    const auto next = static_cast<double>(j + 1);
+    q.coefficients[j] = c0 * p.coefficients[j];
+    if (j + 1 < n) q.coefficients[j] += c1 * next * p.coefficients[j + 1];
+    if (j + 2 < n) q.coefficients[j] += c2 * next * (next + 1.0) * p.coefficients[j + 2];
+  }
+  // (c0 - c2 w^2) sin x + c1 w cos x = r sin(x + d)
+  const double along = c0 - c2 * p.omega * p.omega, across = c1 * p.omega;
+  if (across == 0.0) {
+    q.amplitude = along * p.amplitude;
+  } else {
+    q.amplitude = std::hypot(along, across) * p.amplitude;
+    q.phase = p.phase + std::atan2(across, along);
+  }
+  return q;
+}
+
 }  // namespace
 
 void Piece::taylor(double t, double scale, std::size_t count, double* out) const {
@@ -174,6 +195,41 @@ History History::integrated() const {
   for (std::size_t i = first; i > 0; --i)
     shift(pieces[i - 1], starts_[i - 1], pieces[i].value(starts_[i - 1]));
   return result;
+}
+
+History History::with_rates(double c0, double c1, double c2) const {
+  History result = *this;
+  for (Piece& p : result.pieces_) p = with_rates_of(p, c0, c1, c2);
+  return result;
+}
+
+History History::shifted(double dt) const {
+  History result = *this;
+  for (double& t : result.starts_) t += dt;
+  for (Piece& p : result.pieces_) p.origin += dt;
+  return result;
+}
+
+History History::repeated(double from, double period, int rounds) const {
+  std::vector<double> starts;
+  std::vector<Piece> pieces{pieces_.front()};
+  const auto add = [&](double start, Piece piece, double dt) {
+    piece.origin += dt;
+    starts.push_back(start);
+    pieces.push_back(std::move(piece));
+  };
+  for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
+  for (int round = 0; round < rounds; ++round) {
+    const double dt = round * period, end = from + (round + 1) * period;
+    add(from + dt, piece(from), dt);
+    for (std::size_t i = 0; i < starts_.size(); ++i)
+      if (starts_[i] > from && starts_[i] + dt < end) add(starts_[i] + dt, pieces_[i + 1], dt);
+  }
+  const double last = from + rounds * period;
+  add(last, piece(last), 0.0);
+  for (std::size_t i = 0; i < starts_.size(); ++i)
+    if (starts_[i] > last) add(starts_[i], pieces_[i + 1], 0.0);
+  return {std::move(starts), std::move(pieces)};
 }
 
 bool History::is_constant() const {

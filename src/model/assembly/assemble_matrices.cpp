@@ -48,10 +48,10 @@ Assembly assemble_matrices(const Scene& scene, const DofMap& map) {
   a.dampers = read(matrices.damping, n, "matrices.damping");
   a.stiffness = read_symmetric(matrices.stiffness, n, "matrices.stiffness");
   a.weight = Vector::Zero(n);
-  if (scene.base_motion) {
+  for (const BaseMotionSpec& motion : scene.base_motion) {
     Vector r = Vector::Zero(n);
-    combination(map, scene.base_motion->direction, "base_motion.direction", false).add_to(r, 1.0);
-    a.base = a.mass * r;
+    combination(map, motion.direction, "base_motion.direction", false).add_to(r, 1.0);
+    a.base.emplace_back(a.mass * r);
   }
   return a;
 }

@@ -10,40 +10,46 @@ namespace signorini {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
+using Column = Vector SupportColumns::*;
 
 struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight, base;
-  std::array<double, 2> ground;  // direction of the base's motion
+  Vector weight;
+  std::vector<Vector> base;  // one a motion
+  std::vector<SupportColumns> moving;
 
-  /// Adds an element matrix with the numbers of its unknowns, negative ones left out.
+  /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a support
+  /// adds to its column.
   template <std::size_t n, class Matrix>
-  static void add(Triplets& target, const Matrix& a, const std::array<int, n>& numbers) {
+  void add(Triplets& target, Column column, const Matrix& a, const std::array<int, n>& numbers) {
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j)
-        if (const double value = a(static_cast<int>(i), static_cast<int>(j));
-            numbers[i] >= 0 && numbers[j] >= 0 && value != 0.0)
-          target.emplace_back(numbers[i], numbers[j], value);
+      for (std::size_t j = 0; j < n; ++j) {
+        const double value = a(static_cast<int>(i), static_cast<int>(j));
+        if (numbers[i] < 0 || value == 0.0) continue;
+        if (numbers[j] >= 0) target.emplace_back(numbers[i], numbers[j], value);
+        if (const int s = DofMap::moving_of_code(numbers[j]); numbers[j] < 0 && s >= 0)
+          (moving[static_cast<std::size_t>(s)].*column)[numbers[i]] += value;
+      }
   }
 
-  void add_element(const MeshElement& e) {
+  void add_element(std::size_t number) {
+    const MeshElement& e = map.mesh.elements[number];
     const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(e.a)];
     const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
     const Section& section = scene.sections[static_cast<std::size_t>(e.section)];
-    const auto& na = map.number[static_cast<std::size_t>(e.a)];
-    const auto& nb = map.number[static_cast<std::size_t>(e.b)];
-    const std::array<int, 6> numbers{na[0], na[1], na[2], nb[0], nb[1], nb[2]};
+    const std::array<int, 6> numbers = map.element_numbers(number);
     const double dx = b.x - a.x, dy = b.y - a.y;
     const bool bar = e.type == MemberType::bar;
     const BeamMatrix m = bar ? bar_mass(dx, dy, section.mass_per_length, e.mass)
                              : beam_mass(dx, dy, section.mass_per_length, e.mass);
-    add(stiffness, bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI),
-        numbers);
-    add(mass, m, numbers);
+    add(stiffness, &SupportColumns::stiffness,
+        bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI), numbers);
+    add(mass, &SupportColumns::mass, m, numbers);
     add_inertia(m, scene.gravity, numbers, weight);
-    add_inertia(m, ground, numbers, base);
+    for (std::size_t i = 0; i < base.size(); ++i)
+      add_inertia(m, scene.base_motion[i].direction.vector, numbers, base[i]);
   }
 
   /// target += M r a, with r a the acceleration of all translations.
@@ -65,7 +71,8 @@ struct Builder {
       mass.emplace_back(numbers[c], numbers[c], values[c]);
       if (c == 2) continue;
       weight[numbers[c]] += m.mass * scene.gravity[c];
-      base[numbers[c]] += m.mass * ground[c];
+      for (std::size_t i = 0; i < base.size(); ++i)
+        base[i][numbers[c]] += m.mass * scene.base_motion[i].direction.vector[c];
     }
   }
 
@@ -73,19 +80,18 @@ struct Builder {
     const auto d = clean_direction(s.direction);
     const double length = std::hypot(d[0], d[1]);
     if (!(length > 0.0)) throw SceneError(s.place, key + ".direction", "a spring needs a direction");
-    std::array<int, 4> numbers{-1, -1, -1, -1};
-    const auto& na = map.number[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
-    numbers[0] = na[0];
-    numbers[1] = na[1];
-    if (!s.against.empty()) {
-      const auto& nb = map.number[static_cast<std::size_t>(find_node(map.mesh, s.against, s.place, key))];
-      numbers[2] = nb[0];
-      numbers[3] = nb[1];
-    }
+    const auto na = map.numbers_at(find_node(map.mesh, s.node, s.place, key));
+    std::array<int, 3> nb{-1, -1, -1};
+    if (!s.against.empty()) nb = map.numbers_at(find_node(map.mesh, s.against, s.place, key));
+    const std::array<int, 4> numbers{na[0], na[1], nb[0], nb[1]};
     const Eigen::Vector4d a = Eigen::Vector4d(d[0], d[1], -d[0], -d[1]) / length;
     const Eigen::Matrix4d unit = a * a.transpose();
-    add(stiffness, Eigen::Matrix4d(s.stiffness * unit), numbers);
-    add(dampers, Eigen::Matrix4d(s.damping * unit), numbers);
+    add(stiffness, &SupportColumns::stiffness, Eigen::Matrix4d(s.stiffness * unit), numbers);
+    add(dampers, &SupportColumns::dampers, Eigen::Matrix4d(s.damping * unit), numbers);
+    const std::array<int, 2> turns{na[2], nb[2]};
+    const Eigen::Matrix2d turning{{1.0, -1.0}, {-1.0, 1.0}};
+    add(stiffness, &SupportColumns::stiffness, Eigen::Matrix2d(s.rotation_stiffness * turning), turns);
+    add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
   }
 };
 
@@ -93,9 +99,16 @@ struct Builder {
 
 Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
   const int n = map.size();
-  const auto ground = scene.base_motion ? scene.base_motion->direction.vector : std::array<double, 2>{};
-  Builder builder{scene, map, {}, {}, {}, Vector::Zero(n), Vector::Zero(n), ground};
-  for (const MeshElement& e : map.mesh.elements) builder.add_element(e);
+  const Vector zero = Vector::Zero(n);
+  Builder builder{scene,
+                  map,
+                  {},
+                  {},
+                  {},
+                  zero,
+                  std::vector<Vector>(scene.base_motion.size(), zero),
+                  std::vector<SupportColumns>(map.supports.size(), {zero, zero, zero})};
+  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_element(i);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
     builder.add_mass(scene.masses[i], fmt::format("masses.{}", i + 1));
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
@@ -105,8 +118,8 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
     a.setFromTriplets(entries.begin(), entries.end());
     return a;
   };
-  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness), builder.weight,
-          builder.base};
+  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness),
+          builder.weight,       std::move(builder.base),  std::move(builder.moving)};
 }
 
 }  // namespace signorini

@@ -1,6 +1,7 @@
 // assembly.hpp: mass, stiffness and dampers of a structure, and its weight.
 //
 //   M = sum_e M_e + masses,  K = sum_e K_e + springs,  C = dampers,  P_g = M r g,  P_base = -M r a(t)
+//   moving supports s(t):  P = -K_fs s - C_fs s' - M_fs s''
 //
 // r g: the acceleration of gravity on all translations, fixed ones included, so that the weight of a
 // beam next to a support arrives complete. Shapes: n x n, symmetric, both triangles stored.
@@ -11,10 +12,17 @@
 
 namespace signorini {
 
+/// What a unit motion of a support does to the free degrees of freedom: columns of M_fs, dampers, K_fs.
+struct SupportColumns {
+  Vector mass, dampers, stiffness;
+};
+
 struct Assembly {
   SparseMatrix mass, dampers, stiffness;
   Vector weight;  ///< P_g: force, moments on rotations
-  Vector base;    ///< M r, r: a unit motion of the base, fixed degrees of freedom included; empty without
+  /// M r for each motion of the base, r: its unit motion, fixed degrees of freedom included.
+  std::vector<Vector> base = {};
+  std::vector<SupportColumns> moving = {};  ///< one for each of DofMap::supports
 };
 
 [[nodiscard]] Assembly assemble_nodes(const Scene& scene, const DofMap& map);

@@ -86,38 +86,4 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
   return contacts;
 }
 
-std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {
-  std::vector<Load> loads;
-  const Vector& weight = assembly.weight;
-  Load gravity{"gravity", {}, History::constant(1.0), true};
-  for (int i = 0; i < weight.size(); ++i)
-    if (weight[i] != 0.0) gravity.direction.terms.emplace_back(i, weight[i]);
-  if (!gravity.direction.terms.empty()) loads.push_back(std::move(gravity));
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const LoadSpec& spec = scene.loads[i];
-    const std::string key = fmt::format("loads.{}", i + 1);
-    Load load;
-    load.name = fmt::format("load {}", i + 1);
-    load.direction = combination(map, spec.direction, key, false);
-    load.history = make_history(spec.history, key + ".history").scaled(spec.amplitude);
-    load.is_static = spec.history.type == HistoryType::constant && load.history.is_constant();
-    loads.push_back(std::move(load));
-  }
-  if (scene.base_motion) {
-    const History acceleration = make_history(scene.base_motion->acceleration, "base_motion.acceleration");
-    Load load{"base motion", {}, acceleration.scaled(-1.0), false};
-    for (int i = 0; i < assembly.base.size(); ++i)
-      if (assembly.base[i] != 0.0) load.direction.terms.emplace_back(i, assembly.base[i]);
-    if (!load.direction.terms.empty()) loads.push_back(std::move(load));
-  }
-  return loads;
-}
-
-Vector static_load(const std::vector<Load>& loads, int n) {
-  Vector p = Vector::Zero(n);
-  for (const Load& load : loads)
-    if (load.is_static) load.direction.add_to(p, load.history.value(0.0));
-  return p;
-}
-
 }  // namespace signorini

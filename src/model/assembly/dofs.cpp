@@ -25,7 +25,8 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
   for (const MeshElement& e : mesh.elements)
     for (int node : {e.a, e.b}) {
       need(numbers, node, {1.0, 1.0});
-      if (e.type == MemberType::beam) numbers[static_cast<std::size_t>(node)][2] = needed;
+      const bool hinged = node == e.a ? e.hinged_a : e.hinged_b;
+      if (e.type == MemberType::beam && !hinged) numbers[static_cast<std::size_t>(node)][2] = needed;
     }
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
@@ -36,9 +37,15 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
     const auto d = clean_direction(s.direction);
-    need(numbers, find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)), d);
+    const bool pulls = s.stiffness != 0.0 || s.damping != 0.0;
+    const bool turns = s.rotation_stiffness != 0.0 || s.rotation_damping != 0.0;
+    const auto need_end = [&](int node) {
+      if (pulls || !turns) need(numbers, node, d);
+      if (turns) numbers[static_cast<std::size_t>(node)][2] = needed;
+    };
+    need_end(find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
     if (!s.against.empty())
-      need(numbers, find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)), d);
+      need_end(find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
   }
   for (const ContactSpec& c : scene.contacts) {
     const std::string key = fmt::format("contacts.{}", c.name);
@@ -66,6 +73,53 @@ void add_columns(DofMap& map) {
         }
 }
 
+/// The one thing that support i holds moves.
+void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
+  const std::string key = fmt::format("supports.{}.motion", i + 1);
+  auto& moving = map.moving[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!fix[c]) continue;
+    if (moving[c] >= 0)
+      throw SceneError(s.place, key,
+                       fmt::format("the {} of node '{}' follows another support's motion already",
+                                   displacement_names[c], s.node));
+    moving[c] = static_cast<int>(map.supports.size());
+  }
+  map.supports.push_back(i);
+}
+
+/// One that rests and one that moves would contradict.
+void check_moving(const Scene& scene, const DofMap& map) {
+  for (std::size_t i = 0; i < scene.supports.size(); ++i) {
+    const Support& s = scene.supports[i];
+    const auto& moving = map.moving[static_cast<std::size_t>(map.mesh.by_name.at(s.node))];
+    const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (fix[c] && !s.motion && moving[c] >= 0)
+        throw SceneError(s.place, fmt::format("supports.{}.fix", i + 1),
+                         fmt::format("the {} of node '{}' follows another support's motion",
+                                     displacement_names[c], s.node));
+  }
+}
+
+/// Rotations of hinged ends: "A-B.A.rz".
+void add_hinges(DofMap& map) {
+  map.hinge.assign(map.mesh.elements.size(), {DofMap::absent, DofMap::absent});
+  for (const MeshPiece& piece : map.mesh.pieces) {
+    const std::string& from = map.mesh.nodes[static_cast<std::size_t>(piece.from)].name;
+    const std::string& to = map.mesh.nodes[static_cast<std::size_t>(piece.to)].name;
+    const auto add = [&](std::size_t element, std::size_t end, int node, const std::string& at) {
+      map.hinge[element][end] = map.size();
+      map.where.emplace_back(node, 2);
+      const std::string name = fmt::format("{}-{}.{}.", from, to, at);
+      map.dofs.push_back({name + displacement_names[2], name + velocity_names[2], true, false});
+    };
+    const std::size_t last = piece.first + piece.count - 1;
+    if (map.mesh.elements[piece.first].hinged_a) add(piece.first, 0, piece.from, from);
+    if (map.mesh.elements[last].hinged_b) add(last, 1, piece.to, to);
+  }
+}
+
 }  // namespace
 
 std::array<double, 2> clean_direction(const std::array<double, 2>& v) {
@@ -85,6 +139,7 @@ DofMap number_nodes(const Scene& scene) {
   DofMap map;
   map.mesh = make_mesh(scene);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
+  map.moving = map.number;  // absent
   mark_needed(scene, map.mesh, map.number);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
@@ -93,7 +148,9 @@ DofMap number_nodes(const Scene& scene) {
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c]) numbers[c] = DofMap::fixed;
+    if (s.motion) follow(map, i, s, fix);
   }
+  check_moving(scene, map);
   for (std::size_t node = 0; node < map.number.size(); ++node)
     for (std::size_t c = 0; c < 3; ++c) {
       if (map.number[node][c] != needed) continue;
@@ -102,8 +159,23 @@ DofMap number_nodes(const Scene& scene) {
       map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
       map.dofs.push_back({name + "." + displacement_names[c], name + "." + velocity_names[c], c == 2, false});
     }
+  add_hinges(map);
   add_columns(map);
   return map;
+}
+
+std::array<int, 3> DofMap::numbers_at(int node) const {
+  std::array<int, 3> numbers = number[static_cast<std::size_t>(node)];
+  for (std::size_t c = 0; c < 3; ++c)
+    if (const int i = moving[static_cast<std::size_t>(node)][c]; i >= 0) numbers[c] = code_of_moving(i);
+  return numbers;
+}
+
+std::array<int, 6> DofMap::element_numbers(std::size_t element) const {
+  const MeshElement& e = mesh.elements[element];
+  const auto a = numbers_at(e.a), b = numbers_at(e.b);
+  return {a[0], a[1], e.hinged_a ? hinge[element][0] : a[2],
+          b[0], b[1], e.hinged_b ? hinge[element][1] : b[2]};
 }
 
 DofMap number_matrices(const MatricesSpec& matrices) {
@@ -139,6 +211,11 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       if (vector[c] == 0.0 || weight == 0.0) continue;
       const int d = map.number[static_cast<std::size_t>(node)][c];
       if (d >= 0) result.terms.emplace_back(d, weight * (unit ? vector[c] / length : vector[c]));
+      if (unit && map.moving[static_cast<std::size_t>(node)][c] >= 0)
+        throw SceneError(direction.place, key,
+                         fmt::format("a support moves node '{}' in {}, and a contact touches what moves with the "
+                                     "structure or rests: put a spring between",
+                                     name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,

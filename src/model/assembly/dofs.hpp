@@ -4,7 +4,8 @@
 //
 // A degree of freedom exists only where a member, mass, spring or contact needs it: beams need ux, uy
 // and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
-// components of their directions. Supports fix what exists. Numbers follow the order of the nodes.
+// components of their directions. Supports fix what exists. Numbers follow the order of the nodes; behind them
+// stand the rotations of members' hinged ends. A support that moves has a number of its own, of those that move.
 #pragma once
 
 #include <array>
@@ -22,6 +23,9 @@ struct DofMap {
 
   Mesh mesh;                               ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< a mesh node; empty in matrix scenes
+  std::vector<std::array<int, 2>> hinge;   ///< an element: rotations of its hinged ends, or `absent`
+  std::vector<std::array<int, 3>> moving;  ///< a mesh node: which of `supports` it follows, or `absent`
+  std::vector<std::size_t> supports;       ///< that move: index into Scene::supports
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
   std::vector<Column> columns;
@@ -29,6 +33,13 @@ struct DofMap {
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   [[nodiscard]] bool matrices() const { return number.empty(); }
+  /// What stands for moving support i in numbers_at() and element_numbers().
+  [[nodiscard]] static int code_of_moving(int i) { return -3 - i; }
+  [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
+  /// Numbers, `fixed`, `absent`, or codes of moving supports.
+  [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
+  /// ux, uy, rz at both ends, in the same way.
+  [[nodiscard]] std::array<int, 6> element_numbers(std::size_t element) const;
 };
 
 /// Components of v along x and y; those below roundoff of the length of v are zero.

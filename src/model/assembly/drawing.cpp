@@ -53,12 +53,15 @@ DrawnContact drawn_contact(const ContactSpec& spec, const DofMap& map) {
 
 void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
   for (std::size_t i = 0; i < map.mesh.nodes.size(); ++i) model.drawn_nodes.push_back(drawn_node(map, i));
-  for (const MeshElement& e : map.mesh.elements) {
+  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
+    const MeshElement& e = map.mesh.elements[i];
     const auto kind = e.type == MemberType::bar ? DrawnElement::Kind::bar : DrawnElement::Kind::beam;
-    model.drawing.push_back(between(model.drawn_nodes, e.a, e.b, kind));
+    DrawnElement& drawn = model.drawing.emplace_back(between(model.drawn_nodes, e.a, e.b, kind));
+    if (e.hinged_a) drawn.dofs[2] = map.hinge[i][0];
+    if (e.hinged_b) drawn.dofs[5] = map.hinge[i][1];
   }
   for (const Spring& s : scene.springs) {
-    if (s.against.empty()) continue;
+    if (s.against.empty() || (s.stiffness == 0.0 && s.damping == 0.0)) continue;
     const int a = node_named(map.mesh, s.node), b = node_named(map.mesh, s.against);
     model.drawing.push_back(between(model.drawn_nodes, a, b, DrawnElement::Kind::spring));
   }

@@ -21,7 +21,9 @@ int find_section(const Scene& scene, const Member& member, const std::string& ke
   return static_cast<int>(it - scene.sections.begin());
 }
 
-void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section, const std::string& key) {
+void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t piece, int section,
+               const std::string& key) {
+  const Member& member = scene.members[number];
   const int a = find_node(mesh, member.nodes[piece], member.place, key + ".nodes");
   const int b = find_node(mesh, member.nodes[piece + 1], member.place, key + ".nodes");
   const MeshNode from = mesh.nodes[static_cast<std::size_t>(a)];
@@ -38,6 +40,12 @@ void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section,
     throw SceneError(
         member.place, key + ".elements",
         fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
+  const auto hinged = [&](const std::string& node, bool at_end) {
+    return at_end && std::find(member.release.begin(), member.release.end(), node) != member.release.end();
+  };
+  const bool hinged_a = hinged(member.nodes[piece], piece == 0);
+  const bool hinged_b = hinged(member.nodes[piece + 1], piece + 2 == member.nodes.size());
+  mesh.pieces.push_back({a, b, mesh.elements.size(), static_cast<std::size_t>(count)});
   int previous = a;
   for (int i = 1; i <= count; ++i) {
     int next = b;
@@ -47,7 +55,8 @@ void add_piece(Mesh& mesh, const Member& member, std::size_t piece, int section,
       mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), from.x + s * (to.x - from.x),
                             from.y + s * (to.y - from.y)});
     }
-    mesh.elements.push_back({previous, next, section, member.type, member.mass});
+    mesh.elements.push_back({previous, next, section, member.type, member.mass, hinged_a && i == 1,
+                             hinged_b && i == count, static_cast<int>(number)});
     previous = next;
   }
 }
@@ -72,7 +81,7 @@ Mesh make_mesh(const Scene& scene) {
     if (member.nodes.size() < 2) throw SceneError(member.place, key + ".nodes", "a member needs two nodes");
     const int section = find_section(scene, member, key);
     for (std::size_t piece = 0; piece + 1 < member.nodes.size(); ++piece)
-      add_piece(mesh, member, piece, section, key);
+      add_piece(mesh, scene, i, piece, section, key);
   }
   return mesh;
 }

@@ -23,11 +23,20 @@ struct MeshElement {
   int section = 0;  ///< index into Scene::sections
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
+  bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
+  int member = 0;                           ///< index into Scene::members
+};
+
+/// A straight piece of a member between two named nodes.
+struct MeshPiece {
+  int from = 0, to = 0;
+  std::size_t first = 0, count = 0;  ///< of its elements
 };
 
 struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<MeshElement> elements;
+  std::vector<MeshPiece> pieces;
   int named = 0;                                 ///< the first `named` nodes are those of the file
   std::unordered_map<std::string, int> by_name;  ///< of the named ones
 };

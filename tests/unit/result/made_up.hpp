@@ -66,7 +66,8 @@ inline Model model() {
   pad.friction.kinetic = 0.3;
   m.contacts = {foot, pad};
   m.static_start = true;
-  m.statics = {{58.86, 0.0}, {"horizontal motion held at contact 'foot'"}};
+  m.statics.reactions = {58.86, 0.0};
+  m.statics.free_motions = {"horizontal motion held at contact 'foot'"};
   m.alpha = 17.8;
   m.omega1 = 89.0;
   m.omega_max = 6e4;

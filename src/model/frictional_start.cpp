@@ -1,0 +1,89 @@
+#include "model/frictional_start.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/suggest.hpp"
+#include "contact/friction.hpp"
+#include "model/statics/frictional.hpp"
+
+namespace signorini {
+namespace {
+
+bool is_called(const Load& load, const std::string& name) {
+  if (name == "temperature") return load.kind == LoadKind::strain && load.name.starts_with(name);
+  if (name == "initial strain") return load.kind == LoadKind::strain && load.name.starts_with(name);
+  if (name == "supports") return load.kind == LoadKind::support;
+  return load.name == name;
+}
+
+/// Adds the loads of one stage, and counts how often each was taken.
+Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::vector<int>& taken) {
+  const std::string key = fmt::format("run.stages.{}.loads", number);
+  Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
+  for (const std::string& name : spec.loads) {
+    bool any = false;
+    for (std::size_t i = 0; i < model.loads.size(); ++i) {
+      const Load& load = model.loads[i];
+      if (!is_called(load, name)) continue;
+      any = true;
+      if (++taken[i] > 1)
+        throw SceneError(spec.place, key, fmt::format("\"{}\" stands in two stages, expected one", load.name));
+      // Of a support only where it is counts, not how fast it got there.
+      if (load.kind != LoadKind::support || load.is_static)
+        load.direction.add_to(stage.load, load.history.value(0.0));
+    }
+    if (any) continue;
+    std::vector<std::string> names{"temperature", "supports"};
+    for (const Load& load : model.loads) names.push_back(load.name);
+    throw SceneError(spec.place, key, fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
+  }
+  return stage;
+}
+
+std::vector<Stage> stages_of(const Scene& scene, const Model& model) {
+  std::vector<Stage> stages;
+  if (scene.initial.stages.empty()) {
+    Stage all{"loads", Vector::Zero(model.size()), 1};
+    for (const Load& load : model.loads)
+      if (load.is_static) load.direction.add_to(all.load, load.history.value(0.0));
+    return {all};
+  }
+  std::vector<int> taken(model.loads.size(), 0);
+  for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
+    stages.push_back(made(scene.initial.stages[i], i + 1, model, taken));
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    if (load.is_static && taken[i] == 0 && load.history.value(0.0) != 0.0)
+      throw SceneError(scene.initial.place, "run.stages",
+                       fmt::format("\"{}\" stands in no stage, and acts from the start", load.name));
+  }
+  return stages;
+}
+
+}  // namespace
+
+void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].initial_shear != 0.0)
+      throw SceneError(scene.contacts[k].place, "contacts." + model.contacts[k].name + ".initial_shear",
+                       "has no meaning beside initial = \"frictional\", which finds it");
+  FrictionalEquilibrium found = frictional_equilibrium(model.stiffness, model.contacts, stages_of(scene, model),
+                                                       map, scene.initial.place);
+  model.u0 = std::move(found.u);
+  model.v0 = Vector::Zero(model.size());
+  model.static_start = true;
+  model.statics = std::move(found.start);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    Contact& c = model.contacts[k];
+    if (!c.tangential_stiffness || !c.has_friction()) continue;
+    // The run computes N anew: the shear stays within its limit to the last digit.
+    const double N = c.has_spring() ? c.normal_stiffness * std::min(0.0, c.gap_at(model.u0)) : -model.statics.reactions[k];
+    const double limit = static_friction(c) * std::abs(N);
+    c.initial_shear = std::clamp(found.shears[k], -limit, limit);
+  }
+}
+
+}  // namespace signorini

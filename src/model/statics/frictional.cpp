@@ -1,0 +1,412 @@
+#include "model/statics/frictional.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "decide/complementarity.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/null_motions.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+// Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
+// sixteen digits. Chosen; tests/unit/model/statics/frictional.cpp moves when it is 1e-6.
+constexpr double same_force = 1e-11;
+
+/// d . u - c F = r: a row that is in force, F the force along -d.
+struct Row {
+  Combination form;
+  double stiffness = 0.0;  ///< 1 / c; of a rigid row the structure's own, which changes nothing
+  bool rigid = false;
+};
+
+/// The structure on its rows: displacements and forces for loads and for given r.
+class HeldRows {
+ public:
+  HeldRows(const SparseMatrix& k, std::vector<Row> rows)
+      : rows_(std::move(rows)), matrix_(with_springs(k, springs())), solver_(matrix_) {
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      if (rows_[j].rigid) rigid_.push_back(j);
+    if (!regular()) return;
+    const auto n = static_cast<Eigen::Index>(rigid_.size());
+    schur_.resize(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      answers_.push_back(solver_.solve(full(rigid_row(i).form, static_cast<int>(k.rows()))));
+      for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
+    }
+  }
+
+  /// Positive definite: what is held stays where it is.
+  [[nodiscard]] bool regular() const {
+    return solver_.ok() &&
+           solver_.smallest_pivot() > 1e-13 * matrix_.diagonal().cwiseAbs().maxCoeff() * least_share();
+  }
+  [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
+
+  /// u and the forces F, one a row.
+  [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const {
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+      if (const double by = r[static_cast<Eigen::Index>(j)]; by != 0.0)
+        rows_[j].form.add_to(load, rows_[j].stiffness * by);
+    Vector u = solver_.solve(load);
+    Vector forces = Vector::Zero(r.size());
+    const auto n = static_cast<Eigen::Index>(rigid_.size());
+    if (n > 0) {
+      Eigen::VectorXd miss(n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
+      const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
+        forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];
+      }
+    }
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+      const auto i = static_cast<Eigen::Index>(j);
+      forces[i] += rows_[j].rigid ? 0.0 : rows_[j].stiffness * (rows_[j].form.dot(u) - r[i]);
+    }
+    return {std::move(u), std::move(forces)};
+  }
+
+ private:
+  [[nodiscard]] const Row& rigid_row(Eigen::Index i) const {
+    return rows_[rigid_[static_cast<std::size_t>(i)]];
+  }
+  [[nodiscard]] std::vector<LineSpring> springs() const {
+    std::vector<LineSpring> list;
+    for (const Row& row : rows_) list.push_back({row.form, row.stiffness});
+    return list;
+  }
+  /// Rotations have stiffnesses of another unit: the least diagonal entry over the greatest.
+  [[nodiscard]] double least_share() const {
+    const Vector d = matrix_.diagonal().cwiseAbs();
+    return d.maxCoeff() > 0.0 ? d.minCoeff() / d.maxCoeff() : 1.0;
+  }
+
+  std::vector<Row> rows_;
+  SparseMatrix matrix_;
+  SymmetricSolver solver_;
+  std::vector<std::size_t> rigid_;
+  Eigen::MatrixXd schur_;
+  std::vector<Vector> answers_;
+};
+
+/// One contact on its way.
+struct Standing {
+  State state = State::open;
+  double gap = 0.0, N = 0.0, T = 0.0;
+  double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
+  double given_gap_rate = 0.0;   ///< of the gap without displacement, while a fit grows
+  int normal = -1, tangent = -1;  ///< rows in force
+};
+
+/// An unknown of the complementarity problem: displaces `row` by sign z; its condition is of rates.
+struct Unknown {
+  std::size_t contact;
+  int row;
+  int sign;
+  enum class Kind : unsigned char { opening, slip } kind;
+};
+
+class Path {
+ public:
+  Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const DofMap& map,
+       const SourcePlace& place)
+      : stiffness_(stiffness), contacts_(contacts), map_(map), place_(place), u_(Vector::Zero(map.size())) {
+    for (const Contact& c : contacts) {
+      Standing s;
+      if (c.is_pressed()) {
+        s.N = -c.normal_force.value(0.0);
+        s.state = s.N == 0.0 ? State::open : c.has_friction() ? State::stick : State::closed;
+      } else {
+        s.gap = std::max(0.0, c.gap);
+        s.state = s.gap > 0.0 ? State::open : c.has_friction() ? State::stick : State::closed;
+      }
+      standing_.push_back(s);
+    }
+  }
+
+  FrictionalEquilibrium run(const std::vector<Stage>& stages) {
+    fit();
+    for (const Stage& stage : stages) grow(stage);
+    FrictionalEquilibrium result{u_, {}, std::move(found_)};
+    result.start.frictional = true;
+    for (const Standing& s : standing_) {
+      result.start.reactions.push_back(std::max(0.0, -s.N));
+      result.shears.push_back(s.T);
+    }
+    return result;
+  }
+
+ private:
+  /// Contacts that press in the undeformed state come apart first.
+  void fit() {
+    bool any = false;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Contact& c = contacts_[k];
+      if (!c.has_gap() || c.gap >= 0.0) continue;
+      standing_[k].given_gap_rate = c.gap;
+      any = true;
+    }
+    if (any) grow({"fit", Vector::Zero(u_.size()), 1});
+    for (Standing& s : standing_) s.given_gap_rate = 0.0;
+  }
+
+  void grow(const Stage& stage) {
+    stage_ = &stage;
+    part_ = 0.0;
+    for (int step = 1; step <= stage.steps; ++step) {
+      const double end = static_cast<double>(step) / stage.steps;
+      const std::size_t most = found_.events.size() + 1000 + 100 * contacts_.size();
+      int idle = 0;
+      while (part_ < end) {
+        find_rates();
+        const double before = part_;
+        advance(end);
+        idle = part_ > before ? 0 : idle + 1;
+        if (found_.events.size() > most || idle > 20 + 4 * static_cast<int>(contacts_.size()))
+          refuse_stage("the states of its contacts change without end");
+      }
+      StageEnd told{stage.name, end, {}, {}, {}};
+      for (const Standing& s : standing_) {
+        told.states.push_back(s.state);
+        told.N.push_back(s.N);
+        told.T.push_back(s.T);
+      }
+      found_.stages.push_back(std::move(told));
+    }
+  }
+
+  [[noreturn]] void refuse_stage(const std::string& why) const {
+    throw SceneError(place_, "run.initial",
+                     fmt::format("no slow start: at {:.4g} of stage '{}' {}", part_, stage_->name, why));
+  }
+
+  [[noreturn]] void refuse_motion(const HeldRows& held) const {
+    const SymmetricSolver solver(held.matrix());
+    const Eigen::MatrixXd null = null_motions(held.matrix());
+    if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
+      refuse_stage("the stiffness is indefinite");
+    const std::string name =
+        null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
+    refuse_stage(fmt::format("nothing holds the {}: what would follow is no equilibrium", name));
+  }
+
+  [[nodiscard]] bool rubs(std::size_t k) const { return contacts_[k].has_friction(); }
+  [[nodiscard]] double friction(std::size_t k) const {
+    const Friction& f = contacts_[k].friction;
+    return slip_sign(standing_[k].state) != 0 ? f.kinetic : f.static_;
+  }
+  /// f |N| - s T
+  [[nodiscard]] double margin(std::size_t k, int s) const {
+    return friction(k) * std::abs(standing_[k].N) - s * standing_[k].T;
+  }
+  [[nodiscard]] double zero_force() const {
+    double most = 0.0;
+    for (const Standing& s : standing_) most = std::max({most, std::abs(s.N), std::abs(s.T)});
+    return same_force * most;
+  }
+  /// Neither pressed nor apart.
+  [[nodiscard]] bool touches(std::size_t k, double zero) const {
+    const Contact& c = contacts_[k];
+    const Standing& s = standing_[k];
+    if (!c.has_gap() || std::abs(s.N) > zero) return false;
+    if (!is_open(s.state)) return true;
+    const double rounded = rounding::of_many * (c.gap + c.normal.magnitude(u_));
+    return s.gap <= (c.takes_impulses() ? same_force * c.normal.magnitude(u_) : zero / c.normal_stiffness) + rounded;
+  }
+
+  /// Rows in force: of all contacts that are not apart.
+  std::vector<Row> make_rows(double zero) {
+    std::vector<Row> rows;
+    const auto add = [&](const Combination& form, std::optional<double> k) {
+      rows.push_back({form, k ? *k : own_stiffness(stiffness_, form), !k});
+      return static_cast<int>(rows.size()) - 1;
+    };
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Contact& c = contacts_[k];
+      Standing& s = standing_[k];
+      s.normal = s.tangent = -1;
+      if (is_open(s.state) && !touches(k, zero)) continue;
+      if (c.has_gap())
+        s.normal = add(c.normal, c.has_spring() ? std::optional(c.normal_stiffness) : std::nullopt);
+      if (rubs(k) && !(c.is_pressed() && s.N == 0.0))
+        s.tangent = add(c.body_tangent(), c.shear ? std::optional(c.shear->stiffness) : c.tangential_stiffness);
+    }
+    return rows;
+  }
+
+  std::vector<Unknown> make_unknowns(double zero) const {
+    std::vector<Unknown> unknowns;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Standing& s = standing_[k];
+      const bool touching = s.normal >= 0 && touches(k, zero);
+      if (touching) unknowns.push_back({k, s.normal, 1, Unknown::Kind::opening});
+      if (s.tangent < 0) continue;
+      for (const int sign : {1, -1})
+        if (touching || margin(k, sign) <= zero) unknowns.push_back({k, s.tangent, sign, Unknown::Kind::slip});
+    }
+    return unknowns;
+  }
+
+  /// -N', or -f N' - s T': what the unknown is complementary to.
+  [[nodiscard]] double condition(const Unknown& unknown, const Vector& forces) const {
+    const Standing& s = standing_[unknown.contact];
+    const double N = s.normal >= 0 ? forces[s.normal] : 0.0;
+    if (unknown.kind == Unknown::Kind::opening) return -N;
+    return -friction(unknown.contact) * N - unknown.sign * forces[s.tangent];
+  }
+
+  /// Rates of everything along the stage, and the states that go with them.
+  void find_rates() {
+    const double zero = zero_force();
+    const std::vector<Row> rows = make_rows(zero);
+    const HeldRows held(stiffness_, rows);
+    if (!held.regular()) refuse_motion(held);
+    const std::vector<Unknown> unknowns = make_unknowns(zero);
+    Vector r = Vector::Zero(static_cast<Eigen::Index>(rows.size()));
+    for (const Standing& s : standing_)
+      if (s.normal >= 0) r[s.normal] = -s.given_gap_rate;
+    auto [rates, forces] = held.solve(stage_->load, r);
+    const auto n = static_cast<Eigen::Index>(unknowns.size());
+    if (n > 0) {
+      Eigen::MatrixXd m(n, n);
+      Eigen::VectorXd q(n);
+      std::vector<std::pair<Vector, Vector>> answers;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const Unknown& unknown = unknowns[static_cast<std::size_t>(j)];
+        Vector unit = Vector::Zero(r.size());
+        // In forces, so that all unknowns and conditions have one unit.
+        unit[unknown.row] = unknown.sign / rows[static_cast<std::size_t>(unknown.row)].stiffness;
+        answers.push_back(held.solve(Vector::Zero(u_.size()), unit));
+        q[j] = condition(unknown, forces);
+        for (Eigen::Index i = 0; i < n; ++i)
+          m(i, j) = condition(unknowns[static_cast<std::size_t>(i)], answers.back().second);
+      }
+      const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+      const auto z = solve_complementarity(m, q / size);
+      if (!z) refuse_stage(names_of_unknowns(unknowns) + " can neither hold nor slip in equilibrium");
+      for (Eigen::Index j = 0; j < n; ++j) {
+        rates += (*z)[j] * size * answers[static_cast<std::size_t>(j)].first;
+        forces += (*z)[j] * size * answers[static_cast<std::size_t>(j)].second;
+      }
+      take_states(unknowns, *z);
+    }
+    u_rate_ = std::move(rates);
+    take_rates(forces);
+  }
+
+  [[nodiscard]] std::string names_of_unknowns(const std::vector<Unknown>& unknowns) const {
+    std::string names;
+    std::size_t last = contacts_.size(), count = 0;
+    for (const Unknown& unknown : unknowns) {
+      if (unknown.contact == last) continue;
+      last = unknown.contact;
+      if (++count <= 4) names += fmt::format("{}'{}'", count == 1 ? "" : ", ", contacts_[last].name);
+    }
+    return fmt::format("{} {}{}", count == 1 ? "contact" : "contacts", names, count > 4 ? " and more" : "");
+  }
+
+  void take_states(const std::vector<Unknown>& unknowns, const Eigen::VectorXd& z) {
+    std::vector<State> next;
+    for (const Standing& s : standing_)
+      next.push_back(slip_sign(s.state) != 0 && s.tangent >= 0 ? State::stick : s.state);
+    for (const Unknown& unknown : unknowns)  // touching ones are closed, unless they open
+      if (unknown.kind == Unknown::Kind::opening)
+        next[unknown.contact] = rubs(unknown.contact) ? State::stick : State::closed;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      if (!(z[static_cast<Eigen::Index>(j)] > 0.0)) continue;
+      State& state = next[unknowns[j].contact];
+      if (unknowns[j].kind == Unknown::Kind::opening)
+        state = State::open;
+      else if (state != State::open)
+        state = unknowns[j].sign > 0 ? State::slip_plus : State::slip_minus;
+    }
+    for (std::size_t k = 0; k < next.size(); ++k) change(k, next[k]);
+  }
+
+  void change(std::size_t k, State to) {
+    Standing& s = standing_[k];
+    if (s.state == to) return;
+    const Friction& f = contacts_[k].friction;
+    if (slip_sign(to) != 0 && slip_sign(s.state) == 0 && f.kinetic < f.static_)
+      refuse_stage(fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: what "
+                               "would follow is no equilibrium",
+                               contacts_[k].name));
+    // What only touches at the very beginning has no state that it could leave.
+    const bool begins = part_ == 0.0 && s.N == 0.0 && s.T == 0.0;
+    if (!begins) found_.events.push_back({stage_->name, part_, static_cast<int>(k), s.state, to});
+    s.state = to;
+    if (to == State::open) s.N = s.T = 0.0;
+  }
+
+  void take_rates(const Vector& forces) {
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Contact& c = contacts_[k];
+      Standing& s = standing_[k];
+      const bool open = is_open(s.state);
+      s.gap_rate = c.has_gap() ? c.normal.dot(u_rate_) + s.given_gap_rate : 0.0;
+      s.N_rate = s.normal >= 0 && !open ? forces[s.normal] : 0.0;
+      s.T_rate = s.tangent >= 0 && !open ? forces[s.tangent] : 0.0;
+      // Along its limit, to the last digit.
+      if (const int sign = slip_sign(s.state); sign != 0) s.T_rate = -sign * friction(k) * s.N_rate;
+    }
+  }
+
+  /// To the end of the step or to the next change of a state.
+  void advance(double end) {
+    double step = end - part_;
+    const double zero = zero_force();
+    const auto fall = [&](double value, double rate, bool there) {
+      if (rate < 0.0 && !there) step = std::min(step, std::max(0.0, -value / rate));
+    };
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Standing& s = standing_[k];
+      const bool touching = touches(k, zero);
+      if (!contacts_[k].is_pressed()) {
+        if (is_open(s.state)) fall(s.gap, s.gap_rate, touching);
+        if (!is_open(s.state)) fall(-s.N, -s.N_rate, touching);
+      }
+      if (s.state != State::stick || touching) continue;
+      for (const int sign : {1, -1})
+        fall(margin(k, sign), -friction(k) * s.N_rate - sign * s.T_rate, margin(k, sign) <= zero);
+    }
+    part_ = step >= end - part_ ? end : part_ + step;
+    u_ += step * u_rate_;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      Standing& s = standing_[k];
+      s.gap += step * s.gap_rate;
+      s.N += step * s.N_rate;
+      s.T += step * s.T_rate;
+      if (const int sign = slip_sign(s.state); sign != 0) s.T = sign * friction(k) * std::abs(s.N);
+    }
+  }
+
+  const SparseMatrix& stiffness_;
+  const std::vector<Contact>& contacts_;
+  const DofMap& map_;
+  const SourcePlace& place_;
+  Vector u_, u_rate_;
+  std::vector<Standing> standing_;
+  StaticStart found_;
+  const Stage* stage_ = nullptr;
+  double part_ = 0.0;  // of the stage
+};
+
+}  // namespace
+
+FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness, const std::vector<Contact>& contacts,
+                                             const std::vector<Stage>& stages, const DofMap& map,
+                                             const SourcePlace& place) {
+  return Path(stiffness, contacts, map, place).run(stages);
+}
+
+}  // namespace signorini

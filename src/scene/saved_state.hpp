@@ -1,0 +1,19 @@
+// saved_state.hpp: the states that a run kept, states.csv: everything that a motion goes on from.
+//
+//   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T      displacements, velocities, shears of contacts with friction
+//   1.2,0.0103,...
+#pragma once
+
+#include <istream>
+#include <optional>
+#include <string>
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// The state at t, or the last one. Errors: SceneError at the line of the file; `key` stands in front.
+[[nodiscard]] SavedState read_saved_state(std::istream& in, const std::string& file, const std::string& key,
+                                          std::optional<double> t);
+
+}  // namespace signorini

@@ -1,0 +1,324 @@
+// Starts that remember how their loads came, and runs that go on from others.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "behaviour/engines.hpp"
+#include "model/assembly/springs.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::starts {
+namespace {
+
+const std::string head = "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
+
+Model built(const std::string& text, const std::vector<Override>& changes = {}) {
+  return build_model(parse_scene(text, "test.toml", changes));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    (void)built(text);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+int dof(const Model& model, const std::string& name) {
+  for (std::size_t i = 0; i < model.physical_dofs().size(); ++i)
+    if (model.physical_dofs()[i].displacement == name) return static_cast<int>(i);
+  FAIL("no degree of freedom " << name);
+  return -1;
+}
+
+/// Two blocks in a row on sliders, a spring between; the first is pushed. Stages follow.
+std::string two_sliders(const std::string& stages, const std::string& loads) {
+  return head + "[run]\nt_end = 1.0\ninitial = \"frictional\"\n" + stages + R"(
+[nodes]
+A = [0.0, 0.0]
+B = [1.0, 0.0]
+[[masses]]
+node = "A"
+mass = 1.0
+[[masses]]
+node = "B"
+mass = 1.0
+[[supports]]
+nodes = ["A", "B"]
+fix = ["uy"]
+[[springs]]
+node = "A"
+against = "B"
+direction = [1.0, 0.0]
+stiffness = 10.0
+[[contacts]]
+name = "ca"
+node = "A"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 1.0
+tangential_stiffness = 100.0
+friction = 0.5
+[[contacts]]
+name = "cb"
+node = "B"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 2.0
+tangential_stiffness = 100.0
+friction = 0.5
+)" + loads;
+}
+
+std::string push(const std::string& name, double force) {
+  return fmt::format("[[loads]]\nname = \"{}\"\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = {}\n", name, force);
+}
+
+const std::string portal = SIGNORINI_TEST_DATA "/scenes/starts/portal.toml";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/frictional_start");
+
+TEST_CASE("two sliders in series: pushed until the first slips, and back until it slips back") {
+  // a stuck: u_a = 11 u_b, T_a = 1.1 P, so it slips at P = 0.5 / 1.1; then 10 (a - b) = P - 0.5 = 100 b
+  {
+    const Model model = built(two_sliders("", push("push", 1.2)));
+    REQUIRE(model.statics.events.size() == 1);
+    CHECK(model.statics.events[0].part == doctest::Approx(0.5 / 1.1 / 1.2).epsilon(1e-13));
+    CHECK(model.statics.events[0].to == State::slip_plus);
+    CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.077).epsilon(1e-13));
+    CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.007).epsilon(1e-13));
+    CHECK(model.contacts[0].initial_shear == doctest::Approx(0.5).epsilon(1e-14));
+    CHECK(model.contacts[1].initial_shear == doctest::Approx(0.7).epsilon(1e-13));
+  }
+  // Taken back by 1.5: T_a falls by 1.1 of what is taken and reaches -0.5 at 1 / 1.1 of it, then slips back.
+  const Model model = built(two_sliders("[[run.stages]]\nname = \"forth\"\nloads = [\"push\"]\n"
+                                        "[[run.stages]]\nname = \"back\"\nloads = [\"pull\"]\nsteps = 2\n",
+                                        push("push", 1.2) + push("pull", -1.5)));
+  const auto& events = model.statics.events;
+  REQUIRE(events.size() == 3);
+  CHECK(events[1].stage == "back");
+  CHECK(events[1].part == 0.0);  // it sticks at once
+  CHECK(events[1].to == State::stick);
+  CHECK(events[2].part == doctest::Approx(1.0 / 1.1 / 1.5).epsilon(1e-12));
+  CHECK(events[2].to == State::slip_minus);
+  // P = -0.3: 10 (a - b) = P + 0.5 = 100 b
+  CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.002).epsilon(1e-11));
+  CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.022).epsilon(1e-11));
+  REQUIRE(model.statics.stages.size() == 3);
+  CHECK(model.statics.stages[1].part == 0.5);
+  // half back: P = 0.45, stuck since P = 1.2, T_a = 0.5 - 1.1 * 0.75
+  CHECK(model.statics.stages[1].T[0] == doctest::Approx(0.5 - 1.1 * 0.75).epsilon(1e-11));
+}
+
+TEST_CASE("nothing moves in the run that follows a slow start") {
+  const std::string text = two_sliders("", push("push", 1.2));
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.dt", "1e-2"}});
+    const Model model = build_model(scene);
+    const Result result = simulate(model, scene.run);
+    CHECK(result.report.outcome.kind == Outcome::Kind::done);
+    for (const Result::Row& row : result.rows) {
+      CHECK((row.u - model.u0).cwiseAbs().maxCoeff() < 1e-12);
+      CHECK(std::abs(row.contacts[0].T - 0.5) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("the portal's feet carry 12.27 kN of thrust, two thirds of their limit") {
+  const Model model = build_model(read_scene(portal));
+  CHECK(std::abs(model.contacts[0].initial_shear) == doctest::Approx(12.27).epsilon(5e-4));
+  CHECK(std::abs(model.contacts[0].initial_shear) / (0.2 * model.statics.reactions[0]) ==
+        doctest::Approx(0.66).epsilon(0.01));
+  CHECK(model.contacts[0].initial_shear == doctest::Approx(-model.contacts[1].initial_shear).epsilon(1e-10));
+  CHECK(model.statics.events.empty());
+  // All stick: one linear solve.
+  Vector weight = Vector::Zero(model.size());
+  for (const Load& load : model.loads)
+    if (load.name == "gravity") load.direction.add_to(weight, 1.0);
+  const Vector u = SymmetricSolver(with_springs(model.stiffness, contact_springs(model.contacts))).solve(weight);
+  CHECK((u - model.u0).cwiseAbs().maxCoeff() < 1e-12 * u.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("less friction: the portal's feet slip from the start, to their limit") {
+  const Model model =
+      build_model(read_scene(portal, {{"contacts.*.friction", "0.1"}, {"run.t_end", "0.1"}}));
+  for (std::size_t k = 0; k < 2; ++k)
+    CHECK(std::abs(model.contacts[k].initial_shear) ==
+          doctest::Approx(0.1 * model.statics.reactions[k]).epsilon(1e-12));
+  CHECK(model.statics.reactions[0] == doctest::Approx(model.statics.reactions[1]).epsilon(1e-10));
+}
+
+TEST_CASE("heat after weight: a hot beam slides out on one foot, in a reduced model too") {
+  // A beam on two feet: the light end slides when EA alpha T (softened by kt) exceeds its limit.
+  const std::string text = head + R"(
+gravity = [0.0, -10.0]
+[run]
+t_end = 0.5
+initial = "frictional"
+[[run.stages]]
+name = "weight"
+loads = ["gravity"]
+[[run.stages]]
+name = "heat"
+loads = ["temperature"]
+[sections.s]
+EA = 2e4
+EI = 5e3
+mass_per_length = 0.1
+[nodes]
+A = [0.0, 0.0]
+B = [10.0, 0.0]
+[[masses]]
+node = "A"
+mass = 0.5
+[[members]]
+nodes = ["A", "B"]
+section = "s"
+elements = 4
+thermal_expansion = 1e-5
+temperature = 100.0
+[[contacts]]
+name = "a"
+node = "A"
+law = "compliant"
+normal = [0.0, 1.0]
+normal_stiffness = 1e5
+tangential_stiffness = 1e5
+friction = 0.3
+[[contacts]]
+name = "b"
+node = "B"
+law = "compliant"
+normal = [0.0, 1.0]
+normal_stiffness = 1e5
+tangential_stiffness = 1e5
+friction = 0.3
+)";
+  // weights 10 and 5 kN, limits 3 and 1.5: force F = e / (10 / 2e4 + 2 / 1e5) until b slips at F = 1.5
+  const double flexibility = 10.0 / 2e4 + 2.0 / 1e5, whole = 1e-5 * 100.0 * 10.0;
+  for (const bool reduced : {false, true}) {
+    const Model model = built(text + (reduced ? "[reduction]\ncutoff_omega = 300.0\n" : ""));
+    REQUIRE(model.statics.events.size() == 1);
+    CHECK(model.statics.events[0].stage == "heat");
+    CHECK(model.statics.events[0].contact == 1);
+    CHECK(model.statics.events[0].part == doctest::Approx(1.5 * flexibility / whole).epsilon(1e-9));
+    CHECK(model.contacts[1].initial_shear == doctest::Approx(1.5).epsilon(1e-9));
+    CHECK(model.contacts[0].initial_shear == doctest::Approx(-1.5).epsilon(1e-9));
+    const Vector u = model.physical(model.u0);
+    const double a = -1.5 / 1e5;
+    CHECK(u[dof(model, "A.ux")] == doctest::Approx(a).epsilon(1e-8));
+    CHECK(u[dof(model, "B.ux")] == doctest::Approx(a + whole - 1.5 * 10.0 / 2e4).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("a gap closes on the way, a fit comes apart: closed forms") {
+  const auto text = [](const std::string& contact) {
+    return head + "[run]\nt_end = 1.0\ninitial = \"frictional\"\n" + R"(
+[nodes]
+A = [0.0, 0.0]
+[[masses]]
+node = "A"
+mass = 1.0
+[[springs]]
+node = "A"
+direction = [1.0, 0.0]
+stiffness = 30.0
+[[supports]]
+node = "A"
+fix = ["uy"]
+[[contacts]]
+name = "stop"
+node = "A"
+law = "compliant"
+normal = [-1.0, 0.0]
+normal_stiffness = 20.0
+)" + contact + push("push", 9.0);
+  };
+  const Model gap = built(text("gap = 0.1\n"));
+  REQUIRE(gap.statics.events.size() == 1);
+  CHECK(gap.statics.events[0].part == doctest::Approx(1.0 / 3.0).epsilon(1e-14));
+  CHECK(gap.u0[0] == doctest::Approx((9.0 + 2.0) / 50.0).epsilon(1e-14));
+  // 0.1 too long: u = -2 / 50 alone, then (9 - 2) / 50
+  const Model fit = built(text("gap = -0.1\n"));
+  CHECK(fit.u0[0] == doctest::Approx(7.0 / 50.0).epsilon(1e-14));
+  CHECK(fit.statics.reactions[0] == doctest::Approx(20.0 * (0.1 + 0.14)).epsilon(1e-13));
+  std::string rigid = text("gap = 0.1\n");
+  rigid.replace(rigid.find("compliant"), 9, "rigid");
+  rigid.erase(rigid.find("normal_stiffness = 20.0\n"), 24);
+  const Model hard = built(rigid);
+  CHECK(hard.u0[0] == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(hard.statics.reactions[0] == doctest::Approx(6.0).epsilon(1e-13));
+}
+
+TEST_CASE("what no slow start can reach is refused by name") {
+  // Both slip: nothing holds the pair.
+  const std::string away = refusal(two_sliders("", push("push", 5.0)));
+  CHECK(away.find("no slow start") != std::string::npos);
+  CHECK(away.find("'ca', 'cb'") != std::string::npos);
+  std::string falls = two_sliders("", push("push", 1.2));
+  falls.replace(falls.find("friction = 0.5"), 14, "friction = { static = 0.5, kinetic = 0.4 }");
+  CHECK(refusal(falls).find("falls from static to kinetic") != std::string::npos);
+  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"psuh\"]\n", push("push", 1.0)))
+            .find("did you mean \"push\"") != std::string::npos);
+  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n", push("push", 1.0)))
+            .find("two stages") != std::string::npos);
+  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
+            .find("stands in no stage") != std::string::npos);
+}
+
+TEST_CASE("a run in two halves has the events of the whole") {
+  const std::string whole = head + R"(
+[run]
+t_end = 4.0
+output_dt = 0.1
+frames = [1.7]
+engine = "exact"
+rtol = 1e-12
+initial = "frictional"
+)" + two_sliders("", "").substr(two_sliders("", "").find("[nodes]")) +
+                            "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 1.5\nhistory = { type = "
+                            "\"harmonic\", omega = 5.0, end = 9.0 }\n"
+                            "[[stops]]\nname = \"guide\"\nnode = \"B\"\nlaw = \"compliant\"\ndirection = [1.0, 0.0]\n"
+                            "gap = 0.004\nnormal_stiffness = 500.0\n";
+  const auto folder = std::filesystem::temp_directory_path() / "signorini-halves";
+  std::filesystem::remove_all(folder);
+  const Scene scene = parse_scene(whole, "whole.toml");
+  const Model model = build_model(scene);
+  RunDirectory directory(folder, scene, model, {true, {"test"}});
+  const Report report = simulate(model, scene.run, directory);
+  static_cast<void>(directory.finish(report));
+  const Result all = simulate(model, scene.run);
+
+  for (const char* engine : {"exact", "ida"}) {
+    std::string second = whole;
+    const auto set = [&](const std::string& from, const std::string& to) {
+      second.replace(second.find(from), from.size(), to);
+    };
+    set("t_end = 4.0", "t_end = 2.3");
+    set("frames = [1.7]\n", "");
+    set("initial = \"frictional\"", fmt::format("initial = {{ run = \"{}\", t = 1.7 }}", folder.string()));
+    set("end = 9.0", "end = 9.0, shift = -1.7");
+    const Scene later = parse_scene(second, "second.toml", {{"run.engine", engine}});
+    const Result rest = simulate(build_model(later), later.run);
+    std::size_t first = 0;
+    while (first < all.events.size() && all.events[first].t <= 1.7) ++first;
+    REQUIRE(all.events.size() - first == rest.events.size());
+    REQUIRE(rest.events.size() > 5);
+    for (std::size_t i = 0; i < rest.events.size(); ++i) {
+      CHECK(std::abs(rest.events[i].t + 1.7 - all.events[first + i].t) < (engine[0] == 'e' ? 1e-12 : 1e-9));
+      CHECK(rest.events[i].to == all.events[first + i].to);
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::starts

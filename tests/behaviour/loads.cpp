@@ -1,0 +1,474 @@
+// Loads, strains, hinges and supports that move, against own finite elements and matrix exponentials.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "behaviour/engines.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::loads {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+Result compute(const std::string& text, const std::string& engine, const std::vector<Override>& more = {}) {
+  std::vector<Override> changes{{"run.engine", engine}, {"run.rtol", "1e-12"}, {"run.dt", "1e-3"},
+                                {"run.certify", "false"}};
+  changes.insert(changes.end(), more.begin(), more.end());
+  const Scene scene = parse_scene(text, "test.toml", changes);
+  return simulate(build_model(scene), scene.run);
+}
+
+/// exp(A) by Taylor's series of A / 2^s, squared s times.
+Matrix exponential(Matrix a) {
+  int halvings = 0;
+  for (; a.cwiseAbs().rowwise().sum().maxCoeff() > 0.5; ++halvings) a *= 0.5;
+  Matrix sum = Matrix::Identity(a.rows(), a.cols()), term = sum;
+  for (int k = 1; k < 30; ++k) {
+    term = term * a / k;
+    sum += term;
+  }
+  for (; halvings > 0; --halvings) sum = sum * sum;
+  return sum;
+}
+
+/// M u'' + C u' + K u = F w, w' = W w: at rest at 0; w(0) given.
+struct Driven {
+  Matrix M, C, K, F, W;
+  Eigen::VectorXd w0;
+
+  [[nodiscard]] Eigen::VectorXd at(double t) const {
+    const Eigen::Index n = M.rows(), d = W.rows();
+    Matrix a = Matrix::Zero(2 * n + d, 2 * n + d);
+    a.block(0, n, n, n).setIdentity();
+    a.block(n, 0, n, n) = -M.ldlt().solve(K);
+    a.block(n, n, n, n) = -M.ldlt().solve(C);
+    a.block(n, 2 * n, n, d) = M.ldlt().solve(F);
+    a.bottomRightCorner(d, d) = W;
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(2 * n + d);
+    z.tail(d) = w0;
+    return (exponential(a * t) * z).head(n);
+  }
+};
+
+/// 1, t, t^2, sin w t, cos w t.
+constexpr int one = 0, linear = 1, square = 2, sine = 3, cosine = 4;
+Matrix drive(double w) {
+  Matrix W = Matrix::Zero(5, 5);
+  W(linear, one) = 1.0;
+  W(square, linear) = 2.0;
+  W(sine, cosine) = w;
+  W(cosine, sine) = -w;
+  return W;
+}
+Eigen::VectorXd drive_start() {
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(5);
+  w[one] = w[cosine] = 1.0;
+  return w;
+}
+
+/// Bending of one element: v and rotation at both ends.
+Eigen::Matrix4d bending(double ei, double l) {
+  Eigen::Matrix4d k;
+  k << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l,
+      -6 * l, 4 * l * l;
+  return k * (ei / (l * l * l));
+}
+Eigen::Matrix4d inertia(double mass, double l) {
+  Eigen::Matrix4d m;
+  m << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l, -13 * l,
+      -3 * l * l, -22 * l, 4 * l * l;
+  return m * (mass * l / 420.0);
+}
+
+void check_rows(const Result& result, const std::vector<int>& dofs, const Driven& driven, double tolerance) {
+  REQUIRE(result.rows.size() > 5);
+  double most = 0.0, off = 0.0;
+  for (const Result::Row& row : result.rows) {
+    const Eigen::VectorXd expected = driven.at(row.t);
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const double u = row.u[dofs[i]], e = expected[static_cast<Eigen::Index>(i)];
+      most = std::max(most, std::abs(e));
+      off = std::max(off, std::abs(u - e));
+    }
+  }
+  CHECK(off < tolerance * most);
+  CHECK(result.report.outcome.kind == Outcome::Kind::done);
+}
+
+double tolerance_of(const std::string& engine) {
+  return engine == "exact" ? 1e-10 : engine == "ida" ? 1e-8 : 2e-4;
+}
+
+int dof(const Model& model, const std::string& name) {
+  for (std::size_t i = 0; i < model.physical_dofs().size(); ++i)
+    if (model.physical_dofs()[i].displacement == name) return static_cast<int>(i);
+  FAIL("no degree of freedom " << name);
+  return -1;
+}
+
+const std::string head = "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
+
+// A beam over two spans, hinged at B in the second, its supports shaken each in its own way, loaded along the
+// second span and by a moment.
+const std::string spans = head + R"(
+[run]
+t_end = 0.6
+output_dt = 0.05
+[damping]
+alpha = 0.4
+beta = 1e-4
+[sections.s]
+EA = 1e5
+EI = 3e3
+mass_per_length = 0.3
+[nodes]
+A = [0.0, 0.0]
+B = [3.0, 0.0]
+C = [7.0, 0.0]
+[[members]]
+nodes = ["A", "B"]
+section = "s"
+[[members]]
+nodes = ["B", "C"]
+section = "s"
+release = ["B"]
+[[supports]]
+node = "A"
+fix = ["ux", "rz"]
+[[supports]]
+node = "A"
+fix = ["uy"]
+motion = { type = "polynomial", coefficients = [0.0, 0.0, 0.05], start = 0.0 }
+[[supports]]
+node = "C"
+fix = ["uy"]
+motion = { type = "harmonic", omega = 9.0, amplitude = 0.02 }
+[[loads]]
+name = "snow"
+nodes = ["C", "B"]
+direction = [0.0, -1.0]
+distributed = 4.0
+history = { type = "step" }
+[[loads]]
+node = "B"
+moment = 5.0
+history = { type = "step" }
+)";
+
+/// Unknowns: B.uy, B.rz, the rotation of the hinged end, C.rz.
+Driven two_spans() {
+  // All: A.uy A.rz B.uy B.rz hinge C.uy C.rz
+  Matrix K = Matrix::Zero(7, 7), M = K;
+  const std::array<std::array<int, 4>, 2> where{{{0, 1, 2, 3}, {2, 4, 5, 6}}};
+  const std::array<double, 2> lengths{3.0, 4.0};
+  for (std::size_t e = 0; e < 2; ++e)
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        K(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) += bending(3e3, lengths[e])(i, j);
+        M(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) += inertia(0.3, lengths[e])(i, j);
+      }
+  const Matrix C = 0.4 * M + 1e-4 * K;
+  const std::vector<int> free{2, 3, 4, 6};
+  Driven d{M(free, free), C(free, free), K(free, free), Matrix::Zero(4, 5), drive(9.0), drive_start()};
+  const auto column = [&](const Matrix& a, int support) { return Eigen::VectorXd(a(free, support)); };
+  // A: s = 0.05 t^2
+  d.F.col(square) -= 0.05 * column(K, 0);
+  d.F.col(linear) -= 0.10 * column(C, 0);
+  d.F.col(one) -= 0.10 * column(M, 0);
+  // C: s = 0.02 sin 9 t
+  d.F.col(sine) -= 0.02 * column(K, 5) - 0.02 * 81.0 * column(M, 5);
+  d.F.col(cosine) -= 0.02 * 9.0 * column(C, 5);
+  // q L / 2, q L^2 / 12
+  d.F(0, one) -= 4.0 * 4.0 / 2.0;
+  d.F(2, one) -= 4.0 * 16.0 / 12.0;
+  d.F(3, one) += 4.0 * 16.0 / 12.0;
+  d.F(1, one) += 5.0;
+  return d;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/loads");
+
+TEST_CASE("a hinge, a distributed load, a moment and two supports shaken apart") {
+  const Driven expected = two_spans();
+  const Model model = build_model(parse_scene(spans, "test.toml"));
+  const std::vector<int> dofs{dof(model, "B.uy"), dof(model, "B.rz"), dof(model, "B-C.B.rz"), dof(model, "C.rz")};
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    check_rows(compute(spans, engine, {{"run.dt", "1e-4"}}), dofs, expected, tolerance_of(engine));
+  }
+  // All modes kept: the reduced model is the model.
+  check_rows(compute(spans + "[reduction]\ncutoff_omega = 1e6\n", "exact"), dofs, expected, 1e-10);
+}
+
+TEST_CASE("what supports do closes the balance of energy") {
+  for (const std::string& engine : engines) {
+    const Result result = compute(spans, engine);
+    CHECK(result.report.audit.energy.value < 1e-8 * result.report.audit.energy_scale);
+    CHECK(result.report.audit.work_of_loads > 0.01);
+  }
+}
+
+TEST_CASE("heat: a clamped beam at any angle pushes its end out, and rings when it comes suddenly") {
+  for (const double angle : {0.0, 0.7, 2.5}) {
+    const std::string structure = fmt::format(R"(
+[sections.s]
+EA = 2e5
+EI = 2e3
+mass_per_length = 0.0
+[nodes]
+A = [0.0, 0.0]
+B = [{:.17g}, {:.17g}]
+[[masses]]
+node = "B"
+mass = 0.8
+inertia = 0.1
+[[supports]]
+node = "A"
+fix = ["ux", "uy", "rz"]
+[[members]]
+nodes = ["A", "B"]
+section = "s"
+elements = 3
+thermal_expansion = 1.2e-5
+)",
+                                              5.0 * std::cos(angle), 5.0 * std::sin(angle));
+    const double out = 1.2e-5 * 40.0 * 5.0, omega = std::sqrt(2e5 / 5.0 / 0.8);
+    const auto along = [&](const Model& model, const Vector& u) {
+      return u[dof(model, "B.ux")] * std::cos(angle) + u[dof(model, "B.uy")] * std::sin(angle);
+    };
+    const std::string rest = head + "[run]\nt_end = 0.2\ninitial = \"static\"\n" + structure +
+                             "temperature = 30.0\ninitial_strain = 1.2e-4\n";
+    const Model at_rest = build_model(parse_scene(rest, "test.toml"));
+    CHECK(along(at_rest, at_rest.u0) == doctest::Approx(out).epsilon(1e-11));
+    const std::string sudden = head + "[run]\nt_end = 0.2\noutput_dt = 0.01\n" + structure +
+                               "temperature = { type = \"step\", amplitude = 40.0 }\n";
+    const Model model = build_model(parse_scene(sudden, "test.toml"));
+    for (const std::string& engine : locating_engines) {
+      CAPTURE(engine);
+      const Result result = compute(sudden, engine, {{"run.dt", "2e-4"}});
+      for (const Result::Row& row : result.rows)
+        CHECK(std::abs(along(model, row.u) - out * (1.0 - std::cos(omega * row.t))) <
+              (engine == "newmark" ? 2e-2 : tolerance_of(engine)) * out);
+    }
+  }
+}
+
+TEST_CASE("a bar takes heat and distributed loads, along and across") {
+  const std::string text = head + R"(
+[run]
+t_end = 1.0
+initial = "static"
+[sections.s]
+EA = 1e4
+mass_per_length = 0.0
+[nodes]
+A = [0.0, 0.0]
+B = [3.0, 4.0]
+[[masses]]
+node = "B"
+mass = 1.0
+[[springs]]
+node = "B"
+direction = [1.0, 0.0]
+stiffness = 700.0
+[[supports]]
+node = "A"
+fix = ["ux", "uy"]
+[[supports]]
+node = "B"
+fix = ["uy"]
+[[members]]
+nodes = ["A", "B"]
+section = "s"
+type = "bar"
+thermal_expansion = 1e-5
+temperature = 50.0
+[[loads]]
+nodes = ["A", "B"]
+axes = "member"
+direction = [0.6, 0.8]
+distributed = 2.0
+)";
+  const Model model = build_model(parse_scene(text, "test.toml"));
+  // along (0.6, 0.8), to the left (-0.8, 0.6): q = 2 (0.6 e + 0.8 n)
+  const double qx = 2.0 * (0.6 * 0.6 - 0.8 * 0.8), k = 1e4 / 5.0 * 0.36 + 700.0;
+  const double expected = (0.5 * 5.0 * qx + 0.6 * 1e4 * 5e-4) / k;
+  CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(expected).epsilon(1e-12));
+}
+
+TEST_CASE("springs of rotations, dampers on a support that moves") {
+  const std::string text = head + R"(
+[run]
+t_end = 2.0
+output_dt = 0.1
+[nodes]
+A = [0.0, 0.0]
+B = [1.0, 0.0]
+[[masses]]
+node = "B"
+mass = 0.5
+inertia = 0.2
+[[springs]]
+node = "B"
+against = "A"
+rotation_stiffness = 7.0
+rotation_damping = 0.3
+[[springs]]
+node = "B"
+against = "A"
+direction = [1.0, 0.0]
+stiffness = 40.0
+damping = 0.6
+[[supports]]
+node = "B"
+fix = ["uy"]
+[[supports]]
+node = "A"
+fix = ["rz"]
+motion = { type = "harmonic", omega = 3.0, amplitude = 0.1 }
+[[supports]]
+node = "A"
+fix = ["ux"]
+acceleration = { type = "polynomial", coefficients = [0.4], start = 0.0 }
+[[loads]]
+node = "B"
+moment = 0.25
+history = { type = "step" }
+)";
+  Driven turning{Matrix::Constant(1, 1, 0.2), Matrix::Constant(1, 1, 0.3), Matrix::Constant(1, 1, 7.0),
+                 Matrix::Zero(1, 5), drive(3.0), drive_start()};
+  turning.F(0, sine) = 7.0 * 0.1;
+  turning.F(0, cosine) = 0.3 * 0.1 * 3.0;
+  turning.F(0, one) = 0.25;
+  Driven moving{Matrix::Constant(1, 1, 0.5), Matrix::Constant(1, 1, 0.6), Matrix::Constant(1, 1, 40.0),
+                Matrix::Zero(1, 5), drive(3.0), drive_start()};
+  moving.F(0, square) = 40.0 * 0.2;
+  moving.F(0, linear) = 0.6 * 0.4;
+  const Model model = build_model(parse_scene(text, "test.toml"));
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    const Result result = compute(text, engine);
+    check_rows(result, {dof(model, "B.rz")}, turning, tolerance_of(engine));
+    check_rows(result, {dof(model, "B.ux")}, moving, tolerance_of(engine));
+  }
+}
+
+TEST_CASE("the base moves along both directions at once, one of them in g") {
+  const std::string text = head + R"(
+[run]
+t_end = 1.0
+output_dt = 0.1
+[nodes]
+A = [0.0, 0.0]
+[[masses]]
+node = "A"
+mass = 2.0
+[[springs]]
+node = "A"
+direction = [1.0, 0.0]
+stiffness = 50.0
+[[springs]]
+node = "A"
+direction = [0.0, 1.0]
+stiffness = 90.0
+[[base_motion]]
+direction = [1.0, 0.0]
+acceleration = { type = "step", amplitude = 0.2, unit = "g" }
+[[base_motion]]
+direction = [0.0, 1.0]
+acceleration = { type = "step", amplitude = 0.7 }
+)";
+  for (const std::string& engine : engines) {
+    const Result result = compute(text, engine);
+    for (const Result::Row& row : result.rows) {
+      CHECK(row.u[0] == doctest::Approx(-0.2 * 9.80665 / 25.0 * (1.0 - std::cos(5.0 * row.t))).epsilon(1e-9));
+      CHECK(row.u[1] ==
+            doctest::Approx(-0.7 / 45.0 * (1.0 - std::cos(std::sqrt(45.0) * row.t))).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("base motion is the motion of all supports, seen from them") {
+  // The same frame, its two feet moved by s(t), against -M r s'' relative to them.
+  const std::string frame = head + R"(
+[run]
+t_end = 0.5
+output_dt = 0.05
+[sections.s]
+EA = 1e5
+EI = 3e3
+mass_per_length = 0.3
+[nodes]
+A = [0.0, 0.0]
+B = [0.0, 3.0]
+C = [4.0, 3.0]
+D = [4.0, 0.0]
+[[members]]
+nodes = ["A", "B", "C", "D"]
+section = "s"
+elements = 2
+[[supports]]
+nodes = ["A", "D"]
+fix = ["uy", "rz"]
+)";
+  const std::string course = "{ type = \"polynomial\", coefficients = [0.5, 2.0], start = 0.0 }\n";
+  const std::string moved = frame + "[[supports]]\nnodes = [\"A\", \"D\"]\nfix = [\"ux\"]\nacceleration = " + course;
+  const std::string shaken = frame + "[[supports]]\nnodes = [\"A\", \"D\"]\nfix = [\"ux\"]\n" +
+                             "[base_motion]\ndirection = [1.0, 0.0]\nacceleration = " + course;
+  const Result a = compute(moved, "exact"), b = compute(shaken, "exact");
+  const Model model = build_model(parse_scene(moved, "test.toml"));
+  REQUIRE(a.rows.size() == b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    const double t = a.rows[i].t, s = 0.25 * t * t + t * t * t / 3.0;
+    for (Eigen::Index j = 0; j < a.rows[i].u.size(); ++j) {
+      const std::string& name = model.dofs[static_cast<std::size_t>(j)].displacement;
+      const double ground = name.ends_with(".ux") ? s : 0.0;
+      CHECK(std::abs(a.rows[i].u[j] - ground - b.rows[i].u[j]) < 1e-11);
+    }
+  }
+}
+
+TEST_CASE("a support that jumps or has a kink is refused where mass or dampers would answer with an impulse") {
+  const auto with = [&](const std::string& motion) {
+    std::string text = spans;
+    const std::string old = "{ type = \"harmonic\", omega = 9.0, amplitude = 0.02 }";
+    text.replace(text.find(old), old.size(), motion);
+    return text;
+  };
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      (void)build_model(parse_scene(text, "test.toml"));
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  CHECK(message(with("{ type = \"step\", start = 0.1 }")).find("jumps at time 0.1") != std::string::npos);
+  CHECK(message(with("{ type = \"table\", times = [0.0, 0.1, 0.2], values = [0.0, 1.0, 1.0], hold = true }"))
+            .find("velocity jumps at time 0.1") != std::string::npos);
+  CHECK(message(with("{ type = \"table\", times = [0.0, 0.1, 0.2], values = [0.0, 1.0, 1.0], hold = true, "
+                     "interpolation = \"steffen\" }")) == "no error");
+}
+
+TEST_CASE("a static start takes supports where they are") {
+  std::string text = spans;
+  const std::string old = "{ type = \"harmonic\", omega = 9.0, amplitude = 0.02 }";
+  text.replace(text.find(old), old.size(), "-0.03");
+  text.replace(text.find("t_end"), 5, "initial = \"static\"\nt_end");
+  const Model model = build_model(parse_scene(text, "test.toml"));
+  // a cantilever with a hinged beam behind it: only the beam follows, as a straight line
+  CHECK(model.u0[dof(model, "B.uy")] == doctest::Approx(0.0).epsilon(1e-12));
+  CHECK(model.u0[dof(model, "C.rz")] == doctest::Approx(-0.03 / 4.0).epsilon(1e-10));
+  CHECK(model.u0[dof(model, "B-C.B.rz")] == doctest::Approx(-0.03 / 4.0).epsilon(1e-10));
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::loads

@@ -43,10 +43,10 @@ struct Load {
   std::string name;  ///< "gravity", "load 1", ...
   Combination direction;
   History history;  ///< amplitude included
-  /// Counts for initial = "static": gravity, constants that hold since ever, supports where they are at t = 0.
+  /// Counts for initial = "static": gravity, constants that hold since ever, where supports are at t = 0.
   bool is_static = false;
   LoadKind kind = LoadKind::force;
-  /// direction . u is a length times `of_direction`, the history has `of_history`: a force together, at a point.
+  /// direction . u is a length times `of_direction`, the history has `of_history`: together a force.
   Unit of_direction{}, of_history{1, 0, 0};
 };
 

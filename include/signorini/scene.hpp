@@ -184,8 +184,8 @@ struct Member {
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
   SourcePlace place;
-  std::vector<std::string> release = {};  ///< first or last node, or both: hinged there
-  double thermal_expansion = 0.0;         ///< strain per temperature
+  std::vector<std::string> release = {};             ///< first or last node, or both: hinged there
+  double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
 };

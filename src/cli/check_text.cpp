@@ -78,10 +78,9 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
                above(s.T, model.scales.force),
                c.has_friction() ? number(static_friction(c) * std::abs(s.N)) : ""});
   }
-  return fmt::format("contacts at t = 0, {}:\n",
-                     model.statics.frictional ? "after a start with friction"
-                     : model.static_start     ? "in static equilibrium"
-                                              : "in the given initial state") +
+  return fmt::format("contacts at t = 0, {}:\n", model.statics.frictional ? "after a start with friction"
+                                                 : model.static_start     ? "in static equilibrium"
+                                                                          : "in the given initial state") +
          table.str() + more(report.contacts.size()) + "\n";
 }
 

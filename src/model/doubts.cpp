@@ -49,7 +49,8 @@ class Doubts {
  private:
   void idle_loads() {
     for (const Load& load : model_.loads) {
-      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support) continue;
+      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support)
+        continue;
       const auto& terms = load.direction.terms;
       const bool idle =
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });

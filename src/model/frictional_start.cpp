@@ -30,7 +30,8 @@ Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::v
       if (!is_called(load, name)) continue;
       any = true;
       if (++taken[i] > 1)
-        throw SceneError(spec.place, key, fmt::format("\"{}\" stands in two stages, expected one", load.name));
+        throw SceneError(spec.place, key,
+                         fmt::format("\"{}\" stands in two stages, expected one", load.name));
       // Of a support only where it is counts, not how fast it got there.
       if (load.kind != LoadKind::support || load.is_static)
         load.direction.add_to(stage.load, load.history.value(0.0));
@@ -38,7 +39,8 @@ Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::v
     if (any) continue;
     std::vector<std::string> names{"temperature", "supports"};
     for (const Load& load : model.loads) names.push_back(load.name);
-    throw SceneError(spec.place, key, fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
+    throw SceneError(spec.place, key,
+                     fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
   }
   return stage;
 }
@@ -70,8 +72,8 @@ void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, "contacts." + model.contacts[k].name + ".initial_shear",
                        "has no meaning beside initial = \"frictional\", which finds it");
-  FrictionalEquilibrium found = frictional_equilibrium(model.stiffness, model.contacts, stages_of(scene, model),
-                                                       map, scene.initial.place);
+  FrictionalEquilibrium found = frictional_equilibrium(model.stiffness, model.contacts,
+                                                       stages_of(scene, model), map, scene.initial.place);
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
@@ -80,7 +82,8 @@ void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;
     // The run computes N anew: the shear stays within its limit to the last digit.
-    const double N = c.has_spring() ? c.normal_stiffness * std::min(0.0, c.gap_at(model.u0)) : -model.statics.reactions[k];
+    const double N =
+        c.has_spring() ? c.normal_stiffness * std::min(0.0, c.gap_at(model.u0)) : -model.statics.reactions[k];
     const double limit = static_friction(c) * std::abs(N);
     c.initial_shear = std::clamp(found.shears[k], -limit, limit);
   }

@@ -68,7 +68,8 @@ class TableReader {
       fail(fmt::format("found {}, expected two or more",
                        count_of(table_.times.size(), values_only ? "value" : "row")));
     if (layout_.peer && table_.times.size() != points_)
-      fail(fmt::format("found {}, expected {} as NPTS says", count_of(table_.times.size(), "value"), points_));
+      fail(
+          fmt::format("found {}, expected {} as NPTS says", count_of(table_.times.size(), "value"), points_));
     return std::move(table_);
   }
 
@@ -93,8 +94,7 @@ class TableReader {
 
   double number(const std::string& word, const char* what) const {
     const auto value = parse_number(word);
-    if (!value || !std::isfinite(*value))
-      fail(fmt::format("found \"{}\", expected {}", excerpt(word), what));
+    if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected {}", excerpt(word), what));
     return *value;
   }
 

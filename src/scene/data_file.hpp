@@ -4,8 +4,8 @@
 //   0.0,1.5        two numbers a line, separated by a comma, a semicolon or blanks
 //   # ...          comments and blank lines are skipped
 //
-// Times ascend; a time that stands twice is a jump. With a column the file may have more than two. With a time
-// step all numbers are values, however many stand on a line. A file of PEER (.AT2) says its own step:
+// Times ascend; a time that stands twice is a jump. With a column the file may have more than two. With a
+// time step all numbers are values, however many stand on a line. A file of PEER (.AT2) says its own step:
 //
 //   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, the third with its unit
 //   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT

@@ -10,9 +10,11 @@
 //   harmonic     sin(omega (t - start) + phase)
 //   polynomial   sum_j c_j (t - start)^j
 //   table        linear between (times, values), or Steffen's monotone cubic; a repeated time is a jump;
-//                zero before the first and, without `hold`, from the last time on (start and end are not used)
+//                zero before the first and, without `hold`, from the last time on (start and end are not
+//                used)
 //
-// A period begins the shape anew every so long from its start (a table's first time); a shift moves all of it.
+// A period begins the shape anew every so long from its start (a table's first time); a shift moves all of
+// it.
 //
 // Steffen: Astron. Astrophys. 239 (1990) 443-450, as implemented by GSL.
 #pragma once

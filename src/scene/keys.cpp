@@ -253,6 +253,16 @@ std::vector<std::string> choices_of(const Key& key) { return words_of(key, false
 
 std::vector<std::string> later_choices_of(const Key& key) { return words_of(key, true); }
 
+namespace {
+
+std::string one_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "\"" : ", \"") + word + '"';
+  return "one of " + list;
+}
+
+}  // namespace
+
 std::string describe_type(const Key& key) {
   switch (key.type) {
     case number:
@@ -271,11 +281,8 @@ std::string describe_type(const Key& key) {
       return "a string";
     case name:
       return "a name";
-    case choice: {
-      std::string list;
-      for (const std::string& word : choices_of(key)) list += (list.empty() ? "\"" : ", \"") + word + '"';
-      return "one of " + list;
-    }
+    case choice:
+      return one_of(choices_of(key));
     case vector:
       return "an array of two numbers [x, y]";
     case numbers:

@@ -223,8 +223,7 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record) {
     const std::string name = read_contact_name(table, "contact", ++number);
     const bool one = !table.has("nodes");
     if (one && names.index(name))
-      table.fail("name",
-                 fmt::format("found \"{}\" twice, expected each contact to have its own name", name));
+      table.fail("name", fmt::format("found \"{}\" twice, expected each contact to have its own name", name));
     const std::vector<std::string> nodes =
         space.matrices ? std::vector<std::string>{""} : read_one_or_more_nodes(table, space);
     const std::string law = table.choice("law");

@@ -149,7 +149,7 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   if (!period) return;
   const bool tabulated = spec.type == HistoryType::table;
   if (!tabulated && !spec.start_given) table.fail("period", "needs a start, from which it counts");
-  constexpr double most_pieces = 1e6;
+  constexpr double most_pieces = 1e5;
   const double first = (tabulated ? spec.times.front() : spec.start) + spec.shift;
   const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
   const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
@@ -172,12 +172,14 @@ enum class Role { load, alone, acceleration };
 
 void read_unit(Table& table, HistorySpec& spec, bool in_g, Role role, const Units& units) {
   if (table.has("unit")) {
-    if (role != Role::acceleration) table.fail("unit", "has no meaning here: only accelerations are given in g");
+    if (role != Role::acceleration)
+      table.fail("unit", "has no meaning here: only accelerations are given in g");
     static_cast<void>(table.choice("unit"));
   } else if (!in_g) {
     return;
   } else if (role != Role::acceleration) {
-    table.fail("file", "found a file of accelerations in units of g, expected one of values in the scene's units");
+    table.fail("file",
+               "found a file of accelerations in units of g, expected one of values in the scene's units");
   } else {
     table.record("unit", toml_string("g"));
   }

@@ -3,8 +3,8 @@
 
 #include "base/number.hpp"
 #include "scene/data_file.hpp"
-#include "scene/saved_state.hpp"
 #include "scene/readers.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 
@@ -58,7 +58,8 @@ void read_stages(Table& run, InitialSpec& initial) {
     stage.place = table.place();
     stage.name = table.text("name");
     if (!names.add(stage.name))
-      table.fail("name", fmt::format("found \"{}\" twice, expected each stage to have its own name", stage.name));
+      table.fail("name",
+                 fmt::format("found \"{}\" twice, expected each stage to have its own name", stage.name));
     table.require("loads", "");
     stage.loads = table.texts("loads");
     stage.steps = table.integer("steps");

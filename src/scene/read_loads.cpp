@@ -56,11 +56,13 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
     load.place = table.place();
     load.name = table.optional_text("name").value_or("");
     if (!load.name.empty() && !names.add(load.name))
-      table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", load.name));
+      table.fail("name",
+                 fmt::format("found \"{}\" twice, expected each load to have its own name", load.name));
     const bool moment = table.has("moment"), distributed = table.has("distributed");
     for (const char* other : {"amplitude", "distributed"})
       if (table.has(other) && (moment || (distributed && table.has("amplitude"))))
-        table.fail(other, fmt::format("stands beside {}, expected one of the two", moment ? "moment" : "distributed"));
+        table.fail(other, fmt::format("stands beside {}, expected one of the two",
+                                      moment ? "moment" : "distributed"));
     if (space.matrices || !(moment || distributed))
       read_force(table, load, space);
     else if (moment)

@@ -54,10 +54,11 @@ void add_range(const std::string& text, const Table& table, std::string_view key
   const std::size_t dots = text.find(".."), colon = text.find(':', dots);
   const auto [first, from] = numbered(text.substr(0, dots));
   const auto [last, to] = numbered(text.substr(dots + 2, colon - dots - 2));
-  const auto step = colon == std::string::npos ? std::optional<long long>(1)
-                                               : parse_integer(text.substr(colon + 1));
+  const auto step =
+      colon == std::string::npos ? std::optional<long long>(1) : parse_integer(text.substr(colon + 1));
   if (first != last || from < 0 || to < from || !step || *step < 1)
-    table.fail(key, fmt::format("found \"{}\", expected a row of nodes like \"P0..P9\" or \"P0..P9:3\"", text));
+    table.fail(key,
+               fmt::format("found \"{}\", expected a row of nodes like \"P0..P9\" or \"P0..P9:3\"", text));
   for (long long i = from; i <= to; i += *step) {
     names.push_back(fmt::format("{}{}", first, i));
     check_known(names.back(), space.names, "node", table.place(key), table.path(key));
@@ -68,7 +69,9 @@ void add_range(const std::string& text, const Table& table, std::string_view key
 
 std::vector<std::string> read_node_names(Table& table, std::string_view key, const Space& space) {
   std::vector<std::string> names;
+  constexpr std::size_t most = 1'000'000;
   for (const std::string& text : table.texts(key)) {
+    if (names.size() > most) table.fail(key, fmt::format("found more than {} nodes", most));
     if (text.find("..") != std::string::npos) {
       add_range(text, table, key, space, names);
     } else {

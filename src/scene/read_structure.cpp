@@ -99,8 +99,8 @@ void read_lines(Table& top, Scene& scene, RecordedScene& record) {
     const std::string name = table.text("name");
     const auto from = table.vector("from"), to = table.vector("to");
     const int pieces = table.integer("pieces");
-    if (pieces > most_elements)
-      table.fail("pieces", fmt::format("found {}, expected at most {}", pieces, most_elements));
+    if (pieces > most_elements - static_cast<int>(scene.nodes.size()))
+      table.fail("pieces", fmt::format("found {}, expected at most {} nodes in all", pieces, most_elements));
     for (int i = 0; i <= pieces; ++i) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);

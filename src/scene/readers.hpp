@@ -55,8 +55,8 @@ void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
                                                        const Space& space);
 /// `node`, or all of `nodes`; one of the two is required.
 [[nodiscard]] std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space);
-/// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name, or the
-/// name of a file with one column.
+/// With [nodes] a unit vector (the node's name is left empty), with [matrices] degrees of freedom by name, or
+/// the name of a file with one column.
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
 /// The column of numbers in the Matrix Market file that the key names, `size` of them.
 [[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space);

@@ -59,7 +59,8 @@ SavedState read_saved_state(std::istream& in, const std::string& file, const std
     std::vector<double> values;
     for (const std::string& cell : cells) {
       const auto value = parse_number(cell);
-      if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected a number", excerpt(cell)));
+      if (!value || !std::isfinite(*value))
+        fail(fmt::format("found \"{}\", expected a number", excerpt(cell)));
       values.push_back(*value);
     }
     times += (times.empty() ? "" : ", ") + shortest(values[0]);
@@ -74,7 +75,8 @@ SavedState read_saved_state(std::istream& in, const std::string& file, const std
     }
   }
   if (state.motions.empty())
-    fail(t ? fmt::format("found states at {}, expected one at {}", times.empty() ? "no time" : times, shortest(*t))
+    fail(t ? fmt::format("found states at {}, expected one at {}", times.empty() ? "no time" : times,
+                         shortest(*t))
            : "found no state, expected one at the end of the run");
   return state;
 }

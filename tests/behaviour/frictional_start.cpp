@@ -13,7 +13,8 @@
 namespace signorini::tests::starts {
 namespace {
 
-const std::string head = "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
+const std::string head =
+    "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
 
 Model built(const std::string& text, const std::vector<Override>& changes = {}) {
   return build_model(parse_scene(text, "test.toml", changes));
@@ -75,7 +76,8 @@ friction = 0.5
 }
 
 std::string push(const std::string& name, double force) {
-  return fmt::format("[[loads]]\nname = \"{}\"\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = {}\n", name, force);
+  return fmt::format("[[loads]]\nname = \"{}\"\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = {}\n", name,
+                     force);
 }
 
 const std::string portal = SIGNORINI_TEST_DATA "/scenes/starts/portal.toml";
@@ -85,35 +87,36 @@ const std::string portal = SIGNORINI_TEST_DATA "/scenes/starts/portal.toml";
 TEST_SUITE_BEGIN("behaviour/frictional_start");
 
 TEST_CASE("two sliders in series: pushed until the first slips, and back until it slips back") {
-  // a stuck: u_a = 11 u_b, T_a = 1.1 P, so it slips at P = 0.5 / 1.1; then 10 (a - b) = P - 0.5 = 100 b
+  // a stuck: u_a = 11 u_b, T_a = 11/12 P, so it slips at P = 6/11; then 10 (a - b) = P - 0.5 = 100 b
   {
     const Model model = built(two_sliders("", push("push", 1.2)));
     REQUIRE(model.statics.events.size() == 1);
-    CHECK(model.statics.events[0].part == doctest::Approx(0.5 / 1.1 / 1.2).epsilon(1e-13));
+    CHECK(model.statics.events[0].part == doctest::Approx(6.0 / 11.0 / 1.2).epsilon(1e-13));
     CHECK(model.statics.events[0].to == State::slip_plus);
     CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.077).epsilon(1e-13));
     CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.007).epsilon(1e-13));
     CHECK(model.contacts[0].initial_shear == doctest::Approx(0.5).epsilon(1e-14));
     CHECK(model.contacts[1].initial_shear == doctest::Approx(0.7).epsilon(1e-13));
   }
-  // Taken back by 1.5: T_a falls by 1.1 of what is taken and reaches -0.5 at 1 / 1.1 of it, then slips back.
-  const Model model = built(two_sliders("[[run.stages]]\nname = \"forth\"\nloads = [\"push\"]\n"
-                                        "[[run.stages]]\nname = \"back\"\nloads = [\"pull\"]\nsteps = 2\n",
-                                        push("push", 1.2) + push("pull", -1.5)));
+  // Taken back by 1.5: T_a falls by 11/12 of what is taken and reaches -0.5 at 12/11, then slips back.
+  const Model model =
+      built(two_sliders("[[run.stages]]\nname = \"forth\"\nloads = [\"push\"]\n"
+                        "[[run.stages]]\nname = \"back\"\nloads = [\"pull\"]\nsteps = 2\n",
+                        push("push", 1.2) + push("pull", -1.5)));
   const auto& events = model.statics.events;
   REQUIRE(events.size() == 3);
   CHECK(events[1].stage == "back");
   CHECK(events[1].part == 0.0);  // it sticks at once
   CHECK(events[1].to == State::stick);
-  CHECK(events[2].part == doctest::Approx(1.0 / 1.1 / 1.5).epsilon(1e-12));
+  CHECK(events[2].part == doctest::Approx(12.0 / 11.0 / 1.5).epsilon(1e-12));
   CHECK(events[2].to == State::slip_minus);
   // P = -0.3: 10 (a - b) = P + 0.5 = 100 b
   CHECK(model.u0[dof(model, "B.ux")] == doctest::Approx(0.002).epsilon(1e-11));
   CHECK(model.u0[dof(model, "A.ux")] == doctest::Approx(0.022).epsilon(1e-11));
   REQUIRE(model.statics.stages.size() == 3);
   CHECK(model.statics.stages[1].part == 0.5);
-  // half back: P = 0.45, stuck since P = 1.2, T_a = 0.5 - 1.1 * 0.75
-  CHECK(model.statics.stages[1].T[0] == doctest::Approx(0.5 - 1.1 * 0.75).epsilon(1e-11));
+  // half back: P = 0.45, stuck since P = 1.2, T_a = 0.5 - 11/12 0.75
+  CHECK(model.statics.stages[1].T[0] == doctest::Approx(0.5 - 11.0 / 12.0 * 0.75).epsilon(1e-11));
 }
 
 TEST_CASE("nothing moves in the run that follows a slow start") {
@@ -142,13 +145,13 @@ TEST_CASE("the portal's feet carry 12.27 kN of thrust, two thirds of their limit
   Vector weight = Vector::Zero(model.size());
   for (const Load& load : model.loads)
     if (load.name == "gravity") load.direction.add_to(weight, 1.0);
-  const Vector u = SymmetricSolver(with_springs(model.stiffness, contact_springs(model.contacts))).solve(weight);
+  const Vector u =
+      SymmetricSolver(with_springs(model.stiffness, contact_springs(model.contacts))).solve(weight);
   CHECK((u - model.u0).cwiseAbs().maxCoeff() < 1e-12 * u.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("less friction: the portal's feet slip from the start, to their limit") {
-  const Model model =
-      build_model(read_scene(portal, {{"contacts.*.friction", "0.1"}, {"run.t_end", "0.1"}}));
+  const Model model = build_model(read_scene(portal, {{"contacts.*.friction", "0.1"}, {"run.t_end", "0.1"}}));
   for (std::size_t k = 0; k < 2; ++k)
     CHECK(std::abs(model.contacts[k].initial_shear) ==
           doctest::Approx(0.1 * model.statics.reactions[k]).epsilon(1e-12));
@@ -239,7 +242,8 @@ node = "A"
 law = "compliant"
 normal = [-1.0, 0.0]
 normal_stiffness = 20.0
-)" + contact + push("push", 9.0);
+)" + contact +
+           push("push", 9.0);
   };
   const Model gap = built(text("gap = 0.1\n"));
   REQUIRE(gap.statics.events.size() == 1);
@@ -267,14 +271,16 @@ TEST_CASE("what no slow start can reach is refused by name") {
   CHECK(refusal(falls).find("falls from static to kinetic") != std::string::npos);
   CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"psuh\"]\n", push("push", 1.0)))
             .find("did you mean \"push\"") != std::string::npos);
-  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n", push("push", 1.0)))
-            .find("two stages") != std::string::npos);
+  CHECK(
+      refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n", push("push", 1.0)))
+          .find("two stages") != std::string::npos);
   CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
             .find("stands in no stage") != std::string::npos);
 }
 
 TEST_CASE("a run in two halves has the events of the whole") {
-  const std::string whole = head + R"(
+  const std::string whole =
+      head + R"(
 [run]
 t_end = 4.0
 output_dt = 0.1
@@ -283,10 +289,10 @@ engine = "exact"
 rtol = 1e-12
 initial = "frictional"
 )" + two_sliders("", "").substr(two_sliders("", "").find("[nodes]")) +
-                            "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 1.5\nhistory = { type = "
-                            "\"harmonic\", omega = 5.0, end = 9.0 }\n"
-                            "[[stops]]\nname = \"guide\"\nnode = \"B\"\nlaw = \"compliant\"\ndirection = [1.0, 0.0]\n"
-                            "gap = 0.004\nnormal_stiffness = 500.0\n";
+      "[[loads]]\nnode = \"A\"\ndirection = [1.0, 0.0]\namplitude = 1.5\nhistory = { type = "
+      "\"harmonic\", omega = 5.0, end = 9.0 }\n"
+      "[[stops]]\nname = \"guide\"\nnode = \"B\"\nlaw = \"compliant\"\ndirection = [1.0, 0.0]\n"
+      "gap = 0.004\nnormal_stiffness = 500.0\n";
   const auto folder = std::filesystem::temp_directory_path() / "signorini-halves";
   std::filesystem::remove_all(folder);
   const Scene scene = parse_scene(whole, "whole.toml");

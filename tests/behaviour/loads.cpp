@@ -16,8 +16,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 Result compute(const std::string& text, const std::string& engine, const std::vector<Override>& more = {}) {
-  std::vector<Override> changes{{"run.engine", engine}, {"run.rtol", "1e-12"}, {"run.dt", "1e-3"},
-                                {"run.certify", "false"}};
+  std::vector<Override> changes{
+      {"run.engine", engine}, {"run.rtol", "1e-12"}, {"run.dt", "1e-3"}, {"run.certify", "false"}};
   changes.insert(changes.end(), more.begin(), more.end());
   const Scene scene = parse_scene(text, "test.toml", changes);
   return simulate(build_model(scene), scene.run);
@@ -111,7 +111,8 @@ int dof(const Model& model, const std::string& name) {
   return -1;
 }
 
-const std::string head = "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
+const std::string head =
+    "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\n";
 
 // A beam over two spans, hinged at B in the second, its supports shaken each in its own way, loaded along the
 // second span and by a moment.
@@ -169,8 +170,10 @@ Driven two_spans() {
   for (std::size_t e = 0; e < 2; ++e)
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
-        K(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) += bending(3e3, lengths[e])(i, j);
-        M(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) += inertia(0.3, lengths[e])(i, j);
+        K(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) +=
+            bending(3e3, lengths[e])(i, j);
+        M(where[e][static_cast<std::size_t>(i)], where[e][static_cast<std::size_t>(j)]) +=
+            inertia(0.3, lengths[e])(i, j);
       }
   const Matrix C = 0.4 * M + 1e-4 * K;
   const std::vector<int> free{2, 3, 4, 6};
@@ -198,7 +201,8 @@ TEST_SUITE_BEGIN("behaviour/loads");
 TEST_CASE("a hinge, a distributed load, a moment and two supports shaken apart") {
   const Driven expected = two_spans();
   const Model model = build_model(parse_scene(spans, "test.toml"));
-  const std::vector<int> dofs{dof(model, "B.uy"), dof(model, "B.rz"), dof(model, "B-C.B.rz"), dof(model, "C.rz")};
+  const std::vector<int> dofs{dof(model, "B.uy"), dof(model, "B.rz"), dof(model, "B-C.B.rz"),
+                              dof(model, "C.rz")};
   for (const std::string& engine : locating_engines) {
     CAPTURE(engine);
     check_rows(compute(spans, engine, {{"run.dt", "1e-4"}}), dofs, expected, tolerance_of(engine));
@@ -342,13 +346,21 @@ node = "B"
 moment = 0.25
 history = { type = "step" }
 )";
-  Driven turning{Matrix::Constant(1, 1, 0.2), Matrix::Constant(1, 1, 0.3), Matrix::Constant(1, 1, 7.0),
-                 Matrix::Zero(1, 5), drive(3.0), drive_start()};
+  Driven turning{Matrix::Constant(1, 1, 0.2),
+                 Matrix::Constant(1, 1, 0.3),
+                 Matrix::Constant(1, 1, 7.0),
+                 Matrix::Zero(1, 5),
+                 drive(3.0),
+                 drive_start()};
   turning.F(0, sine) = 7.0 * 0.1;
   turning.F(0, cosine) = 0.3 * 0.1 * 3.0;
   turning.F(0, one) = 0.25;
-  Driven moving{Matrix::Constant(1, 1, 0.5), Matrix::Constant(1, 1, 0.6), Matrix::Constant(1, 1, 40.0),
-                Matrix::Zero(1, 5), drive(3.0), drive_start()};
+  Driven moving{Matrix::Constant(1, 1, 0.5),
+                Matrix::Constant(1, 1, 0.6),
+                Matrix::Constant(1, 1, 40.0),
+                Matrix::Zero(1, 5),
+                drive(3.0),
+                drive_start()};
   moving.F(0, square) = 40.0 * 0.2;
   moving.F(0, linear) = 0.6 * 0.4;
   const Model model = build_model(parse_scene(text, "test.toml"));
@@ -419,7 +431,8 @@ nodes = ["A", "D"]
 fix = ["uy", "rz"]
 )";
   const std::string course = "{ type = \"polynomial\", coefficients = [0.5, 2.0], start = 0.0 }\n";
-  const std::string moved = frame + "[[supports]]\nnodes = [\"A\", \"D\"]\nfix = [\"ux\"]\nacceleration = " + course;
+  const std::string moved =
+      frame + "[[supports]]\nnodes = [\"A\", \"D\"]\nfix = [\"ux\"]\nacceleration = " + course;
   const std::string shaken = frame + "[[supports]]\nnodes = [\"A\", \"D\"]\nfix = [\"ux\"]\n" +
                              "[base_motion]\ndirection = [1.0, 0.0]\nacceleration = " + course;
   const Result a = compute(moved, "exact"), b = compute(shaken, "exact");
@@ -435,7 +448,8 @@ fix = ["uy", "rz"]
   }
 }
 
-TEST_CASE("a support that jumps or has a kink is refused where mass or dampers would answer with an impulse") {
+TEST_CASE(
+    "a support that jumps or has a kink is refused where mass or dampers would answer with an impulse") {
   const auto with = [&](const std::string& motion) {
     std::string text = spans;
     const std::string old = "{ type = \"harmonic\", omega = 9.0, amplitude = 0.02 }";

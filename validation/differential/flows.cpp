@@ -56,7 +56,7 @@ std::optional<Scene> for_both_flows(Scene scene) {
   }
   for (Spring& spring : scene.springs) spring.damping = 0.0;
   for (LoadSpec& load : scene.loads) make_still(load.history);
-  if (scene.base_motion) make_still(scene.base_motion->acceleration);
+  for (BaseMotionSpec& motion : scene.base_motion) make_still(motion.acceleration);
   double stiffness = 1.0;
   try {
     for (const Spring& spring : scene.springs) stiffness = std::max(stiffness, spring.stiffness);

@@ -20,8 +20,8 @@ struct Builder {
   std::vector<Vector> base;  // one a motion
   std::vector<SupportColumns> moving;
 
-  /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a support
-  /// adds to its column.
+  /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a
+  /// support adds to its column.
   template <std::size_t n, class Matrix>
   void add(Triplets& target, Column column, const Matrix& a, const std::array<int, n>& numbers) {
     for (std::size_t i = 0; i < n; ++i)
@@ -119,7 +119,7 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
     return a;
   };
   return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness),
-          builder.weight,       std::move(builder.base),  std::move(builder.moving)};
+          builder.weight,       std::move(builder.base), std::move(builder.moving)};
 }
 
 }  // namespace signorini

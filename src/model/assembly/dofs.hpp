@@ -4,8 +4,9 @@
 //
 // A degree of freedom exists only where a member, mass, spring or contact needs it: beams need ux, uy
 // and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
-// components of their directions. Supports fix what exists. Numbers follow the order of the nodes; behind them
-// stand the rotations of members' hinged ends. A support that moves has a number of its own, of those that move.
+// components of their directions. Supports fix what exists. Numbers follow the order of the nodes; behind
+// them stand the rotations of members' hinged ends. A support that moves has a number of its own, of those
+// that move.
 #pragma once
 
 #include <array>

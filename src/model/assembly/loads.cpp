@@ -27,10 +27,11 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   const int node = find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
   const int dof = map.number[static_cast<std::size_t>(node)][2];
   if (dof == DofMap::absent)
-    throw SceneError(spec.direction.place, key + ".node",
-                     fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
-                                 "spring of rotations",
-                                 spec.direction.node));
+    throw SceneError(
+        spec.direction.place, key + ".node",
+        fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
+                    "spring of rotations",
+                    spec.direction.node));
   if (dof >= 0) form[dof] = 1.0;
   return form;
 }
@@ -44,7 +45,8 @@ std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::st
     const bool joins = (piece.from == from && piece.to == to) || (piece.from == to && piece.to == from);
     if (!joins) continue;
     if (found)
-      throw SceneError(spec.place, key, fmt::format("two members join nodes '{}' and '{}', expected one", a, b));
+      throw SceneError(spec.place, key,
+                       fmt::format("two members join nodes '{}' and '{}', expected one", a, b));
     found = &piece;
   }
   if (!found)
@@ -73,7 +75,8 @@ void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, b
 Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::string& key) {
   Vector form = Vector::Zero(map.size());
   for (std::size_t i = 0; i + 1 < spec.pieces.size(); ++i) {
-    const auto [piece, backwards] = piece_between(map, spec.pieces[i], spec.pieces[i + 1], spec, key + ".nodes");
+    const auto [piece, backwards] =
+        piece_between(map, spec.pieces[i], spec.pieces[i + 1], spec, key + ".nodes");
     for (std::size_t e = piece->first; e < piece->first + piece->count; ++e)
       add_uniform(map, e, spec, backwards, form);
   }
@@ -182,21 +185,23 @@ std::vector<Load> support_loads(const Scene& scene, const DofMap& map, const Ass
     const bool moves_mass = !columns.mass.isZero(0.0);
     const bool damps = !columns.dampers.isZero(0.0) || beta != 0.0 || (alpha != 0.0 && moves_mass);
     if (const double t = jump_of(s, scene.run.t_end); t >= 0.0 && (moves_mass || damps))
-      throw SceneError(support.place, key,
-                       fmt::format("the motion jumps at time {:.6g}, where mass or damping would answer with an "
-                                   "infinite force: give it time",
-                                   t));
+      throw SceneError(
+          support.place, key,
+          fmt::format("the motion jumps at time {:.6g}, where mass or damping would answer with an "
+                      "infinite force: give it time",
+                      t));
     if (const double t = jump_of(s.with_rates(0.0, 1.0, 0.0), scene.run.t_end); t >= 0.0 && moves_mass)
-      throw SceneError(support.place, key,
-                       fmt::format("the velocity jumps at time {:.6g}, where mass would answer with an impulse: "
-                                   "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
-                                   "= \"lumped\" to the members there",
-                                   t));
+      throw SceneError(
+          support.place, key,
+          fmt::format("the velocity jumps at time {:.6g}, where mass would answer with an impulse: "
+                      "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
+                      "= \"lumped\" to the members there",
+                      t));
     const char* component = support.ux ? "ux" : support.uy ? "uy" : "rz";
     const int length = support.rz ? 0 : 1;
     const auto add = [&](const char* what, const Vector& column, History f, int time) {
-      Load load{fmt::format("support {}.{}{}", support.node, component, what), form_of(column, -1.0), std::move(f),
-                time == 0};
+      Load load{fmt::format("support {}.{}{}", support.node, component, what), form_of(column, -1.0),
+                std::move(f), time == 0};
       load.kind = LoadKind::support;
       load.of_direction = {1, -length, time};
       load.of_history = {0, length, -time};
@@ -216,7 +221,8 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   gravity.of_direction = unit::force;
   gravity.of_history = unit::plain;
   if (!gravity.direction.terms.empty()) loads.push_back(std::move(gravity));
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) loads.push_back(given_load(scene.loads[i], map, i + 1));
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    loads.push_back(given_load(scene.loads[i], map, i + 1));
   add_strains(scene, map, loads);
   add_base(scene, assembly, loads);
   for (Load& load : support_loads(scene, map, assembly, 0.0, 0.0)) loads.push_back(std::move(load));

@@ -62,7 +62,8 @@ class HeldRows {
     if (n > 0) {
       Eigen::VectorXd miss(n);
       for (Eigen::Index i = 0; i < n; ++i)
-        miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
+        miss[i] =
+            rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
       const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
       for (Eigen::Index i = 0; i < n; ++i) {
         u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
@@ -104,7 +105,7 @@ struct Standing {
   State state = State::open;
   double gap = 0.0, N = 0.0, T = 0.0;
   double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
-  double given_gap_rate = 0.0;   ///< of the gap without displacement, while a fit grows
+  double given_gap_rate = 0.0;    ///< of the gap without displacement, while a fit grows
   int normal = -1, tangent = -1;  ///< rows in force
 };
 
@@ -195,8 +196,7 @@ class Path {
     const Eigen::MatrixXd null = null_motions(held.matrix());
     if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
       refuse_stage("the stiffness is indefinite");
-    const std::string name =
-        null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
+    const std::string name = null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
     refuse_stage(fmt::format("nothing holds the {}: what would follow is no equilibrium", name));
   }
 
@@ -221,7 +221,8 @@ class Path {
     if (!c.has_gap() || std::abs(s.N) > zero) return false;
     if (!is_open(s.state)) return true;
     const double rounded = rounding::of_many * (c.gap + c.normal.magnitude(u_));
-    return s.gap <= (c.takes_impulses() ? same_force * c.normal.magnitude(u_) : zero / c.normal_stiffness) + rounded;
+    return s.gap <=
+           (c.takes_impulses() ? same_force * c.normal.magnitude(u_) : zero / c.normal_stiffness) + rounded;
   }
 
   /// Rows in force: of all contacts that are not apart.
@@ -239,7 +240,8 @@ class Path {
       if (c.has_gap())
         s.normal = add(c.normal, c.has_spring() ? std::optional(c.normal_stiffness) : std::nullopt);
       if (rubs(k) && !(c.is_pressed() && s.N == 0.0))
-        s.tangent = add(c.body_tangent(), c.shear ? std::optional(c.shear->stiffness) : c.tangential_stiffness);
+        s.tangent =
+            add(c.body_tangent(), c.shear ? std::optional(c.shear->stiffness) : c.tangential_stiffness);
     }
     return rows;
   }
@@ -252,7 +254,8 @@ class Path {
       if (touching) unknowns.push_back({k, s.normal, 1, Unknown::Kind::opening});
       if (s.tangent < 0) continue;
       for (const int sign : {1, -1})
-        if (touching || margin(k, sign) <= zero) unknowns.push_back({k, s.tangent, sign, Unknown::Kind::slip});
+        if (touching || margin(k, sign) <= zero)
+          unknowns.push_back({k, s.tangent, sign, Unknown::Kind::slip});
     }
     return unknowns;
   }
@@ -338,9 +341,10 @@ class Path {
     if (s.state == to) return;
     const Friction& f = contacts_[k].friction;
     if (slip_sign(to) != 0 && slip_sign(s.state) == 0 && f.kinetic < f.static_)
-      refuse_stage(fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: what "
-                               "would follow is no equilibrium",
-                               contacts_[k].name));
+      refuse_stage(
+          fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: what "
+                      "would follow is no equilibrium",
+                      contacts_[k].name));
     // What only touches at the very beginning has no state that it could leave.
     const bool begins = part_ == 0.0 && s.N == 0.0 && s.T == 0.0;
     if (!begins) found_.events.push_back({stage_->name, part_, static_cast<int>(k), s.state, to});
@@ -403,7 +407,8 @@ class Path {
 
 }  // namespace
 
-FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness, const std::vector<Contact>& contacts,
+FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
+                                             const std::vector<Contact>& contacts,
                                              const std::vector<Stage>& stages, const DofMap& map,
                                              const SourcePlace& place) {
   return Path(stiffness, contacts, map, place).run(stages);

@@ -1,4 +1,5 @@
-// frictional.hpp: a start that remembers how its loads came: slowly, one stage after the other, with friction.
+// frictional.hpp: a start that remembers how its loads came: slowly, one stage after the other, with
+// friction.
 //
 //   K u + sum_k ( n_k N_k + t_k T_k ) = P(l),    P(l) = P_before + l dP,   0 <= l <= 1
 //   n . u - N / kn = -gap,   t . u - T / kt = p   on closed contacts; 1 / k = 0 on rigid ones
@@ -10,8 +11,8 @@
 //                          -f N' -+ T'   _|_ a, b >= 0
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
-// one linear complementarity problem of all contacts that touch or are at their limit (Lemke). No solution, or
-// no stiffness left: what would follow is a motion, and the start is refused.
+// one linear complementarity problem of all contacts that touch or are at their limit (Lemke). No solution,
+// or no stiffness left: what would follow is a motion, and the start is refused.
 #pragma once
 
 #include <vector>
@@ -34,8 +35,8 @@ struct FrictionalEquilibrium {
   StaticStart start;
 };
 
-/// From u = 0 without load. Errors: SceneError at `place` that names the stage, how far it came, and what nothing
-/// holds.
+/// From u = 0 without load. Errors: SceneError at `place` that names the stage, how far it came, and what
+/// nothing holds.
 [[nodiscard]] FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                                            const std::vector<Contact>& contacts,
                                                            const std::vector<Stage>& stages,

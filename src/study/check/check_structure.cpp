@@ -9,8 +9,8 @@
 
 #include "base/listed.hpp"
 #include "model/assembly/contacts.hpp"
-#include "model/assembly/loads.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/loads.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/modes/growth.hpp"
 #include "model/modes/held.hpp"

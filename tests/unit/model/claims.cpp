@@ -43,11 +43,12 @@ struct Computed {
 
 TEST_SUITE("unit/model/claims") {
   TEST_CASE("every model has its claims below") {
-    const std::set<std::string> known = {"belt",     "chain",      "coulomb-pad", "den-hartog", "lift-off",
-                                         "matrices", "oscillator", "pipeline",    "rigid-frame"};
+    const std::set<std::string> known = {"belt",     "chain",      "coulomb-pad", "den-hartog",
+                                         "lift-off", "matrices",   "oscillator",  "pipeline",
+                                         "piping",   "rigid-frame"};
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(SIGNORINI_MODELS))
-      found.insert(entry.path().stem().string());
+      if (entry.path().extension() == ".toml") found.insert(entry.path().stem().string());
     CHECK(found == known);
   }
 
@@ -107,6 +108,19 @@ TEST_SUITE("unit/model/claims") {
     CHECK(run.result.rows.back().contacts[0].N == doctest::Approx(-12.75).epsilon(0.03));
     const double pressed_in = run.events("left")[1].gap.value();
     CHECK(pressed_in < 0.0);
+  }
+
+  TEST_CASE("piping: heat slides the pipe out from its anchor, friction holds 12 mm of it back") {
+    const Model model = build_model(read_scene(SIGNORINI_MODELS "/piping.toml"));
+    double ends = 0.0;
+    for (std::size_t i = 0; i < model.dofs.size(); ++i)
+      if (model.dofs[i].displacement == "P100.ux") ends = model.u0[static_cast<Eigen::Index>(i)];
+    const double weight = 0.22 * 9.81, out = 1.2e-5 * 60.0 * 300.0;
+    CHECK(ends == doctest::Approx(out - 0.3 * weight * 300.0 * 300.0 / (2.0 * 2.35e6)).epsilon(5e-4));
+    CHECK(model.statics.reactions[10] == doctest::Approx(12.0 * weight).epsilon(1e-3));
+    double friction = 0.0;
+    for (std::size_t k = 0; k < 25; ++k) friction -= model.contacts[k].initial_shear;
+    CHECK(friction == doctest::Approx(0.3 * weight * 300.0).epsilon(0.03));
   }
 
   TEST_CASE("chain: the front of slip creeps back") {

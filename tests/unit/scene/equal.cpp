@@ -57,12 +57,14 @@ void dump_structure(Dump& dump, const Scene& s) {
   for (const auto& x : s.sections) dump.line("section", x.name, x.EA, x.EI, x.mass_per_length);
   for (const auto& x : s.nodes) dump.line("node", x.name, x.x, x.y);
   for (const auto& x : s.members)
-    dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar,
-              x.mass == MassKind::lumped, x.release, x.thermal_expansion, x.temperature, x.initial_strain);
+    dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar, x.mass == MassKind::lumped,
+              x.release, x.thermal_expansion, x.temperature, x.initial_strain);
   for (const auto& x : s.masses) dump.line("mass", x.node, x.mass, x.inertia);
-  for (const auto& x : s.springs) dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping,
-              x.rotation_stiffness, x.rotation_damping);
-  for (const auto& x : s.supports) dump.line("support", x.node, x.ux, x.uy, x.rz, x.motion, x.motion_is_acceleration);
+  for (const auto& x : s.springs)
+    dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping, x.rotation_stiffness,
+              x.rotation_damping);
+  for (const auto& x : s.supports)
+    dump.line("support", x.node, x.ux, x.uy, x.rz, x.motion, x.motion_is_acceleration);
   if (!s.matrices) return;
   dump.line("dofs", s.matrices->dofs);
   for (const MatrixSpec* m : {&s.matrices->mass, &s.matrices->damping, &s.matrices->stiffness}) {
@@ -88,7 +90,9 @@ std::string dump(const Scene& s) {
               c.friction.stribeck_velocity, c.normal_force, c.surface_velocity, c.initial_shear,
               c.tangential_damping, c.restitution, c.capture_velocity);
   }
-  for (const auto& l : s.loads) dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces, l.member_axes);
+  for (const auto& l : s.loads)
+    dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces,
+              l.member_axes);
   for (const auto& m : s.base_motion) dump.line("base", m.direction, m.acceleration);
   return dump.text;
 }

@@ -1,0 +1,105 @@
+// Records in files, rows of nodes, stops: what the reader makes of them.
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "scene/data_file.hpp"
+#include "scene/history_from_spec.hpp"
+#include "scene/saved_state.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini::tests::records {
+namespace {
+
+Scene says() { return read_scene(SIGNORINI_TEST_DATA "/scenes/good/says.toml"); }
+
+std::string refusal(const std::string& text, const TableLayout& layout) {
+  std::istringstream in(text);
+  try {
+    (void)read_time_table(in, "file", "key", layout);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+const std::string heading = "PEER\nmade up\nACCELERATION TIME SERIES IN UNITS OF G\n";
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/scene/records");
+
+TEST_CASE("a record of PEER, in g") {
+  const Scene scene = says();
+  const HistorySpec& quake = scene.base_motion.at(0).acceleration;
+  CHECK(quake.times == std::vector<double>{0.0, 0.05, 2 * 0.05, 3 * 0.05, 4 * 0.05, 5 * 0.05});
+  CHECK(quake.values == std::vector<double>{0.0, 0.01, -0.025, 0.04, -0.01, 0.0});
+  CHECK(quake.amplitude == doctest::Approx(2.0 * 9.80665).epsilon(1e-15));
+  std::istringstream older(heading + "    3    0.0100   NPTS, DT\n 1 2 3\n");
+  const TimeTable table = read_time_table(older, "file", "key", {0, 0.0, true});
+  CHECK(table.in_g);
+  CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
+  CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true}).find("expected 4 as NPTS says") !=
+        std::string::npos);
+  CHECK(refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("expected it in the fourth line") !=
+        std::string::npos);
+}
+
+TEST_CASE("columns, values alone, periods and shifts") {
+  const Scene scene = says();
+  const HistorySpec& up = scene.base_motion.at(1).acceleration;
+  CHECK(up.values == std::vector<double>{1.0, 2.0, 3.0});
+  const History f = make_history(up, "f");
+  for (const double t : {1.05, 1.25, 1.45, 1.85})
+    CHECK(f.value(t) == doctest::Approx(1.5 * 9.80665).epsilon(1e-12));
+  CHECK(f.value(0.9) == 0.0);
+  const HistorySpec& wind = scene.loads.at(2).history;
+  CHECK(wind.values == std::vector<double>{0.0, 1.0, 4.0, 9.0, 16.0, 25.0});
+  CHECK(wind.times.back() == 0.625);
+  const History pulses = make_history(scene.loads.at(1).history, "f");
+  CHECK(pulses.value(0.3) == 0.0);
+  CHECK(pulses.value(0.4) == 1.0);
+  CHECK(pulses.value(0.7) == 0.0);
+  CHECK(pulses.value(0.9) == 1.0);
+  const History heat = make_history(scene.members.at(0).temperature, "f");
+  CHECK(heat.value(0.5) == 50.0);
+  CHECK(heat.value(7.0) == 60.0);
+  CHECK(refusal("0 1\n1 2 3\n", {3, 0.0, false}).find("a value in column 3") != std::string::npos);
+}
+
+TEST_CASE("rows of nodes, contacts on many, stops on both sides") {
+  const Scene scene = says();
+  CHECK(scene.nodes.size() == 8);
+  CHECK(scene.nodes.at(4).name == "P3");
+  CHECK(scene.nodes.at(4).x == 6.0);
+  CHECK(scene.members.at(0).nodes.size() == 7);
+  std::vector<std::string> names;
+  for (const ContactSpec& c : scene.contacts) names.push_back(c.name);
+  CHECK(names == std::vector<std::string>{"rack-P2", "rack-P4", "rack-P6", "rack-P5", "guide-P4+",
+                                          "guide-P4-", "line+", "line-"});
+  const ContactSpec &forth = scene.contacts.at(4), &back = scene.contacts.at(5);
+  CHECK(forth.normal->vector[0] == -1.0);
+  CHECK(forth.gap == 0.01);
+  CHECK(back.normal->vector[0] == 1.0);
+  CHECK(back.gap == 0.02);
+  CHECK(scene.contacts.at(7).restitution == 0.2);
+}
+
+TEST_CASE("vectors from files") {
+  const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/good/vectors.toml");
+  CHECK(scene.initial.u == std::vector<double>{0.5, -1.0});
+  CHECK(scene.loads.at(0).direction.dofs.at(1).second == -1.0);
+}
+
+TEST_CASE("a saved state: the time asked for, or the last") {
+  const std::string file = "t,A.ux,A.vx,c.T\n0.5,1,2,3\n1.5,4,5,6\n";
+  std::istringstream first(file), last(file), none(file);
+  CHECK(read_saved_state(first, "file", "key", 0.5).motions.at(1).second == 2.0);
+  CHECK(read_saved_state(last, "file", "key", std::nullopt).shears.at(0).second == 6.0);
+  CHECK_THROWS_WITH_AS((void)read_saved_state(none, "file", "key", 0.7),
+                       "file:3: key: found states at 0.5, 1.5, expected one at 0.7", SceneError);
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::records

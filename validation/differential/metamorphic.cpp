@@ -9,6 +9,7 @@
 
 #include "differential/neighbour.hpp"
 #include "differential/random.hpp"
+#include "motion/clock.hpp"
 
 namespace signorini::differential {
 namespace {
@@ -157,7 +158,7 @@ struct Metamorphic::Members {
 
   [[nodiscard]] Promise promise_of(const Track& track) {
     Promise promise;
-    promise.least_time = 64.0 * eps * scene.run.t_end;
+    promise.least_time = resolution_at(scene.run.t_end, 0.0);  // what is closer is one instant
     if (settings.engine != Engine::ida) {
       promise.spread = spread;
       promise.factor = settings.factor;

@@ -16,6 +16,7 @@ std::string listed_plainly(const std::vector<std::string>& texts, std::size_t mo
 
 std::string listed(const std::vector<std::string>& names, std::size_t most) {
   std::vector<std::string> quoted;
+  quoted.reserve(names.size());
   for (const std::string& name : names) quoted.push_back("'" + name + "'");
   return listed_plainly(quoted, most);
 }

@@ -49,7 +49,7 @@ class CsvFile {
 
  private:
   struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }  // unbuffered
   };
   [[noreturn]] void fail();
 

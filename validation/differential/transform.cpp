@@ -36,9 +36,9 @@ void move_initial(InitialSpec& initial, const Map& map) {
         initial.components.push_back(it->second);
       }
     for (const char* kind : {"u", "v"}) {
-      const auto value = [&](const char* axis) {
-        const auto it = parts.find(std::string(kind) + axis);
-        return it == parts.end() ? 0.0 : it->second.value;
+      const auto value = [kind, &components = parts](const char* axis) {  // clang 14 captures no binding
+        const auto it = components.find(std::string(kind) + axis);
+        return it == components.end() ? 0.0 : it->second.value;
       };
       const std::array<double, 2> moved = map(value("x"), value("y"));
       for (std::size_t i = 0; i < 2; ++i)

@@ -3,7 +3,8 @@
 //   taylor   power series of the equations: the cost follows the highest frequency of the mesh
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
-// run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by it.
+// run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by
+// it.
 #pragma once
 
 #include <string>

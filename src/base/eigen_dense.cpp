@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 namespace signorini {
 
@@ -77,6 +78,20 @@ int rank(const Eigen::MatrixXd& a) {
 
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.fullPivLu().solve(b);
+}
+
+Eigen::VectorXd some_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.fullPivLu().solve(b);
+}
+
+std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
+  if (!lu.isInvertible()) return std::nullopt;
+  return lu.solve(b);
+}
+
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
 }
 
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

@@ -1,11 +1,12 @@
 // eigen_dense.hpp: dense decompositions, compiled once.
 //
-//   A x = mu x,    A x = mu B x,    A = Q R
+//   A x = mu x,    A x = mu B x,    A = Q R,    A = P^T L U Q^T,    A = U S V^T
 //
 // All matrices square and symmetric unless said otherwise; their eigenvalues ascend.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace signorini {
 
@@ -37,6 +38,14 @@ struct EigenPairs {
 
 /// A^-1 b by full pivoting; A square, not necessarily symmetric, regular.
 [[nodiscard]] Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// The same; where A is singular, some x, with A x = b if there is one.
+[[nodiscard]] Eigen::VectorXd some_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+/// The same; nothing where A is singular to rounding.
+[[nodiscard]] std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a,
+                                                           const Eigen::VectorXd& b);
+
+/// Descending; A: n x m.
+[[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
 /// The shortest x with the least |A x - b|; A: n x m of any rank.
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

@@ -1,11 +1,11 @@
 #include "decide/complementarity.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 
 namespace signorini {
@@ -104,13 +104,11 @@ Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, cons
   for (const Eigen::Index v : tableau.basis())
     if (v >= q.size() && v < 2 * q.size()) active.push_back(v - q.size());
   if (active.empty()) return z;
-  const Eigen::MatrixXd block = M(active, active);
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(block);
-  if (!lu.isInvertible()) return z;
-  const Eigen::VectorXd values = lu.solve(Eigen::VectorXd(-q(active)));
+  const auto values = solve_regular(M(active, active), -q(active));
+  if (!values) return z;
   Eigen::VectorXd result = Eigen::VectorXd::Zero(q.size());
   for (std::size_t i = 0; i < active.size(); ++i)
-    result[active[i]] = std::max(0.0, values[static_cast<Eigen::Index>(i)]);
+    result[active[i]] = std::max(0.0, (*values)[static_cast<Eigen::Index>(i)]);
   return result;
 }
 

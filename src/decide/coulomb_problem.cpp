@@ -1,7 +1,5 @@
 #include "decide/coulomb_problem.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "decide/complementarity.hpp"
+#include "decide/places.hpp"
 
 namespace signorini {
 namespace {
@@ -23,9 +22,6 @@ constexpr double misses = rounding::of_elimination;
 // Responses that differ by less, of the problem's size, are the same. Chosen: above what a condition of 1e6
 // makes of `misses`, far below what differs in Painleve's paradox.
 constexpr double same_solution = 1e-9;
-
-Index normal(std::size_t i) { return static_cast<Index>(2 * i); }
-Index tangent(std::size_t i) { return static_cast<Index>(2 * i) + 1; }
 
 /// The problem in units that make the diagonal of W one.
 struct Scaled {
@@ -44,12 +40,9 @@ Scaled scaled(const CoulombProblem& p) {
   const VectorXd inverse = s.unit.cwiseInverse();
   s.W = inverse.asDiagonal() * p.W * inverse.asDiagonal();
   s.b = inverse.cwiseProduct(p.b);
-  for (std::size_t i = 0; i < p.items.size(); ++i) s.ratio.push_back(s.unit[tangent(i)] / s.unit[normal(i)]);
+  for (std::size_t i = 0; i < p.items.size(); ++i)
+    s.ratio.push_back(s.unit[tangent_place(i)] / s.unit[normal_place(i)]);
   return s;
-}
-
-double friction(const CoulombItem& item, bool kinetic) {
-  return kinetic ? item.kinetic_friction : item.static_friction;
 }
 
 /// The linear complementarity problem: forces = F z, given ones apart; w = rows of response, or of cones.
@@ -65,9 +58,9 @@ std::optional<VectorXd> by_lemke(const CoulombProblem& p, const Scaled& s, const
   Index at = 0;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal(i), ti = tangent(i);
+    const Index ni = normal_place(i), ti = tangent_place(i);
     // In scaled units: force_t = physical * unit_t; f l * unit_t = f (l unit_n) unit_t / unit_n.
-    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     switch (item.kind) {
       case Kind::normal:
       case Kind::sliding:
@@ -144,8 +137,8 @@ Equations equations_of(const CoulombProblem& p, const Scaled& s, const std::vect
   Equations e{MatrixXd::Zero(n, n), VectorXd::Zero(n)};
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal(i), ti = tangent(i);
-    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    const Index ni = normal_place(i), ti = tangent_place(i);
+    const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = sign_of(states[i]);
     const auto respond = [&](Index row) {
       e.A.row(row) = s.W.row(row);
@@ -179,15 +172,15 @@ struct Attempt {
 Attempt attempt(const CoulombProblem& p, const Scaled& s, const std::vector<Try>& states,
                 const std::vector<bool>& kinetic) {
   const Equations e = equations_of(p, s, states, kinetic);
-  Attempt result{Eigen::FullPivLU<MatrixXd>(e.A).solve(e.c)};
+  Attempt result{some_solution(e.A, e.c)};
   const VectorXd& x = result.force;
   const VectorXd r = s.b + s.W * x;
   double miss = (e.A * x - e.c).cwiseAbs().maxCoeff();
   const auto must_not_be_negative = [&](double value) { miss = std::max(miss, -value); };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const Index ni = normal(i), ti = tangent(i);
-    const double f = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
+    const Index ni = normal_place(i), ti = tangent_place(i);
+    const double f = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i];
     const int sign = sign_of(states[i]);
     if (item.kind == Kind::limit) {
       must_not_be_negative(item.sign * (states[i] == Try::stick ? x[ti] : r[ti]));
@@ -221,15 +214,16 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   const auto complementary = [&](double a, double b) { return std::abs(std::min(a, b)) <= zero; };
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const double xt = x[tangent(i)], rt = r[tangent(i)];
+    const double xt = x[tangent_place(i)], rt = r[tangent_place(i)];
     if (item.kind == Kind::limit) {
       if (!complementary(item.sign * xt, item.sign * rt)) return false;
       continue;
     }
-    if (item.kind != Kind::pressed && !complementary(x[normal(i)], r[normal(i)])) return false;
+    if (item.kind != Kind::pressed && !complementary(x[normal_place(i)], r[normal_place(i)])) return false;
     if (item.kind == Kind::normal) continue;
-    const double l = item.kind == Kind::pressed ? item.pressing * s.unit[normal(i)] : x[normal(i)];
-    const double most = friction(item, kinetic[i] || item.kind == Kind::sliding) * s.ratio[i] * l;
+    const double l =
+        item.kind == Kind::pressed ? item.pressing * s.unit[normal_place(i)] : x[normal_place(i)];
+    const double most = item.friction(kinetic[i] || item.kind == Kind::sliding) * s.ratio[i] * l;
     const int sign = item.kind == Kind::sliding ? item.sign : rt > zero ? 1 : rt < -zero ? -1 : 0;
     const bool good = sign == 0 ? std::abs(xt) <= most + zero : std::abs(xt + sign * most) <= zero;
     if (!good) return false;
@@ -246,8 +240,8 @@ bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, 
     const CoulombItem& item = p.items[i];
     if (kinetic[i] || item.static_friction == item.kinetic_friction) continue;
     if (item.kind != Kind::frictional && item.kind != Kind::pressed) continue;
-    const double l = item.kind == Kind::pressed ? item.pressing : x[normal(i)];
-    if (l > zero && std::abs(r[tangent(i)]) > zero) kinetic[i] = changed = true;
+    const double l = item.kind == Kind::pressed ? item.pressing : x[normal_place(i)];
+    if (l > zero && std::abs(r[tangent_place(i)]) > zero) kinetic[i] = changed = true;
   }
   return changed;
 }
@@ -307,7 +301,7 @@ std::optional<CoulombSolution> solve(const CoulombProblem& p) {
 }
 
 double condition_of(const CoulombProblem& p) {
-  const VectorXd values = Eigen::JacobiSVD<MatrixXd>(scaled(p).W).singularValues();
+  const VectorXd values = singular_values(scaled(p).W);
   return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
 }
 
@@ -318,7 +312,7 @@ bool may_have_many(const CoulombProblem& p) {
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j) {
       const auto at = static_cast<std::size_t>(j);
-      nt(i, j) = s.W(2 * i, 2 * j + 1) * p.items[at].static_friction * s.ratio[at];
+      nt(i, j) = s.W(normal_place(i), tangent_place(j)) * p.items[at].static_friction * s.ratio[at];
     }
   const MatrixXd symmetric = 0.5 * (s.W + s.W.transpose());
   const double least = symmetric_eigenvalues(symmetric)[0];

@@ -29,6 +29,8 @@ struct CoulombItem {
   double static_friction = 0.0, kinetic_friction = 0.0;
   double pressing = 0.0;  ///< pressed: l
   int sign = 0;           ///< sliding, limit
+
+  [[nodiscard]] double friction(bool slips) const { return slips ? kinetic_friction : static_friction; }
 };
 
 struct CoulombProblem {

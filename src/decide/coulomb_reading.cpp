@@ -5,6 +5,7 @@
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "decide/places.hpp"
 
 namespace signorini {
 namespace {
@@ -30,9 +31,9 @@ Acting acting(const CoulombProblem& p, const CoulombSolution& s) {
   Acting result;
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const CoulombItem& item = p.items[i];
-    const auto row = static_cast<Eigen::Index>(2 * i);
+    const auto row = normal_place(i);
     const double l = s.force[row], k = s.force[row + 1];
-    const double f = s.kinetic[i] ? item.kinetic_friction : item.static_friction;
+    const double f = item.friction(s.kinetic[i]);
     const bool presses = item.kind != Kind::pressed && item.kind != Kind::limit && l > 0.0;
     const bool sticks = item.kind == Kind::limit     ? k != 0.0
                         : item.kind == Kind::pressed ? std::abs(k) < f * item.pressing
@@ -68,12 +69,10 @@ CoulombReading::CoulombReading(const CoulombProblem& p, const CoulombSolution& s
 }
 
 double CoulombReading::pressing(std::size_t i) const {
-  return item(i).kind == Kind::pressed ? item(i).pressing : force(static_cast<Eigen::Index>(2 * i));
+  return item(i).kind == Kind::pressed ? item(i).pressing : force(normal_place(i));
 }
 
-double CoulombReading::friction(std::size_t i) const {
-  return solution_.kinetic[i] ? item(i).kinetic_friction : item(i).static_friction;
-}
+double CoulombReading::friction(std::size_t i) const { return item(i).friction(solution_.kinetic[i]); }
 
 double CoulombReading::zero_force(Eigen::Index row) const { return noise_of_solution * force_noise_[row]; }
 
@@ -82,7 +81,7 @@ bool CoulombReading::is_zero_response(Eigen::Index row) const {
 }
 
 bool CoulombReading::is_inside_cone(std::size_t i) const {
-  const auto n = static_cast<Eigen::Index>(2 * i);
+  const auto n = normal_place(i);
   const double f = friction(i);
   return f * pressing(i) - std::abs(force(n + 1)) > zero_force(n + 1) + f * zero_force(n);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "decide/driven_states.hpp"
+#include "decide/places.hpp"
 #include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
@@ -177,7 +178,7 @@ void Decider::stop(const std::vector<std::size_t>& turning, Course& course) cons
   if (!system) return;
   std::vector<Fixed> fixed;
   for (std::size_t i = 0; i < turning.size(); ++i)
-    fixed.push_back({static_cast<Eigen::Index>(2 * i) + 1, &model_.contacts[turning[i]].tangent,
+    fixed.push_back({tangent_place(i), &model_.contacts[turning[i]].tangent,
                      course.after.surface(turning[i], course.instant.t, 1)});
   if (!settled(fixed, course.instant.v)) settle(delassus(model_, *system, turning), fixed, course.instant.v);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/eigen_dense.hpp"
+#include "decide/places.hpp"
 
 namespace signorini {
 
@@ -20,8 +21,8 @@ Delassus delassus(const Model& model, const ModeSystem& system, const std::vecto
       d.effect(i, j) = system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive ? x[i] : 0.0;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& other = model.contacts[contacts[static_cast<std::size_t>(i)]];
-      d.W(2 * i, j) = other.normal.dot(d.effect.col(j));
-      d.W(2 * i + 1, j) = other.tangent.dot(d.effect.col(j));
+      d.W(normal_place(i), j) = other.normal.dot(d.effect.col(j));
+      d.W(tangent_place(i), j) = other.tangent.dot(d.effect.col(j));
     }
   }
   return d;

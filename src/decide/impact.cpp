@@ -8,6 +8,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "decide/coulomb_reading.hpp"
+#include "decide/places.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -61,10 +62,10 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const Contact& contact = model_.contacts[c];
-    hit.before[2 * i] = contact.normal.dot(v);
-    hit.before[2 * i + 1] = contact.tangent.dot(v) - forcing.surface(c, t, 1);
-    hit.size[2 * i] = contact.normal.magnitude(v);
-    hit.size[2 * i + 1] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
+    hit.before[normal_place(i)] = contact.normal.dot(v);
+    hit.before[tangent_place(i)] = contact.tangent.dot(v) - forcing.surface(c, t, 1);
+    hit.size[normal_place(i)] = contact.normal.magnitude(v);
+    hit.size[tangent_place(i)] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
     hit.restitution[i] = contact.restitution;
     CoulombItem item;
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
@@ -82,14 +83,16 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
     captured = false;
     hit.problem.b = hit.before;
     for (Eigen::Index i = 0; i < m; ++i)
-      hit.problem.b[2 * i] += hit.restitution[i] * std::min(hit.before[2 * i], 0.0);
+      hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
     hit.solution = signorini::solve(hit.problem);
     if (!hit.solution) return false;
     hit.after = hit.before + hit.d.W * hit.solution->force;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
       const double slowest = contact.capture_velocity.value_or(capture_velocity_);
-      if (hit.restitution[i] == 0.0 || !(hit.before[2 * i] < 0.0) || hit.after[2 * i] >= slowest) continue;
+      if (hit.restitution[i] == 0.0 || !(hit.before[normal_place(i)] < 0.0) ||
+          hit.after[normal_place(i)] >= slowest)
+        continue;
       hit.restitution[i] = 0.0;
       captured = true;
     }
@@ -105,14 +108,15 @@ void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<s
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const std::size_t c = touching[at];
-    if (!(hit.solution->force[2 * i] > 0.0)) continue;
-    hit.after[2 * i] = -hit.restitution[i] * std::min(hit.before[2 * i], 0.0);
-    fixed.push_back({2 * i, &model_.contacts[c].normal, hit.after[2 * i]});
-    impact.impulses[c].rests = hit.after[2 * i] == 0.0;
+    const Eigen::Index along_n = normal_place(i), along_t = tangent_place(i);
+    if (!(hit.solution->force[along_n] > 0.0)) continue;
+    hit.after[along_n] = -hit.restitution[i] * std::min(hit.before[along_n], 0.0);
+    fixed.push_back({along_n, &model_.contacts[c].normal, hit.after[along_n]});
+    impact.impulses[c].rests = hit.after[along_n] == 0.0;
     if (!model_.contacts[c].has_friction()) continue;
-    if (!reading.is_inside_cone(at) && !reading.is_zero_response(2 * i + 1)) continue;
-    hit.after[2 * i + 1] = 0.0;
-    fixed.push_back({2 * i + 1, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
+    if (!reading.is_inside_cone(at) && !reading.is_zero_response(along_t)) continue;
+    hit.after[along_t] = 0.0;
+    fixed.push_back({along_t, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
     impact.impulses[c].sticks = true;
   }
   settle(hit.d, fixed, impact.v);
@@ -124,16 +128,17 @@ void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
   double greatest = 0.0;
   for (Eigen::Index i = 0; i < hit.restitution.size(); ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
-    const double n = hit.solution->force[2 * i], k = hit.solution->force[2 * i + 1];
+    const double n = hit.solution->force[normal_place(i)], k = hit.solution->force[tangent_place(i)];
     Impulse& impulse = impact.impulses[c];
     impulse.hit = n > 0.0 && mode[c].is_open();
     impulse.normal = n;
     impulse.tangent = k;
-    const double normal = 0.5 * n * (hit.before[2 * i] + hit.after[2 * i]);
-    const double tangent = 0.5 * k * (hit.before[2 * i + 1] + hit.after[2 * i + 1]);
+    const double normal = 0.5 * n * (hit.before[normal_place(i)] + hit.after[normal_place(i)]);
+    const double tangent = 0.5 * k * (hit.before[tangent_place(i)] + hit.after[tangent_place(i)]);
     impact.loss -= normal + tangent;
     impact.surface_work += k * forcing.surface(c, t, 1);
-    greatest = std::max({greatest, std::abs(n * hit.before[2 * i]), std::abs(k * hit.before[2 * i + 1])});
+    greatest = std::max(
+        {greatest, std::abs(n * hit.before[normal_place(i)]), std::abs(k * hit.before[tangent_place(i)])});
   }
   impact.gains = impact.loss < -no_gain * greatest;
 }
@@ -155,7 +160,7 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
                       condition_of(hit.problem)};
     const double shown = factor_of(unit::velocity, model_.unit);
     for (std::size_t i = 0; i < touching.size(); ++i) {
-      const auto n = static_cast<Eigen::Index>(2 * i);
+      const Eigen::Index n = normal_place(i);
       impact.refusal.reason +=
           fmt::format("; '{}': vn = {:.6g}, vt = {:.6g}", model_.contacts[touching[i]].name,
                       hit.before[n] * shown, hit.before[n + 1] * shown);

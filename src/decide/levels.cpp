@@ -8,6 +8,7 @@
 
 #include "contact/friction.hpp"
 #include "decide/coulomb_reading.hpp"
+#include "decide/places.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -23,7 +24,7 @@ int sign_of(double x) { return x > 0.0 ? 1 : -1; }
 void hold_normals(CoulombProblem& p) {
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     if (p.items[i].kind != Kind::limit) continue;
-    const auto n = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Index n = normal_place(i);
     p.W.row(n).setZero();
     p.W.col(n).setZero();
     p.b[n] = 0.0;
@@ -41,7 +42,7 @@ void start_slip(int sign, std::size_t order, ContactState& state, KnownGuards& g
 Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, ContactState& state,
                     KnownGuards& guards) {
   const int sign = r.item(i).sign;
-  const auto t = static_cast<Eigen::Index>(2 * i) + 1;
+  const Eigen::Index t = tangent_place(i);
   if (sign * r.force(t) > r.zero_force(t)) {
     state.state = State::stick;
     (sign > 0 ? guards.slip_plus : guards.slip_minus) = {order, true};
@@ -56,7 +57,7 @@ Verdict leave_limit(const CoulombReading& r, std::size_t order, std::size_t i, C
 Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
                         ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
-  const auto t = static_cast<Eigen::Index>(2 * i) + 1;
+  const Eigen::Index t = tangent_place(i);
   state.state = State::stick;
   if (r.is_inside_cone(i)) return Verdict::decided;
   if (!r.is_zero_response(t)) {
@@ -76,7 +77,7 @@ Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t 
 Verdict settle_contact(const CoulombReading& r, std::size_t order, std::size_t i, Participant& who,
                        ContactState& state, KnownGuards& guards) {
   const CoulombItem& item = r.item(i);
-  const auto n = static_cast<Eigen::Index>(2 * i), t = n + 1;
+  const Eigen::Index n = normal_place(i), t = tangent_place(i);
   if (item.kind != Kind::pressed && !(r.force(n) > r.zero_force(n))) {
     if (!(r.force(n) > 0.0) && !r.is_zero_response(n)) {
       guards.closing = {order + 2, true};
@@ -150,7 +151,7 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
   const double per_force = acceleration / model_.unit.force;
   for (std::size_t i = 0; i < level.contacts.size(); ++i) {
     const CoulombItem& item = problem.items[i];
-    const auto n = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Index n = normal_place(i);
     result.reason +=
         fmt::format("; '{}': without force g'' = {:.6g}, ut'' = {:.6g}; g'' for a unit of -N = {:.6g}",
                     model_.contacts[level.contacts[i]].name, problem.b[n] * acceleration,
@@ -178,7 +179,7 @@ void Levels::fill(const Instant& instant, const Forcing& forcing, const std::vec
     const bool last = level.order + 1 == MotionJet::orders;
     const double an = last ? 0.0 : jet.motion[level.order + 1].an,
                  at = last ? 0.0 : jet.motion[level.order + 1].at;
-    const auto n = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Index n = normal_place(i);
     level.noise[n] = instant.blur * zero.an + instant.resolution * std::abs(an);
     level.noise[n + 1] = instant.blur * zero.at + instant.resolution * std::abs(at);
     if (std::abs(now.an) > level.noise[n]) level.problem.b[n] = now.an;
@@ -228,8 +229,7 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
   CoulombProblem settled = problem;
   for (std::size_t i = 0; i < settled.items.size(); ++i) {
     CoulombItem& item = settled.items[i];
-    (solution->kinetic[i] ? item.static_friction : item.kinetic_friction) =
-        solution->kinetic[i] ? item.kinetic_friction : item.static_friction;
+    item.static_friction = item.kinetic_friction = item.friction(solution->kinetic[i]);
   }
   const Enumerated all = all_solutions(settled);
   return all.solutions.size() > 1 ? refusal(level, all) : Refusal{};

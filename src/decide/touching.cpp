@@ -6,6 +6,7 @@
 #include "base/rounding.hpp"
 
 #include "contact/friction.hpp"
+#include "decide/places.hpp"
 
 namespace signorini {
 namespace {
@@ -78,7 +79,7 @@ bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const Mo
     const auto who = std::find_if(found.participants.begin(), found.participants.end(),
                                   [&](const Participant& p) { return p.contact == c; });
     if (who == found.participants.end()) continue;
-    const auto row = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Index row = normal_place(i);
     fixed.push_back({row, &contact.normal, 0.0});
     found.known[c].closing.zeros = 2;
     if (!contact.has_friction() || who->slipping) continue;

@@ -14,7 +14,9 @@
 namespace signorini {
 namespace {
 
-constexpr double dependent = 1e-12;  // what is left of a unit normal when all others are taken out of it
+constexpr double takes_part = 1e-9;       // of a unit normal: less is what elimination leaves
+constexpr double closes_together = 1e-9;  // of the gaps: a scene gives them with so many digits
+constexpr double dependent = 1e-12;       // what is left of a unit normal when all others are taken out of it
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];
@@ -75,9 +77,9 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
           const Contact& other = model.contacts[members[j]];
           gap -= part * other.gap;
           size += std::abs(part * other.gap);
-          if (std::abs(part) > 1e-9) names.push_back(other.name);
+          if (std::abs(part) > takes_part) names.push_back(other.name);
         }
-        if (std::abs(gap) <= 1e-9 * size)
+        if (std::abs(gap) <= closes_together * size)
           refuse(scene, k, ".law",
                  fmt::format("it closes exactly with {}, so nobody can say which of the rigid contacts "
                              "carries the force; leave it out, or give them law = \"compliant\"",

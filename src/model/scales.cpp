@@ -14,6 +14,8 @@
 namespace signorini {
 namespace {
 
+constexpr double only_rounding = 1e-10;  // of the answer of what is free: what is held gives no more
+
 bool usable(double x) { return std::isfinite(x) && x > 0.0; }
 
 /// The first of the candidates that is positive and finite, else 1.
@@ -133,7 +135,7 @@ Answer answer_to(const std::vector<Vector>& forces, const Model& model, const Do
     const double answer = greatest_translation(structure.solve(p), map);
     const double free = greatest_translation(loose.solve(p), map);
     // Where all that could move is fixed, only roundoff answers.
-    if (answer > 1e-10 * free) result.held = std::max(result.held, answer);
+    if (answer > only_rounding * free) result.held = std::max(result.held, answer);
     result.gripped = std::max(result.gripped, free);
   }
   return result;
@@ -204,7 +206,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const std::vector<Vector> loads = amplitudes_of_loads(model, t_end);
   const auto [held, gripped] = answer_to(loads, model, map, holding);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
-  if (displacement < 1e-10 * gripped) displacement = gripped;
+  if (displacement < only_rounding * gripped) displacement = gripped;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);

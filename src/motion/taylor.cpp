@@ -84,8 +84,8 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
       if (order > 0 && !forcing.drives(c)) continue;
       double r = 0.0, q = 0.0;
       known_of_rows(c, order, series, r, q);
-      x[n + 2 * c] = -r;
-      x[n + 2 * c + 1] = -q;
+      x[mode.unknowns.normal(c)] = -r;
+      x[mode.unknowns.tangent(c)] = -q;
     }
     const double* column = mode.inverse.data();
     for (std::size_t j = 0; j < size; ++j, column += size) {

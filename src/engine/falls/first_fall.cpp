@@ -10,6 +10,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t size = most_fall_degree + 1;
+constexpr double near_root = 1e-6;            // relative: so near, Newton's next step has all digits
 constexpr double finest = rounding::of_many;  // width, of the whole step
 using Coefficients = std::array<double, size>;
 
@@ -42,7 +43,7 @@ double only_zero(const double* a, std::size_t degree, double lo, double hi, doub
     }
     const double newton = value / slope, step = std::abs(newton);
     // Newton's steps shrink quadratically until rounding makes them wander.
-    if (step <= rounding::eps * x || (last < 1e-6 * x && step > 0.25 * last)) return x;
+    if (step <= rounding::eps * x || (last < near_root * x && step > 0.25 * last)) return x;
     (value > 0.0 ? lo : hi) = x;
     if (x - newton > lo && x - newton < hi) {
       x -= newton;

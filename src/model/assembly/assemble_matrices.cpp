@@ -7,6 +7,8 @@
 namespace signorini {
 namespace {
 
+constexpr double printed_digits = 1e-9;  // of the greatest entry: so far apart count as symmetric
+
 double largest(const SparseMatrix& a) {
   double result = 0.0;
   for (int k = 0; k < a.outerSize(); ++k)
@@ -28,12 +30,12 @@ SparseMatrix read(const MatrixSpec& spec, int n, const std::string& key) {
   return a;
 }
 
-/// Other programs print symmetric matrices with rounded digits: nine common digits count as symmetric.
+/// Other programs print symmetric matrices with rounded digits.
 SparseMatrix read_symmetric(const MatrixSpec& spec, int n, const std::string& key) {
   const SparseMatrix a = read(spec, n, key);
   const SparseMatrix transposed = a.transpose();
   const SparseMatrix difference = a - transposed;
-  if (largest(difference) > 1e-9 * largest(a))
+  if (largest(difference) > printed_digits * largest(a))
     throw SceneError(spec.place, key, "the matrix is not symmetric");
   return 0.5 * (a + transposed);
 }

@@ -15,6 +15,13 @@
 namespace signorini {
 namespace {
 
+constexpr double without_mass = 1e-12;  // of the greatest inertia of a free motion of size 1
+constexpr double hardly_any = 1e-13;    // of the greatest 1/omega^2: rounding of a motion without mass
+constexpr double no_part = 1e-9;        // of a motion's greatest entry
+constexpr double shift_of_free = 1e-8;  // of the greatest K_ii/M_ii: free motions have half of the digits
+constexpr double still_near = 1e-11;    // relative change of omega^2 a round, where shifts approach it
+constexpr double still_high = 1e-12, still_each = 1e-9;  // else: of the greatest, and of each one's own
+
 NaturalMode mode_of(double omega, const Eigen::VectorXd& x, const SparseMatrix& mass,
                     const SparseMatrix& damping) {
   const double m = x.dot(mass * x);
@@ -43,7 +50,7 @@ FreeMotions free_motions(const SparseMatrix& k, const SparseMatrix& mass) {
   const EigenPairs pairs = symmetric_eigen(null.transpose() * moved);
   const double greatest = pairs.values[pairs.values.size() - 1];
   Eigen::Index without = 0;
-  while (without < pairs.values.size() && !(pairs.values[without] > 1e-12 * greatest)) ++without;
+  while (without < pairs.values.size() && !(pairs.values[without] > without_mass * greatest)) ++without;
   const Eigen::MatrixXd heavy = null * pairs.vectors.rightCols(null.cols() - without);
   return {heavy, null * pairs.vectors.leftCols(without), count_unstable(k, heavy)};
 }
@@ -94,7 +101,7 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   const int with_mass = motions_with_mass(mass, fixed) - result.free_motions;
   count = std::min(count, with_mass);
   for (Eigen::Index j = pairs.values.size() - 1; j >= 0 && count > 0; --j, --count) {
-    if (!(pairs.values[j] > 1e-13 * pairs.values[pairs.values.size() - 1])) break;  // hardly any
+    if (!(pairs.values[j] > hardly_any * pairs.values[pairs.values.size() - 1])) break;
     result.modes.push_back(
         mode_of(1.0 / std::sqrt(pairs.values[j]), q * (rest * pairs.vectors.col(j)), mass, damping));
   }
@@ -108,7 +115,8 @@ SparseMatrix hold_undecided(const SparseMatrix& k, const Eigen::MatrixXd& motion
     Combination form;
     const double size = motions.col(j).cwiseAbs().maxCoeff();
     for (Eigen::Index i = 0; i < motions.rows(); ++i)
-      if (std::abs(motions(i, j)) > 1e-9 * size) form.terms.emplace_back(static_cast<int>(i), motions(i, j));
+      if (std::abs(motions(i, j)) > no_part * size)
+        form.terms.emplace_back(static_cast<int>(i), motions(i, j));
     forms.push_back(std::move(form));
   }
   return with_grips(k, forms);
@@ -191,7 +199,7 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
   double shift = 0.0;
   if (result.free_motions > 0)
     for (int i = 0; i < n; ++i)
-      if (mass.coeff(i, i) > 0.0) shift = std::max(shift, 1e-8 * k.coeff(i, i) / mass.coeff(i, i));
+      if (mass.coeff(i, i) > 0.0) shift = std::max(shift, shift_of_free * k.coeff(i, i) / mass.coeff(i, i));
   Subspace space(k, mass, fixed, shift, size);
   const int wanted = std::min(size, result.free_motions + count);
   const bool approaches = result.free_motions == 0;
@@ -202,10 +210,10 @@ Frequencies sparse(const SparseMatrix& mass, const SparseMatrix& damping, const 
     const Eigen::ArrayXd change = (now - before).cwiseAbs().array();
     before = now;
     if (approaches) {
-      if ((change <= 1e-11 * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
+      if ((change <= still_near * now.cwiseAbs().array() + 4.0 * space.noise()).all()) break;
       if (round % 4 == 0) space.approach(std::min(size, std::max(wanted, 5)));
-    } else if (change.maxCoeff() <= 1e-12 * now.cwiseAbs().maxCoeff() &&
-               (change <= 1e-9 * now.array()).all()) {
+    } else if (change.maxCoeff() <= still_high * now.cwiseAbs().maxCoeff() &&
+               (change <= still_each * now.array()).all()) {
       break;
     }
   }

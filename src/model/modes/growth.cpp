@@ -17,6 +17,9 @@ bool has_negative_energy(const SparseMatrix& k, const Vector& motion) {
 
 namespace {
 
+constexpr double no_inertia = 1e-14;  // of the terms of x.Mx: rounding
+constexpr double no_faster = 1e-9;    // relative, of a rate: its motion has half as many digits
+
 std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix& mass) {
   Eigen::MatrixXd null = null_motions(k);  // those of negative energy are among them
   if (null.cols() == 0) return std::nullopt;
@@ -30,12 +33,12 @@ std::optional<Growth> growth_of_whole(const SparseMatrix& k, const SparseMatrix&
   Vector x = growth.motion;
   for (int round = 0; round < 100; ++round) {
     const double energy = x.dot(k * x), inertia = x.dot(mass * x);
-    if (!(inertia > 1e-14 * term_size(mass, x)) || !std::isfinite(energy / inertia)) {
+    if (!(inertia > no_inertia * term_size(mass, x)) || !std::isfinite(energy / inertia)) {
       growth.rate = std::numeric_limits<double>::infinity();
       return growth;
     }
     const double rate = std::sqrt(std::max(-energy / inertia, 0.0));
-    const bool settled = rate <= (1.0 + 1e-9) * growth.rate;
+    const bool settled = rate <= (1.0 + no_faster) * growth.rate;
     if (rate > growth.rate) growth = {rate, x};
     if (settled) break;
     const SymmetricSolver solver(SparseMatrix(k + 1.5 * growth.rate * growth.rate * mass));

@@ -5,6 +5,11 @@
 #include "model/statics/static_system.hpp"
 
 namespace signorini {
+namespace {
+
+constexpr double fixed_twice = 1e-12;  // of the greatest compliance: a motion that another contact has fixed
+
+}  // namespace
 
 Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n) {
   Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
@@ -35,7 +40,7 @@ HeldStructure::HeldStructure(const SparseMatrix& k, const std::vector<Combinatio
     const EigenPairs g = symmetric_eigen(grip.t.transpose() * kt);
     Eigen::VectorXd inverse = g.values;
     const double greatest = inverse[inverse.size() - 1];
-    for (double& value : inverse) value = value > 1e-12 * greatest ? 1.0 / value : 0.0;
+    for (double& value : inverse) value = value > fixed_twice * greatest ? 1.0 / value : 0.0;
     grip.correction = kt * g.vectors * inverse.asDiagonal() * g.vectors.transpose();
     grips_.push_back(std::move(grip));
   }

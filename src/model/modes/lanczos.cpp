@@ -10,6 +10,9 @@
 namespace signorini {
 namespace {
 
+constexpr int most_restarts = 300;
+constexpr double converged = 1e-12;  // residual of a Ritz value, relative
+
 /// What Spectra asks of an operator.
 class Products {
  public:
@@ -62,7 +65,7 @@ EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, dou
     Spectra::SymGEigsShiftSolver<Products, Mass, Spectra::GEigsMode::ShiftInvert> solver(op, product, count,
                                                                                          width, -shift);
     solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
-    solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-12, Spectra::SortRule::SmallestAlge);
+    solver.compute(Spectra::SortRule::LargestMagn, most_restarts, converged, Spectra::SortRule::SmallestAlge);
     if (solver.info() == Spectra::CompInfo::Successful) return {solver.eigenvalues(), solver.eigenvectors()};
   } catch (const std::exception&) {
     // Few different eigenvalues end its iteration early: the caller has other ways.

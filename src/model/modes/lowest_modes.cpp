@@ -11,7 +11,8 @@
 namespace signorini {
 namespace {
 
-constexpr double settled = 1e-8;  // residual of a Ritz vector; the error of its omega^2 is its square
+constexpr double nothing_new = 1e-20;  // of a square: ten of sixteen digits are gone
+constexpr double settled = 1e-8;       // residual of a Ritz vector; the error of its omega^2 is its square
 constexpr int widest_block = 100;
 constexpr int most_rounds = 50;
 
@@ -117,7 +118,7 @@ class BlockKrylov {
       Eigen::MatrixXd v = x.col(j);
       take_out(q, mass_, v);
       const double square = v.col(0).dot(mass_ * v.col(0));
-      if (!(square > 1e-20 * before[j])) continue;
+      if (!(square > nothing_new * before[j])) continue;
       q.conservativeResize(Eigen::NoChange, q.cols() + 1);
       q.rightCols(1) = v / std::sqrt(square);
     }

@@ -5,6 +5,7 @@
 namespace signorini {
 namespace {
 
+constexpr double nearest = 1e-9, farthest = 1e-5;  // relative, of omega^2: where else a shift is tried
 constexpr double accurate = 1e-6;  // backward error of a factorisation whose pivots have trustworthy signs
 
 /// Pivots are not chosen by size, so that an unlucky shift may lose all digits: a solution shows it.
@@ -20,7 +21,7 @@ bool is_accurate(const SymmetricSolver& solver, const SparseMatrix& a) {
 }  // namespace
 
 int modes_below(const SparseMatrix& mass, const SparseMatrix& stiffness, double square) {
-  for (double beyond = 0.0; beyond <= 1e-5; beyond = beyond > 0.0 ? 10.0 * beyond : 1e-9) {
+  for (double beyond = 0.0; beyond <= farthest; beyond = beyond > 0.0 ? 10.0 * beyond : nearest) {
     const SparseMatrix a = stiffness - (1.0 + beyond) * square * mass;
     const SymmetricSolver solver(a);
     if (is_accurate(solver, a)) return solver.negative_pivots();

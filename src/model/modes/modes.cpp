@@ -16,6 +16,8 @@
 namespace signorini {
 namespace {
 
+constexpr double digits_of_highest = 1e-4;  // of the highest square: it scales steps, nothing else
+
 double frequency(double omega_squared) { return omega_squared > 0.0 ? std::sqrt(omega_squared) : 0.0; }
 
 /// omega; 0: a motion has no stiffness; nothing: nothing with mass can move.
@@ -73,7 +75,7 @@ double highest_of(const SparseMatrix& mass, const SparseMatrix& k) {
   auto apply = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return factor.solve_factor(condensed(factor.solve_transposed_factor(x)));
   };
-  return frequency(greatest_eigenvalue(h, apply, 1e-4));
+  return frequency(greatest_eigenvalue(h, apply, digits_of_highest));
 }
 
 double highest(const SparseMatrix& mass, const SparseMatrix& k) {

@@ -16,7 +16,11 @@
 namespace signorini {
 namespace {
 
-constexpr int together_up_to = 300;  // degrees of freedom; above, part by part
+constexpr double fair_share = 1e-3;  // of a row's greatest entry, so that it may be its pivot
+constexpr double holds = 1e-6;  // of a tangent on a motion of size 1: with less a contact does not hold it
+constexpr double weak_share = 1e-10;  // of the diagonal: leaves six digits and holds what is loose
+constexpr double undriven = 1e-9;     // of the greatest load times motion: less work drives no free motion
+constexpr int together_up_to = 300;   // degrees of freedom; above, part by part
 
 /// Completes the independent rows (p x m) by unit rows. Each row gives up the first column that it has a
 /// fair share of, so that a holder holds the horizontal motion rather than a mix of it with a rotation.
@@ -24,7 +28,7 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   std::vector<bool> taken(static_cast<std::size_t>(rows.cols()), false);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     Eigen::Index pivot = 0;
-    while (std::abs(rows(i, pivot)) < 1e-3 * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
+    while (std::abs(rows(i, pivot)) < fair_share * rows.row(i).cwiseAbs().maxCoeff()) ++pivot;
     taken[static_cast<std::size_t>(pivot)] = true;
     for (Eigen::Index k = i + 1; k < rows.rows(); ++k) {
       rows.row(k) -= rows(k, pivot) / rows(i, pivot) * rows.row(i);
@@ -85,10 +89,9 @@ std::vector<FreeMotion> hold_part(const StaticProblem& problem, const Eigen::Mat
     Eigen::VectorXd row(m);
     for (Eigen::Index j = 0; j < m; ++j) row[j] = tangent.dot(null.col(j));
     const Eigen::VectorXd rest = row - basis * (basis.transpose() * row);
-    // Motions have size 1: a contact that takes part with a millionth does not hold one.
     double form_size = 0.0;
     for (const auto& [i, a] : tangent.terms) form_size = std::max(form_size, std::abs(a));
-    if (!(rest.norm() > 1e-6 * form_size)) return;
+    if (!(rest.norm() > holds * form_size)) return;
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     basis.rightCols(1) = rest.normalized();
     rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
@@ -163,7 +166,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     const double largest = k.diagonal().cwiseAbs().maxCoeff();
     for (int i = 0; i < k.rows(); ++i) {
       const double d = std::abs(k.coeff(i, i));
-      weak.coeffRef(i, i) = 1e-10 * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
+      weak.coeffRef(i, i) = weak_share * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
     }
     k += weak;
   }
@@ -210,7 +213,7 @@ double driving_work(const StaticProblem& problem, const SparseMatrix& k, const V
     motion_size[kind] = std::max(motion_size[kind], std::abs(motion[i]));
     load_size[kind] = std::max(load_size[kind], std::abs(p[i]));
   }
-  const double all = 1e-9 * (motion_size[0] * load_size[0] + motion_size[1] * load_size[1]);
+  const double all = undriven * (motion_size[0] * load_size[0] + motion_size[1] * load_size[1]);
   return std::abs(work) > roundoff + all ? work : 0.0;
 }
 

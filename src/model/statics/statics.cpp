@@ -16,6 +16,8 @@
 namespace signorini {
 namespace {
 
+constexpr double only_touches = 1e-13;  // of the greatest translation: a solution's rounding in a gap
+
 const std::string key = "run.initial";
 
 struct Trial {
@@ -150,7 +152,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       const bool rigid = contacts[k].takes_impulses();
       if (rigid && closed[k])
         next[k] = trial.reactions[k] >= 0.0;
-      else if (std::abs(g) > 1e-13 * (size + std::abs(contacts[k].gap)))
+      else if (std::abs(g) > only_touches * (size + std::abs(contacts[k].gap)))
         next[k] = g < 0.0;
     }
     if (next == closed || round == 20) {

@@ -8,6 +8,8 @@
 namespace signorini {
 namespace {
 
+constexpr double no_stiffness = 1e-12;  // of the diagonal: regular, and below what contacts' springs show
+
 std::vector<bool> closed_at(const StaticProblem& problem, const Vector& u) {
   std::vector<bool> closed(problem.contacts.size(), false);
   for (std::size_t k = 0; k < closed.size(); ++k)
@@ -55,7 +57,7 @@ SparseMatrix weak_support(const SparseMatrix& k) {
   const Vector d = k.diagonal().cwiseAbs();
   SparseMatrix weak(k.rows(), k.cols());
   weak.reserve(Eigen::VectorXi::Constant(k.cols(), 1));
-  for (int i = 0; i < d.size(); ++i) weak.insert(i, i) = 1e-12 * (d[i] > 0.0 ? d[i] : 1.0);
+  for (int i = 0; i < d.size(); ++i) weak.insert(i, i) = no_stiffness * (d[i] > 0.0 ? d[i] : 1.0);
   return weak;
 }
 

@@ -173,7 +173,7 @@ fix = ["ux", "uy"]
 [[supports]]
 node = "D"
 fix = ["uy"]
-motion = { type = "table", times = [0.0, 1.0], values = [0.0, -0.02], interpolation = "steffen", hold = true }
+motion = { type = "table", times = [0.0, 0.2, 0.8, 1.0], values = [0.0, 0.0, -0.02, -0.02], interpolation = "steffen", hold = true }
 ```
 
 The force of supports that move is -K s - C s' - M s'', of the rows of what is free and the columns of what moves; the

@@ -1,8 +1,7 @@
 // load_table.hpp: what acts on a structure over time, as a table for pictures (docs/output.md).
 //
-//   loads.csv  t,NAME,...    f_i(t) of every load that is not constant, amplitude included, and the
-//   acceleration
-//                            of the base; both sides of breakpoints
+//   loads.csv  t,NAME,...   f_i(t) of every load that is not constant, amplitude included,
+//                           and the acceleration of the base; both sides of breakpoints
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ namespace {
 
 class Bdf final : public Integrator {
  public:
-  explicit Bdf(Flow& flow)
+  explicit Bdf(ModeFlow& flow)
       : flow_(flow),
         model_(flow.model()),
         structure_(model_),
@@ -142,7 +142,7 @@ class Bdf final : public Integrator {
     return 0;
   }
 
-  Flow& flow_;
+  ModeFlow& flow_;
   const Model& model_;
   Structure structure_;
   Layout layout_;
@@ -157,6 +157,6 @@ class Bdf final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_bdf(Flow& flow) { return std::make_unique<Bdf>(flow); }
+std::unique_ptr<Integrator> make_bdf(ModeFlow& flow) { return std::make_unique<Bdf>(flow); }
 
 }  // namespace signorini::esdirk

@@ -12,7 +12,7 @@ namespace {
 
 class Esdirk final : public Integrator {
  public:
-  Esdirk(Flow& flow, int order, bool linear) : flow_(flow), order_(order) {
+  Esdirk(ModeFlow& flow, int order, bool linear) : flow_(flow), order_(order) {
     y_ = make_vector(2 * flow.size(), parts_.context);
     N_VConst(0.0, y_);
     memory_ = ARKStepCreate(nullptr, &Esdirk::derivative, 0.0, y_, parts_.context);
@@ -111,7 +111,7 @@ class Esdirk final : public Integrator {
     };
   }
 
-  Flow& flow_;
+  ModeFlow& flow_;
   int order_;
   Parts parts_;
   N_Vector y_ = nullptr;
@@ -122,7 +122,7 @@ class Esdirk final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_esdirk(Flow& flow, int order, bool linear) {
+std::unique_ptr<Integrator> make_esdirk(ModeFlow& flow, int order, bool linear) {
   return std::make_unique<Esdirk>(flow, order, linear);
 }
 

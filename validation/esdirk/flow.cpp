@@ -18,7 +18,7 @@ Form stribeck_tangent(const Contact& contact, State state, double vt, double N) 
   return sliding_row_tangent(contact, slip_sign(state), m);
 }
 
-Flow::Flow(const Model& model, const Structure& structure)
+ModeFlow::ModeFlow(const Model& model, const Structure& structure)
     : model_(model),
       structure_(structure),
       n_(model.size()),
@@ -35,7 +35,7 @@ Flow::Flow(const Model& model, const Structure& structure)
   }
 }
 
-void Flow::start(const Mode& mode, double t) {
+void ModeFlow::start(const Mode& mode, double t) {
   const bool same = !mode_.empty() && states_of(mode) == states_of(mode_);
   mode_ = mode;
   rows_ = tangents_ = rows_of(model_, mode);
@@ -54,7 +54,7 @@ void Flow::start(const Mode& mode, double t) {
   ++count.factorisations;
 }
 
-ContactMotion Flow::motion(std::size_t k, double t, int order, const double* u, const double* v) const {
+ContactMotion ModeFlow::motion(std::size_t k, double t, int order, const double* u, const double* v) const {
   const Contact& contact = model_.contacts[k];
   ContactMotion m;
   m.gap = (order == 0 ? contact.gap : 0.0) + contact.normal.dot(u);
@@ -67,7 +67,7 @@ ContactMotion Flow::motion(std::size_t k, double t, int order, const double* u, 
   return m;
 }
 
-void Flow::derivative(double t, int order, const double* y, double* dy) {
+void ModeFlow::derivative(double t, int order, const double* y, double* dy) {
   ++count.derivatives;
   const double *u = y, *v = y + n_;
   std::fill(rhs_.begin(), rhs_.end(), 0.0);
@@ -90,7 +90,7 @@ void Flow::derivative(double t, int order, const double* y, double* dy) {
   std::copy(rhs_.begin(), rhs_.begin() + n_, dy + n_);
 }
 
-void Flow::linearise(double t, const double* y) {
+void ModeFlow::linearise(double t, const double* y) {
   if (linear_) return;
   for (std::size_t k = 0; k < rows_.size(); ++k)
     if (slips_nonlinearly(model_.contacts[k], mode_[k].state)) {
@@ -99,7 +99,7 @@ void Flow::linearise(double t, const double* y) {
     }
 }
 
-bool Flow::factor(double g) {
+bool ModeFlow::factor(double g) {
   ++count.factorisations;
   g_ = g;
   const std::vector<Weights> weights(static_cast<std::size_t>(n_), Weights{1.0, g, g * g});
@@ -108,7 +108,7 @@ bool Flow::factor(double g) {
   return ok;
 }
 
-void Flow::solve(const double* b, double* x) {
+void ModeFlow::solve(const double* b, double* x) {
   ++count.solves;
   const double *bu = b, *bv = b + n_;
   std::fill(rhs_.begin(), rhs_.end(), 0.0);
@@ -117,7 +117,7 @@ void Flow::solve(const double* b, double* x) {
   structure_.add_product(structure_.k, work_.data(), rhs_.data());
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    const double gap = contact.normal.dot(work_), ut = contact.tangent.dot(work_);
+    const double gap = contact.normal.dot(work_.data()), ut = contact.tangent.dot(work_.data());
     const double an = contact.normal.dot(bv), at = contact.tangent.dot(bv);
     const auto row = static_cast<std::size_t>(n_) + 2 * k;
     const auto side = [&](const Form& f) { return f.gap * gap + f.ut * ut + f.an * an + f.at * at; };
@@ -132,11 +132,11 @@ void Flow::solve(const double* b, double* x) {
   }
 }
 
-void Flow::weights(const double* y, double* w) const {
+void ModeFlow::weights(const double* y, double* w) const {
   for (std::size_t i = 0; i < scale_.size(); ++i) w[i] = 1.0 / (rtol_ * (std::abs(y[i]) + scale_[i]));
 }
 
-double Flow::distance(const double* y, const Vector& u, const Vector& v) const {
+double ModeFlow::distance(const double* y, const Vector& u, const Vector& v) const {
   double sum = 0.0;
   for (int i = 0; i < n_; ++i) {
     const double du = (y[i] - u[i]) / scale_[static_cast<std::size_t>(i)];
@@ -146,7 +146,7 @@ double Flow::distance(const double* y, const Vector& u, const Vector& v) const {
   return std::sqrt(sum / (2.0 * n_));
 }
 
-double Flow::value(const Form& form, std::size_t k, double t, const double* y) {
+double ModeFlow::value(const Form& form, std::size_t k, double t, const double* y) {
   std::vector<double> dy(static_cast<std::size_t>(2 * n_));
   derivative(t, 0, y, dy.data());
   ContactMotion m = motion(k, t, 0, y, y + n_);

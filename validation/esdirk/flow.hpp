@@ -16,9 +16,9 @@
 
 namespace signorini::esdirk {
 
-class Flow {
+class ModeFlow {
  public:
-  Flow(const Model& model, const Structure& structure);
+  ModeFlow(const Model& model, const Structure& structure);
 
   /// Puts a mode and the pieces of the loads just after t in force.
   void start(const Mode& mode, double t);

@@ -31,13 +31,13 @@ class Integrator {
 
 /// SUNDIALS' ARKStep with an ESDIRK table of order 3, 4 or 5. linear: one Newton iteration a stage without a
 /// test, which is exact on a linear mode.
-[[nodiscard]] std::unique_ptr<Integrator> make_esdirk(Flow& flow, int order, bool linear);
+[[nodiscard]] std::unique_ptr<Integrator> make_esdirk(ModeFlow& flow, int order, bool linear);
 /// SUNDIALS' IDA on [u, v, N, T], N and T outside its error norm.
-[[nodiscard]] std::unique_ptr<Integrator> make_bdf(Flow& flow);
+[[nodiscard]] std::unique_ptr<Integrator> make_bdf(ModeFlow& flow);
 
 /// The step that keeps h^q/q! |y^(q)| at 0.4^q of the tolerance, at most the whole stretch; 0 (the
 /// integrator's own choice) for motions that are not linear.
-[[nodiscard]] double first_step(Flow& flow, const Stretch& stretch, int from_order, int to_order);
+[[nodiscard]] double first_step(ModeFlow& flow, const Stretch& stretch, int from_order, int to_order);
 
 /// Tally::to_length of one stretch, from the lengths of its steps.
 [[nodiscard]] long steps_to_length(const std::vector<double>& steps);

@@ -25,7 +25,7 @@ struct Subject {
 struct Row {
   double rtol = 0.0, seconds = 1e300;
   Tally tally;
-  Flow::Count count;
+  ModeFlow::Count count;
   double state = 0.0;     ///< root mean square over the stretches of the error at their ends
   double inside = 0.0;    ///< the same, interpolated in a step that passes the end
   double greatest = 0.0;  ///< of these errors
@@ -40,7 +40,7 @@ double ninth_decile(std::vector<double> values) {
   return *place;
 }
 
-Row measure(Integrator& integrator, Flow& flow, const std::vector<Stretch>& stretches, double rtol) {
+Row measure(Integrator& integrator, ModeFlow& flow, const std::vector<Stretch>& stretches, double rtol) {
   Row row;
   row.rtol = rtol;
   flow.set_tolerance(rtol);
@@ -53,7 +53,7 @@ Row measure(Integrator& integrator, Flow& flow, const std::vector<Stretch>& stre
     integrator.run(s, false, y, row.tally);
     passed += processor_time() - start;
     states.push_back(flow.distance(y.data(), s.u1, s.v1));
-    const Flow::Count kept = flow.count;
+    const ModeFlow::Count kept = flow.count;
     if (s.ending)
       events.push_back(
           std::abs(flow.value(s.ending->form, s.ending->contact, s.end, y.data()) / s.ending->rate));
@@ -112,7 +112,7 @@ void compare(const Subject& subject, double limit) {
   const Scene scene = read_scene(subject.file, subject.changes);
   const Model model = build_model(scene);
   const Structure structure(model);
-  Flow flow(model, structure);
+  ModeFlow flow(model, structure);
   const Cut reference = cut(scene, model, subject.restart);
   const auto stretches = static_cast<double>(reference.stretches.size());
   double length = 0.0;

@@ -4,7 +4,7 @@
 
 namespace signorini::esdirk {
 
-double first_step(Flow& flow, const Stretch& stretch, int from_order, int to_order) {
+double first_step(ModeFlow& flow, const Stretch& stretch, int from_order, int to_order) {
   constexpr double part = 0.4;  // as engine ida's
   if (!flow.linear()) return 0.0;
   const auto n = static_cast<std::size_t>(flow.size());

@@ -1,8 +1,9 @@
 // friction_iteration.hpp: engine `friction-iteration`: the method that the paper compares its own with.
 //
 //   repeat within a step of fixed length, the bounds B_k = f |N_k| taken from the last iterate:
-//     states of the contacts with that bound given: open if N > 0; T = kt (ut - p) while |T| <= B, else T = s
-//     B B := B + w (f |N| - B)
+//     states of the contacts with that bound given:
+//       open if N > 0;  T = kt (ut - p) while |T| <= B,  else T = s B
+//     B := B + w (f |N| - B)
 //   until no bound changes
 //
 // No event is localised: a change of state takes effect at the end of its step, and closing counts from the

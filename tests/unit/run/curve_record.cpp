@@ -45,8 +45,8 @@ TEST_CASE("displacements and energies of pictures do not depend on the output ti
     CAPTURE(engine);
     const std::vector<Override> changes{{"run.engine", engine}, {"run.dt", "1e-3"}, {"run.t_end", "20.0"}};
     std::vector<Override> coarse = changes, fine = changes;
-    coarse.emplace_back("run.output_dt", "20.0");
-    fine.emplace_back("run.output_dt", "0.01");
+    coarse.push_back({"run.output_dt", "20.0"});
+    fine.push_back({"run.output_dt", "0.01"});
     const CurveKeeper few = curves_of("belt", coarse), many = curves_of("belt", fine);
     double u = 0.0, kinetic = 0.0, surface = 0.0;
     for (const Result::Row& row : many.rows) {

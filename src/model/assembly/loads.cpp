@@ -54,13 +54,22 @@ std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::st
   return {found, found->from != from};
 }
 
+/// Length of an element, cosine and sine of its direction.
+struct Axis {
+  double length, c, s;
+};
+Axis axis_of(const Mesh& mesh, const MeshElement& element) {
+  const MeshNode& a = mesh.nodes[static_cast<std::size_t>(element.a)];
+  const MeshNode& b = mesh.nodes[static_cast<std::size_t>(element.b)];
+  const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+  return {length, dx / length, dy / length};
+}
+
 /// Adds what a force per length of one does to one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
   const MeshElement& e = map.mesh.elements[element];
-  const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(e.a)];
-  const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
-  const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  const double c = dx / length, s = dy / length, turn = backwards ? -1.0 : 1.0;
+  const auto [length, c, s] = axis_of(map.mesh, e);
+  const double turn = backwards ? -1.0 : 1.0;
   auto q = spec.direction.vector;
   if (spec.member_axes) q = {turn * (q[0] * c - q[1] * s), turn * (q[0] * s + q[1] * c)};
   const double across = -q[0] * s + q[1] * c;
@@ -116,12 +125,10 @@ Combination strain_form(const Scene& scene, const DofMap& map, int member) {
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
     const MeshElement& e = map.mesh.elements[i];
     if (e.member != member) continue;
-    const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(e.a)];
-    const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
-    const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+    const Axis axis = axis_of(map.mesh, e);
     const double force = scene.sections[static_cast<std::size_t>(e.section)].EA;
     const std::array<int, 6> numbers = map.element_numbers(i);
-    const std::array<double, 2> along{force * dx / length, force * dy / length};
+    const std::array<double, 2> along{force * axis.c, force * axis.s};
     for (std::size_t c = 0; c < 2; ++c) {
       if (numbers[c] >= 0) form[numbers[c]] -= along[c];
       if (numbers[c + 3] >= 0) form[numbers[c + 3]] += along[c];

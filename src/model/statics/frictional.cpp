@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "decide/complementarity.hpp"
 #include "model/assembly/motion_names.hpp"
-#include "model/assembly/springs.hpp"
+#include "model/statics/held_rows.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -18,87 +17,8 @@ namespace signorini {
 namespace {
 
 // Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
-// sixteen digits. Chosen; tests/unit/model/statics/frictional.cpp moves when it is 1e-6.
+// sixteen digits. Chosen.
 constexpr double same_force = 1e-11;
-
-/// d . u - c F = r: a row that is in force, F the force along -d.
-struct Row {
-  Combination form;
-  double stiffness = 0.0;  ///< 1 / c; of a rigid row the structure's own, which changes nothing
-  bool rigid = false;
-};
-
-/// The structure on its rows: displacements and forces for loads and for given r.
-class HeldRows {
- public:
-  HeldRows(const SparseMatrix& k, std::vector<Row> rows)
-      : rows_(std::move(rows)), matrix_(with_springs(k, springs())), solver_(matrix_) {
-    for (std::size_t j = 0; j < rows_.size(); ++j)
-      if (rows_[j].rigid) rigid_.push_back(j);
-    if (!regular()) return;
-    const auto n = static_cast<Eigen::Index>(rigid_.size());
-    schur_.resize(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      answers_.push_back(solver_.solve(full(rigid_row(i).form, static_cast<int>(k.rows()))));
-      for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
-    }
-  }
-
-  /// Positive definite: what is held stays where it is.
-  [[nodiscard]] bool regular() const {
-    return solver_.ok() &&
-           solver_.smallest_pivot() > 1e-13 * matrix_.diagonal().cwiseAbs().maxCoeff() * least_share();
-  }
-  [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-
-  /// u and the forces F, one a row.
-  [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const {
-    for (std::size_t j = 0; j < rows_.size(); ++j)
-      if (const double by = r[static_cast<Eigen::Index>(j)]; by != 0.0)
-        rows_[j].form.add_to(load, rows_[j].stiffness * by);
-    Vector u = solver_.solve(load);
-    Vector forces = Vector::Zero(r.size());
-    const auto n = static_cast<Eigen::Index>(rigid_.size());
-    if (n > 0) {
-      Eigen::VectorXd miss(n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        miss[i] =
-            rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
-      const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
-        forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];
-      }
-    }
-    for (std::size_t j = 0; j < rows_.size(); ++j) {
-      const auto i = static_cast<Eigen::Index>(j);
-      forces[i] += rows_[j].rigid ? 0.0 : rows_[j].stiffness * (rows_[j].form.dot(u) - r[i]);
-    }
-    return {std::move(u), std::move(forces)};
-  }
-
- private:
-  [[nodiscard]] const Row& rigid_row(Eigen::Index i) const {
-    return rows_[rigid_[static_cast<std::size_t>(i)]];
-  }
-  [[nodiscard]] std::vector<LineSpring> springs() const {
-    std::vector<LineSpring> list;
-    for (const Row& row : rows_) list.push_back({row.form, row.stiffness});
-    return list;
-  }
-  /// Rotations have stiffnesses of another unit: the least diagonal entry over the greatest.
-  [[nodiscard]] double least_share() const {
-    const Vector d = matrix_.diagonal().cwiseAbs();
-    return d.maxCoeff() > 0.0 ? d.minCoeff() / d.maxCoeff() : 1.0;
-  }
-
-  std::vector<Row> rows_;
-  SparseMatrix matrix_;
-  SymmetricSolver solver_;
-  std::vector<std::size_t> rigid_;
-  Eigen::MatrixXd schur_;
-  std::vector<Vector> answers_;
-};
 
 /// One contact on its way.
 struct Standing {
@@ -226,8 +146,8 @@ class Path {
   }
 
   /// Rows in force: of all contacts that are not apart.
-  std::vector<Row> make_rows(double zero) {
-    std::vector<Row> rows;
+  std::vector<HeldRow> make_rows(double zero) {
+    std::vector<HeldRow> rows;
     const auto add = [&](const Combination& form, std::optional<double> k) {
       rows.push_back({form, k ? *k : own_stiffness(stiffness_, form), !k});
       return static_cast<int>(rows.size()) - 1;
@@ -271,7 +191,7 @@ class Path {
   /// Rates of everything along the stage, and the states that go with them.
   void find_rates() {
     const double zero = zero_force();
-    const std::vector<Row> rows = make_rows(zero);
+    const std::vector<HeldRow> rows = make_rows(zero);
     const HeldRows held(stiffness_, rows);
     if (!held.regular()) refuse_motion(held);
     const std::vector<Unknown> unknowns = make_unknowns(zero);

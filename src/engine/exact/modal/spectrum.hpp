@@ -67,8 +67,6 @@ class Spectrum {
   /// Greatest |x| |y|, and greatest |X Y q - q| that was found for a q of entries within 1.
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
-  /// Rounds of the search.
-  [[nodiscard]] int sweeps() const { return sweeps_; }
 
   /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { project(q, false, z); }
@@ -162,7 +160,6 @@ class Spectrum {
   std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
-  int sweeps_ = 0;
 };
 
 }  // namespace signorini

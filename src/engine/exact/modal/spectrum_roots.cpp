@@ -210,7 +210,7 @@ bool Spectrum::search(std::vector<S>& offset) {
   std::vector<double> last(n_, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> unsettled(n_);
   std::iota(unsettled.begin(), unsettled.end(), std::size_t(0));
-  for (sweeps_ = 0; !unsettled.empty() && sweeps_ < most_sweeps; ++sweeps_) {
+  for (int sweep = 0; !unsettled.empty() && sweep < most_sweeps; ++sweep) {
     std::vector<std::size_t> left;
     for (const std::size_t k : unsettled) {
       const Correction<S> found = correction(k, offset, shift);
@@ -218,9 +218,9 @@ bool Spectrum::search(std::vector<S>& offset) {
       const bool collides =
           size_of(found.alone) > 1e3 * size_of(found.among) || !std::isfinite(size_of(found.among));
       const S step =
-          collides ? found.alone *
-                         (0.3 + 0.1 * static_cast<double>((k + 7 * static_cast<std::size_t>(sweeps_)) % 5))
-                   : found.among;
+          collides
+              ? found.alone * (0.3 + 0.1 * static_cast<double>((k + 7 * static_cast<std::size_t>(sweep)) % 5))
+              : found.among;
       const double size = size_of(step);
       if (!std::isfinite(size)) {
         failure_ = "the search for eigenvalues left the range of numbers";

@@ -1,0 +1,63 @@
+#include "model/statics/held_rows.hpp"
+
+#include <algorithm>
+
+#include "base/eigen_dense.hpp"
+
+namespace signorini {
+
+HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
+    : rows_(std::move(rows)), matrix_(with_springs(k, springs())), solver_(matrix_) {
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    if (rows_[j].rigid) rigid_.push_back(j);
+  if (!regular()) return;
+  const auto n = static_cast<Eigen::Index>(rigid_.size());
+  schur_.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    answers_.push_back(solver_.solve(full(rigid_row(i).form, static_cast<int>(k.rows()))));
+    for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
+  }
+}
+
+bool HeldRows::regular() const {
+  return solver_.ok() &&
+         solver_.smallest_pivot() > 1e-13 * matrix_.diagonal().cwiseAbs().maxCoeff() * least_share();
+}
+
+std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    if (const double by = r[static_cast<Eigen::Index>(j)]; by != 0.0)
+      rows_[j].form.add_to(load, rows_[j].stiffness * by);
+  Vector u = solver_.solve(load);
+  Vector forces = Vector::Zero(r.size());
+  const auto n = static_cast<Eigen::Index>(rigid_.size());
+  if (n > 0) {
+    Eigen::VectorXd miss(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
+    const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
+      forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];
+    }
+  }
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    forces[i] += rows_[j].rigid ? 0.0 : rows_[j].stiffness * (rows_[j].form.dot(u) - r[i]);
+  }
+  return {std::move(u), std::move(forces)};
+}
+
+std::vector<LineSpring> HeldRows::springs() const {
+  std::vector<LineSpring> list;
+  for (const HeldRow& row : rows_) list.push_back({row.form, row.stiffness});
+  return list;
+}
+
+/// Rotations have stiffnesses of another unit: the least diagonal entry over the greatest.
+double HeldRows::least_share() const {
+  const Vector d = matrix_.diagonal().cwiseAbs();
+  return d.maxCoeff() > 0.0 ? d.minCoeff() / d.maxCoeff() : 1.0;
+}
+
+}  // namespace signorini

@@ -1,9 +1,18 @@
 #include "run/physical.hpp"
 
+#include <array>
 #include <initializer_list>
+#include <string_view>
+#include <utility>
 
 namespace signorini {
 namespace {
+
+constexpr std::array<std::pair<std::string_view, Unit>, 5> units_by_name = {{{"time", unit::time},
+                                                                             {"length", unit::length},
+                                                                             {"force", unit::force},
+                                                                             {"length/time", unit::velocity},
+                                                                             {"force time", unit::impulse}}};
 
 class ToScene {
  public:
@@ -61,15 +70,17 @@ Unit unit_of(const Form& form) {
   return unit::acceleration;
 }
 
+// Of every column, as it is named there; that of guard_rate is the guard's (unit_of).
 Event physical(Event event, const Factors& of) {
   const ToScene convert(of);
-  convert(unit::time, {&event.t});
-  convert(unit::length, event.gap);
-  convert(unit::force, {&event.N, &event.T, &event.N_after, &event.T_after});
-  convert(unit::velocity, {&event.vn, &event.vn_after, &event.vt, &event.vt_after});
-  convert(unit::impulse, event.impulse_n);
-  convert(unit::impulse, event.impulse_t);
-  convert(unit::time, event.t_uncertainty);
+  for (const EventColumn& column : event_columns)
+    for (const auto& [name, unit] : units_by_name) {
+      if (name != column.unit) continue;
+      if (const auto* number = std::get_if<double Event::*>(&column.field))
+        convert(unit, {&(event.**number)});
+      else if (const auto* optional = std::get_if<std::optional<double> Event::*>(&column.field))
+        convert(unit, event.**optional);
+    }
   return event;
 }
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz]; without arguments
-# all of them.
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [install];
+# without arguments all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
 #   threads  simulations side by side under ThreadSanitizer
 #   kill     runs that are killed a hundred times, and what they leave
 #   names    contacts and titles that try to be shell, gnuplot, formats, paths or markup
 #   fuzz     the fuzzers, a quarter of an hour each (FUZZ_SECONDS)
+#   schema   scenes against the schema, by Debian's jsonschema
+#   install  the Debian package on a bare Debian 12 (needs root)
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -37,8 +39,7 @@ threads() {
 
 attack() {
   scripts/setup.sh python3  # names.sh
-  configure release
-  cmake --build build/release -j "$(nproc)" -t signorini_program
+  build_program signorini_program
   "validation/robustness/$1.sh" build/release/signorini
 }
 
@@ -47,8 +48,25 @@ fuzz() {
   validation/robustness/fuzz.sh "${FUZZ_SECONDS:-900}"
 }
 
+build_program() {
+  configure release
+  cmake --build build/release -j "$(nproc)" -t "$@"
+}
+
+scene_schema() {
+  scripts/setup.sh python3 python3-jsonschema
+  build_program signorini_program
+  /usr/bin/python3 tests/install/schema.py build/release/signorini
+}
+
+installed() {
+  scripts/setup.sh debootstrap dpkg-dev
+  build_program all
+  tests/install/package.sh build/release
+}
+
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema install
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -57,7 +75,9 @@ for what in "$@"; do
     threads) threads ;;
     kill | names) attack "$what" ;;
     fuzz) fuzz ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz" >&2; exit 2 ;;
+    schema) scene_schema ;;
+    install) installed ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, install" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

@@ -28,5 +28,9 @@ void add_study(Program& program);
 void add_sweep(Program& program);
 void add_verify(Program& program);
 void add_keys(Program& program);
+void add_schema(Program& program);
+void add_new(Program& program);
+void add_completion(Program& program);
+void add_man(Program& program);
 
 }  // namespace signorini::cli

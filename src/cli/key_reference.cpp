@@ -3,10 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
+#include "base/listed.hpp"
 #include "cli/table.hpp"
 #include "scene/keys.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini::cli {
 
@@ -53,6 +56,18 @@ std::string key_table(std::string_view table) {
   return rows.empty() ? "" : "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n" + rows;
 }
 
+std::string small(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool speaks_of(const std::vector<std::string>& row, const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& cell : row) line += small(cell) + " ";
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return line.find(small(word)) != std::string::npos; });
+}
+
 std::string not_yet() {
   std::string text;
   for (const Key& key : all_keys()) {
@@ -66,17 +81,25 @@ std::string not_yet() {
 
 }  // namespace
 
-std::string key_list() {
-  std::string text = "units in terms of force, mass, length and time; - : no default, may be left out\n";
+std::string key_list(const std::vector<std::string>& words) {
+  const std::string heading =
+      "units in terms of force, mass, length and time; - : no default, may be left out\n";
+  std::string text = heading;
   for (const std::string_view table : tables()) {
     Table rows({"", "", "", "", ""}, {false, false, false, false, false});
+    bool any = false;
     for (const Key& key : all_keys()) {
       if (key.table != table) continue;
-      rows.row({path_of(key), describe_type(key), std::string(key.unit), default_of(key),
-                std::string(key.meaning) + (key.later ? " (not supported yet)" : "")});
+      const std::vector<std::string> row = {
+          path_of(key), describe_type(key), std::string(key.unit), default_of(key),
+          std::string(key.meaning) + (key.later ? " (not supported yet)" : "")};
+      if (!speaks_of(row, words)) continue;
+      any = true;
+      rows.row(row);
     }
-    text += rows.str();
+    if (any) text += rows.str();
   }
+  if (text == heading) throw UsageError("no key speaks of " + listed(words));
   return text;
 }
 

@@ -7,11 +7,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace signorini::cli {
 
-/// One line a key: path, type, unit, default, meaning.
-[[nodiscard]] std::string key_list();
+/// One line a key: path, type, unit, default, meaning. Only lines that have all of the words, whatever the case.
+/// Errors: UsageError where no line has.
+[[nodiscard]] std::string key_list(const std::vector<std::string>& words = {});
 
 /// docs/scene.md, whole.
 [[nodiscard]] std::string scene_reference();

@@ -1,4 +1,5 @@
-// signorini keys: every key of a scene file, from the table that the reader itself uses.
+// signorini keys [WORD...]: every key of a scene file, or those that speak of the words, from the table that
+// the reader itself uses.
 #include <memory>
 
 #include "cli/command.hpp"
@@ -9,11 +10,14 @@ namespace signorini::cli {
 
 void add_keys(Program& program) {
   auto markdown = std::make_shared<bool>(false);
-  CLI::App* command = program.app.add_subcommand("keys", "list every key of a scene file");
+  auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = program.app.add_subcommand("keys", "list the keys of a scene file");
+  command->add_option("WORD", *words, "only keys whose line has all of these, in small or capital letters");
   command->add_flag("--markdown", *markdown, "print docs/scene.md, the reference with examples");
-  command->callback([&program, markdown] {
-    program.action = [markdown] {
-      print(*markdown ? scene_reference() : key_list());
+  command->callback([&program, markdown, words] {
+    program.action = [markdown, words] {
+      if (*markdown && !words->empty()) throw UsageError("--markdown: prints all keys, expected no WORD");
+      print(*markdown ? scene_reference() : key_list(*words));
       return ExitCode::done;
     };
   });

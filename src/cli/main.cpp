@@ -58,7 +58,11 @@ int main_program(int argc, char** argv) {
   add_sweep(program);
   add_study(program);
   add_plot(program);
+  add_new(program);
   add_keys(program);
+  add_schema(program);
+  add_completion(program);
+  add_man(program);
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   std::vector<std::string> line = arguments(argc, argv);

@@ -64,8 +64,8 @@ constexpr Key table_of_keys[] = {
     {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities; rtol times the scale of velocities where absent."},
     {"run.atol", "force", positive, "force", "", "", "Absolute tolerance of contact forces; rtol times the scale of forces where absent."},
 
-    {"run.initial", "u", numbers, "", "", "", "With [matrices]: initial displacement of each degree of freedom, or the name of a Matrix Market file with one column."},
-    {"run.initial", "v", numbers, "", "", "", "With [matrices]: initial velocity of each degree of freedom, in the same way."},
+    {"run.initial", "u", numbers_or_file, "", "", "", "With [matrices]: initial displacement of each degree of freedom."},
+    {"run.initial", "v", numbers_or_file, "", "", "", "With [matrices]: initial velocity of each degree of freedom."},
     {"run.initial", "run", text, "", "", "", "Directory of a run from whose state this one goes on, beside the scene."},
     {"run.initial", "t", number, "time", "", "", "With run: which of the states in its states.csv; the last where absent."},
     {"run.initial", "*", table, "", "", "", "Initial state of the node of this name."},
@@ -261,6 +261,10 @@ std::string one_of(const std::vector<std::string>& words) {
   return "one of " + list;
 }
 
+std::string heading(const Key& key) {
+  return "[[" + (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name) + "]]";
+}
+
 }  // namespace
 
 std::string describe_type(const Key& key) {
@@ -287,20 +291,21 @@ std::string describe_type(const Key& key) {
       return "an array of two numbers [x, y]";
     case numbers:
       return "an array of numbers";
+    case numbers_or_file:
+      return "an array of numbers, or the name of a Matrix Market file with one column";
     case texts:
       return "an array of strings";
     case table:
       return "a table";
     case tables:
-      return "tables under [[" + std::string(key.name) + "]]";
+    case one_or_many:
+      return (key.type == tables ? "tables under " : "a table, or tables under ") + heading(key);
     case tolerance_order:
       return "\"auto\" or an integer from 1 to 5";
     case automatic_flag:
       return "\"auto\", true or false";
     case flag:
       return "true or false";
-    case one_or_many:
-      return "a table, or tables under [[" + std::string(key.name) + "]]";
     case KeyType::elements:
       return "an integer >= 1, or an array of them, one a piece";
     case KeyType::initial:

@@ -28,6 +28,7 @@ enum class KeyType {
   choice,
   vector,
   numbers,
+  numbers_or_file,
   texts,
   table,
   tables,

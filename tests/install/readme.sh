@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The program of the README, compiled against the installed library without a word on its standard, and run.
+# The program of the README, compiled against the installed library without a word on its standard, and run: by CMake, and
+# after the tree was moved by pkg-config. The installed program, its pages and its models.
 # readme.sh BUILD_FOLDER
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
@@ -21,3 +22,17 @@ cmake --build "$work/build" >/dev/null
 events="$(cd "$root" && "$work/build/own" | wc -l)"
 echo "$events events"
 ((events > 200))
+
+mv "$work/prefix" "$work/moved"
+pc="$(dirname "$(find "$work/moved" -name signorini.pc)")"
+export PKG_CONFIG_PATH="$pc"
+# shellcheck disable=SC2046  # flags are words
+"${CXX:-c++}" "$work/main.cpp" -o "$work/by-pkg-config" $(pkg-config --cflags --libs signorini)
+((events == $(cd "$root" && "$work/by-pkg-config" | wc -l)))
+
+"$work/moved/bin/signorini" run "$work/moved/share/signorini/models/belt.toml" -o "$work/belt" --quiet --no-plots
+[[ -s "$work/belt/events.csv" ]]
+for page in signorini signorini-run signorini-sweep; do [[ -s "$work/moved/share/man/man1/$page.1" ]]; done
+bash -c "source '$work/moved/share/bash-completion/completions/signorini'; complete -p signorini" >/dev/null
+[[ -s "$work/moved/share/zsh/vendor-completions/_signorini" && -s "$work/moved/share/signorini/schema.json" ]]
+[[ -s "$work/moved/share/doc/signorini/docs/theory.md" ]]

@@ -1,0 +1,197 @@
+#include "scene/schema.hpp"
+
+#include <toml++/toml.h>
+
+#include "base/json.hpp"
+#include "scene/keys.hpp"
+
+namespace signorini {
+
+namespace {
+
+Json json_of(const toml::node& node) {
+  if (const auto* value = node.as_boolean()) return value->get();
+  if (const auto* value = node.as_integer()) return value->get();
+  if (const auto* value = node.as_floating_point()) return value->get();
+  if (const auto* value = node.as_string()) return value->get();
+  Json json = node.is_array() ? Json::array() : Json::object();
+  if (const toml::array* array = node.as_array())
+    for (const toml::node& item : *array) json.push_back(json_of(item));
+  if (const toml::table* table = node.as_table())
+    for (const auto& [name, item] : *table) json[std::string(name.str())] = json_of(item);
+  return json;
+}
+
+Json default_json(const Key& key) {
+  const toml::table parsed = toml::parse("value = " + std::string(key.fallback));
+  return json_of(*parsed.get("value"));
+}
+
+/// "contacts[].friction" as the name of a definition, which may stand in an address: contacts.friction
+std::string definition_name(std::string_view table) {
+  std::string name;
+  for (const char c : table) {
+    if (c == '*') name += "NAME";
+    if (c != '*' && c != '[' && c != ']') name += c;
+  }
+  return name;
+}
+
+Json reference(std::string_view table) { return {{"$ref", "#/definitions/" + definition_name(table)}}; }
+
+Json any_of(Json first, Json second) {
+  Json list = Json::array();
+  list.push_back(std::move(first));
+  list.push_back(std::move(second));
+  return {{"anyOf", std::move(list)}};
+}
+
+Json array_of(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+
+Json one_of_words(const std::vector<std::string>& words) { return {{"type", "string"}, {"enum", words}}; }
+
+Json number_type(KeyType type) {
+  Json json = {{"type", type == KeyType::count || type == KeyType::integer ? "integer" : "number"}};
+  if (type == KeyType::positive) json["exclusiveMinimum"] = 0;
+  if (type == KeyType::non_negative || type == KeyType::fraction) json["minimum"] = 0;
+  if (type == KeyType::fraction) json["maximum"] = 1;
+  if (type == KeyType::count) json["minimum"] = 1;
+  if (type == KeyType::relative_tolerance) {
+    json["minimum"] = 1e-14;
+    json["exclusiveMaximum"] = 1;
+  }
+  return json;
+}
+
+/// An array [x, y].
+Json plane_vector() {
+  Json json = array_of(number_type(KeyType::number));
+  json["minItems"] = 2;
+  json["maxItems"] = 2;
+  return json;
+}
+
+Json direction_type() {
+  const Json by_dof = {{"type", "object"}, {"additionalProperties", number_type(KeyType::number)}};
+  Json json = any_of(plane_vector(), by_dof);
+  json["anyOf"].push_back({{"type", "string"}});
+  return json;
+}
+
+/// Path of the table under a key.
+std::string below(const Key& key) {
+  return (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name);
+}
+
+Json table_type(const Key& key) {
+  switch (key.type) {
+    case KeyType::tables:
+      return array_of(reference(below(key) + "[]"));
+    case KeyType::one_or_many:
+      return any_of(reference(below(key)), array_of(reference(below(key))));
+    case KeyType::initial:
+      return any_of(one_of_words({"static", "frictional"}), reference(below(key)));
+    case KeyType::friction:
+      return any_of(number_type(KeyType::non_negative), reference(below(key)));
+    case KeyType::history:
+      return reference("history");
+    case KeyType::standing_history:
+      return any_of(number_type(KeyType::number), reference("history"));
+    default:
+      return reference(below(key));
+  }
+}
+
+Json value_type(const Key& key) {
+  const Json text = {{"type", "string"}};
+  switch (key.type) {
+    case KeyType::text:
+    case KeyType::name:
+      return text;
+    case KeyType::choice:
+      return one_of_words(choices_of(key));
+    case KeyType::flag:
+      return {{"type", "boolean"}};
+    case KeyType::automatic_flag:
+      return any_of({{"type", "boolean"}}, one_of_words({"auto"}));
+    case KeyType::tolerance_order: {
+      Json order = number_type(KeyType::count);
+      order["maximum"] = 5;
+      return any_of(one_of_words({"auto"}), order);
+    }
+    case KeyType::texts:
+      return array_of(text);
+    case KeyType::vector:
+      return plane_vector();
+    case KeyType::numbers:
+      return array_of(number_type(KeyType::number));
+    case KeyType::numbers_or_file:
+      return any_of(array_of(number_type(KeyType::number)), text);
+    case KeyType::elements:
+      return any_of(number_type(KeyType::count), array_of(number_type(KeyType::count)));
+    case KeyType::against: {
+      Json two = array_of(text);
+      two["minItems"] = 2;
+      two["maxItems"] = 2;
+      return any_of(text, two);
+    }
+    case KeyType::direction:
+      return direction_type();
+    case KeyType::matrix:
+      return any_of(text, array_of(array_of(number_type(KeyType::number))));
+    case KeyType::table:
+    case KeyType::tables:
+    case KeyType::one_or_many:
+    case KeyType::initial:
+    case KeyType::friction:
+    case KeyType::history:
+    case KeyType::standing_history:
+      return table_type(key);
+    default:
+      return number_type(key.type);
+  }
+}
+
+Json key_schema(const Key& key) {
+  Json json = value_type(key);
+  if (key.table.empty() && key.name == "schema") json = {{"const", 1}};
+  // Beside a $ref, draft 7 reads nothing else.
+  if (json.contains("$ref")) json = {{"allOf", Json::array({json})}};
+  json["description"] =
+      std::string(key.meaning) + (key.unit.empty() ? "" : " Unit: " + std::string(key.unit) + ".");
+  if (!key.fallback.empty() && key.fallback != "required") json["default"] = default_json(key);
+  return json;
+}
+
+Json table_schema(std::string_view table) {
+  const Key* any = find_key(table, "*");
+  Json properties = Json::object(), required = Json::array();
+  for (const std::string& name : key_names(table)) {
+    const Key& key = *find_key(table, name);
+    properties[name] = key_schema(key);
+    // A name of the user's may be that of a key, too.
+    if (any) properties[name] = any_of(properties[name], value_type(*any));
+    if (key.fallback == "required") required.push_back(name);
+  }
+  Json json = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (any) json["additionalProperties"] = key_schema(*any);
+  if (!required.empty()) json["required"] = required;
+  return json;
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "Signorini scene"},
+                 {"description", "Structures on unilateral frictional contacts, event by event."}};
+  schema.update(table_schema(""));
+  Json definitions = Json::object();
+  for (const Key& key : all_keys())
+    if (const std::string name = definition_name(key.table); !name.empty() && !definitions.contains(name))
+      definitions[name] = table_schema(key.table);
+  schema["definitions"] = std::move(definitions);
+  return json_text(schema);
+}
+
+}  // namespace signorini

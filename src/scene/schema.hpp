@@ -1,0 +1,16 @@
+// schema.hpp: the key table as a JSON Schema, for editors that complete and check scenes as they are written.
+//
+//   table T        { "type": "object", "properties": its keys, "additionalProperties": false or T.* }
+//   required keys  "required";   defaults "default";   meaning and unit "description"
+//
+// Draft 7, which the editors' TOML servers know. What one key asks of another (a slider needs a
+// normal_force), names of nodes and files are not in it: `signorini check` reads the whole scene.
+#pragma once
+
+#include <string>
+
+namespace signorini {
+
+[[nodiscard]] std::string scene_schema();
+
+}  // namespace signorini

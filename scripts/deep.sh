@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [install];
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [install];
 # without arguments all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
@@ -8,6 +8,7 @@
 #   names    contacts and titles that try to be shell, gnuplot, formats, paths or markup
 #   fuzz     the fuzzers, a quarter of an hour each (FUZZ_SECONDS)
 #   schema   scenes against the schema, by Debian's jsonschema
+#   page     the pages of `report` in a headless Chromium; screenshots in build/page, to be looked at
 #   install  the Debian package on a bare Debian 12 (needs root)
 set -euo pipefail
 
@@ -59,6 +60,12 @@ scene_schema() {
   /usr/bin/python3 tests/install/schema.py build/release/signorini
 }
 
+page() {
+  scripts/setup.sh python3 chromium chromium-driver fonts-dejavu-core
+  build_program signorini_program
+  /usr/bin/python3 -B tests/page/page.py build/release/signorini models build/page
+}
+
 installed() {
   scripts/setup.sh debootstrap dpkg-dev
   build_program all
@@ -66,7 +73,7 @@ installed() {
 }
 
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema install
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page install
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -76,8 +83,9 @@ for what in "$@"; do
     kill | names) attack "$what" ;;
     fuzz) fuzz ;;
     schema) scene_schema ;;
+    page) page ;;
     install) installed ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, install" >&2; exit 2 ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, install" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

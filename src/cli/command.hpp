@@ -24,6 +24,7 @@ void add_run(Program& program);
 void add_check(Program& program);
 void add_compare(Program& program);
 void add_plot(Program& program);
+void add_report(Program& program);
 void add_study(Program& program);
 void add_sweep(Program& program);
 void add_verify(Program& program);

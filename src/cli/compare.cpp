@@ -74,7 +74,9 @@ Scene scene_for(const CompareOptions& options, const std::string& text) {
 
 const OwnedFolder& compare_folder() {
   static const OwnedFolder folder = {
-      "comparison", "compare.json", {"runs.csv", "differences.csv", "columns.csv", "events.csv"}};
+      "comparison",
+      "compare.json",
+      {"runs.csv", "differences.csv", "columns.csv", "events.csv", "report.html"}};
   return folder;
 }
 

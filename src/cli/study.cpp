@@ -49,7 +49,7 @@ struct StudyOptions : OutputOptions {
 };
 
 const OwnedFolder& study_folder() {
-  static const OwnedFolder folder = {"study", "study.json", {"study.csv", "study.md"}};
+  static const OwnedFolder folder = {"study", "study.json", {"study.csv", "study.md", "report.html"}};
   return folder;
 }
 

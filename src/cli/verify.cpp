@@ -28,7 +28,7 @@ struct VerifyOptions : OutputOptions {
 };
 
 const OwnedFolder& verify_folder() {
-  static const OwnedFolder folder = {"verification", "verify.json", {"events.csv"}};
+  static const OwnedFolder folder = {"verification", "verify.json", {"events.csv", "report.html"}};
   return folder;
 }
 

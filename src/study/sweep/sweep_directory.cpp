@@ -118,7 +118,7 @@ void remove_old(const fs::path& path) {
     remove_run(run);
     if (fs::is_empty(run, error)) ours.push_back(run);
   }
-  for (const char* name : {"sweep.csv", "results.json"}) ours.push_back(path / name);
+  for (const char* name : {"sweep.csv", "results.json", "report.html"}) ours.push_back(path / name);
   for (const fs::path& file : ours) {
     fs::remove(file, error);
     if (error) throw FileError(file.string(), "cannot be removed: " + error.message());

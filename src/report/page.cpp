@@ -1,0 +1,215 @@
+#include "report/page.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "base/embedded.hpp"
+#include "base/json.hpp"
+#include "base/version.hpp"
+#include "report/html.hpp"
+#include "report/picture.hpp"
+#include "report/run_data.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_rows = 2000;  // of a table on the page
+
+struct Kind {
+  const char *marker, *name;
+};
+// In this order: a comparison has no summary of its own, but folders of runs.
+constexpr Kind kinds[] = {{"compare.json", "comparison"},
+                          {"study.json", "study"},
+                          {"sweep.json", "sweep"},
+                          {"verify.json", "verification"},
+                          {"summary.json", "run"}};
+
+std::string whole_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Json read_json(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(path.string(), "cannot be read");
+  try {
+    return parse_json(file);
+  } catch (const Json::exception& error) {
+    throw FileError(path.string(), std::string("is not JSON: ") + error.what());
+  }
+}
+
+std::string part(std::string_view name) {
+  for (const EmbeddedFile& file : page_parts())
+    if (file.name == name) return std::string(file.text);
+  return {};
+}
+
+/// A value as a reader wants it: a text without quotes, a number to six digits.
+std::string value_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_null()) return "-";
+  return value.is_number() ? short_number(json_line(value)) : json_line(value);
+}
+
+/// A member, or null: summaries of other versions may lack it.
+const Json& member(const Json& json, const char* name) {
+  static const Json none;
+  return json.is_object() && json.contains(name) ? json[name] : none;
+}
+
+std::string fact(const std::string& name, const std::string& value) {
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_text(name), html_text(value));
+}
+
+std::string preformatted(const std::string& text) {
+  return text.empty() ? "" : "<pre>" + html_text(text) + "</pre>\n";
+}
+
+std::string page(const std::string& title, const std::string& kind, const std::string& body,
+                 const std::string& data) {
+  return fill_in(part("page.html"), {{"title", html_text(title)},
+                                     {"kind", html_text(kind)},
+                                     {"style", part("style.css")},
+                                     {"body", body},
+                                     {"data", data},
+                                     {"script", part("stage.js") + part("player.js") + part("filters.js")},
+                                     {"version", html_text(version)}});
+}
+
+std::string outcome_text(const Json& summary) {
+  const Json& outcome = member(summary, "outcome");
+  const Json& reason = member(outcome, "reason");
+  return fmt::format("{} at t = {} of {}{}", value_text(member(outcome, "kind")),
+                     value_text(member(outcome, "t")), value_text(member(outcome, "t_end")),
+                     reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
+}
+
+std::string certified_text(const Json& summary) {
+  const Json& certified = member(summary, "certified");
+  const Json& reason = member(certified, "reason");
+  if (!member(certified, "until").is_number()) return "no";
+  return (member(certified, "complete") == true
+              ? "the sequence of events, to the end"
+              : "the sequence of events until t = " + value_text(certified["until"])) +
+         (reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
+}
+
+std::string run_facts(const Json& summary) {
+  std::string text = "<dl>\n" + fact("outcome", outcome_text(summary));
+  text += fact("certified", certified_text(summary));
+  text += fact("engine", value_text(member(summary, "engine")));
+  const Json& events = member(summary, "events");
+  std::string counts = value_text(member(events, "total"));
+  const Json& by_type = member(events, "by_type");
+  for (const auto& [type, count] : by_type.items()) counts += fmt::format(", {} {}", value_text(count), type);
+  text += fact("events", counts);
+  text += fact("degrees of freedom", value_text(member(member(summary, "model"), "degrees_of_freedom")));
+  const Json& units = member(summary, "units");
+  text += fact("units", fmt::format("{}, {}, {}, {}", value_text(member(units, "force")),
+                                    value_text(member(units, "mass")), value_text(member(units, "length")),
+                                    value_text(member(units, "time"))));
+  text += fact("computed in", value_text(member(summary, "wall_time")) + " s");
+  text += "</dl>\n";
+  for (const Json& warning : member(summary, "warnings"))
+    text += "<p class=warning>" + html_text(value_text(warning)) + "</p>\n";
+  return text;
+}
+
+std::string audit_table(const Json& summary) {
+  std::string rows;
+  const Json& audit = member(summary, "audit");
+  for (const auto& [name, entry] : audit.items()) {
+    if (!entry.is_object()) continue;
+    const Json& contact = member(entry, "contact");
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
+        html_text(name), html_text(value_text(member(entry, "relative"))),
+        html_text(value_text(member(entry, "value"))), html_text(value_text(member(entry, "t"))),
+        html_text(contact.is_null() ? "" : value_text(contact)));
+  }
+  if (rows.empty()) return "";
+  return "<p>How well the run kept the conditions of contact, the equations and the energy balance: the "
+         "greatest errors.</p>\n<div class=wide><table><thead><tr><th>condition</th><th>relative</th>"
+         "<th>absolute</th><th>at t</th><th>contact</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+/// Scalars of the top level.
+std::string json_facts(const Json& json) {
+  std::string text;
+  for (const auto& [name, value] : json.items())
+    if (!value.is_object() && !value.is_array()) text += fact(name, value_text(value));
+  return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
+}
+
+std::string pictures(const fs::path& directory, const std::string& command) {
+  const std::string all = figures(directory);
+  return all.empty() ? "<p>There are none; " + html_text(command) + " draws them.</p>\n" : all;
+}
+
+/// What study.md says in sentences; its table and picture are on the page already.
+std::string sentences(const std::string& markdown) {
+  std::string text;
+  std::istringstream lines(markdown);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line[0] != '|' && line[0] != '#' && line[0] != '!')
+      text += "<p>" + html_text(line) + "</p>\n";
+  return text;
+}
+
+std::string title_of(const Json& json, const fs::path& directory) {
+  const std::string title = json.contains("title") ? value_text(json["title"]) : "";
+  return title.empty() ? fs::absolute(directory).lexically_normal().string() : title;
+}
+
+}  // namespace
+
+std::string kind_of_results(const fs::path& directory) {
+  std::error_code error;
+  for (const Kind& kind : kinds)
+    if (fs::is_regular_file(directory / kind.marker, error)) return kind.name;
+  throw FileError(directory.string(), fs::is_directory(directory, error)
+                                          ? "holds no run, comparison, study, sweep or verification"
+                                          : "is no directory");
+}
+
+std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
+  const Json summary = read_json(directory / "summary.json");
+  const Json data = run_data(scene, directory);
+  std::string body = section("summary", "Summary", run_facts(summary));
+  body += part("player.html");
+  body += section("events", "Events", part("events.html") + csv_table(directory / "events.csv", most_rows));
+  body += section("audit", "Audit", audit_table(summary));
+  body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string()));
+  body += section("check", "What check says", preformatted(check));
+  body += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));
+  return page(title_of(summary, directory), "run", body, script_json(json_line(data)));
+}
+
+std::string results_page(const fs::path& directory) {
+  const std::string kind = kind_of_results(directory);
+  std::string marker;
+  for (const Kind& each : kinds)
+    if (each.name == kind) marker = each.marker;
+  const Json json = read_json(directory / marker);
+  std::string body =
+      section("summary", "Summary", json_facts(json) + sentences(whole_file(directory / "study.md")));
+  for (const char* table :
+       {"runs.csv", "differences.csv", "columns.csv", "events.csv", "study.csv", "sweep.csv"})
+    body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
+  body +=
+      section("pictures", "Pictures", pictures(directory, "running the command again with gnuplot on PATH"));
+  body += section("facts", marker, preformatted(json_text(json)));
+  return page(title_of(json, directory), kind, body, "null");
+}
+
+}  // namespace signorini

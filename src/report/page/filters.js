@@ -1,0 +1,49 @@
+// filters.js: contents, the table of events by contact and type, and the beginning of all.
+for (const heading of document.querySelectorAll("section > h2")) {
+  const link = document.createElement("a");
+  link.href = "#" + heading.parentElement.id;
+  link.textContent = heading.textContent;
+  byId("contents").append(link);
+}
+
+const filterEvents = (player) => {
+  const table = document.querySelector("#events table");
+  if (!table) return;
+  const rows = [...table.tBodies[0].rows], column = {};
+  [...table.tHead.rows[0].cells].forEach((cell, k) => { column[cell.textContent] = k; });
+  const text = (row, name) => row.cells[column[name]].textContent;
+  const fill = (id, name) => {
+    const values = [...new Set(rows.map((row) => text(row, name)))].filter((value) => value !== "").sort();
+    for (const value of values) byId(id).append(new Option(value, value));
+    byId(id).addEventListener("change", apply);
+  };
+  const apply = () => {
+    const contact = byId("byContact").value, type = byId("byType").value;
+    let count = 0;
+    for (const row of rows) {
+      row.hidden = contact !== "" && text(row, "contact") !== contact || type !== "" && text(row, "event") !== type;
+      count += row.hidden ? 0 : 1;
+    }
+    byId("shown").textContent = `${count} of ${rows.length}`;
+  };
+  fill("byContact", "contact");
+  fill("byType", "event");
+  apply();
+  // Rows are in the order of data.events, whose times have all their digits.
+  rows.forEach((row, k) => row.addEventListener("click", () => {
+    if (k < data.events.length) player.stop(data.events[k][0]);
+  }));
+  let marked = [];
+  player.onShow = (t) => {
+    for (const row of marked) row.classList.remove("here");
+    marked = t === null ? [] : rows.filter((row, k) => k < data.events.length && data.events[k][0] === t);
+    for (const row of marked) row.classList.add("here");
+  };
+  player.show(0);
+};
+
+if (data) {
+  plan();
+  window.player = new Player();
+  filterEvents(window.player);
+}

@@ -1,0 +1,163 @@
+// stage.js: the structure at a time, as the shapes of one SVG. No text of the scene ever becomes markup.
+const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+const drawn = (name, attributes, parent, text) => {
+  const shape = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const key in attributes) shape.setAttribute(key, attributes[key]);
+  if (text !== undefined) shape.textContent = text;
+  return parent.appendChild(shape);
+};
+
+// The last index whose time is <= t, after a jump that happens at t; -1 before the first.
+const rowAt = (times, t) => {
+  let low = -1, high = times.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle; else high = middle;
+  }
+  return low;
+};
+// Row and part of the way to the next one.
+const between = (times, t) => {
+  const row = Math.max(0, rowAt(times, t));
+  const step = row + 1 < times.length ? times[row + 1] - times[row] : 0;
+  return [row, step > 0 ? Math.min(1, Math.max(0, (t - times[row]) / step)) : 0];
+};
+const valueAt = (times, values, t) => {
+  if (!times.length) return 0;
+  const [row, part] = between(times, t);
+  return part ? values[row] + part * (values[row + 1] - values[row]) : values[row];
+};
+
+// Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero.
+const displacementsAt = (t) => {
+  const { t: times, u } = data.curve;
+  const [row, part] = between(times, t);
+  const value = (column) => {
+    if (column < 0 || !times.length) return 0;
+    const a = u[row][column];
+    return part ? a + part * (u[row + 1][column] - a) : a;
+  };
+  return data.nodes.map((node) => node.u.map(value));
+};
+
+class Stage {
+  constructor(svg) {
+    this.svg = svg;
+    const xs = data.nodes.map((n) => n.x), ys = data.nodes.map((n) => n.y);
+    const low = [Math.min(...xs), Math.min(...ys)], high = [Math.max(...xs), Math.max(...ys)];
+    this.size = Math.max(high[0] - low[0], high[1] - low[1], 1e-12);
+    if (data.nodes.length < 2) this.size = 1;
+    const margin = 0.22 * this.size;
+    const width = high[0] - low[0] + 2 * margin, height = high[1] - low[1] + 2 * margin;
+    this.wide = Math.max(300, svg.clientWidth);  // so that a unit is a pixel, and lines and letters keep their size
+    this.pixels = Math.min(this.wide / width, (data.nodes.length < 2 ? 260 : 480) / height);
+    this.high = Math.max(150, height * this.pixels);
+    this.mark = Math.min(26, Math.max(4, 0.3 * this.wide / (data.contacts.length + 1)));
+    svg.replaceChildren();
+    this.middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+    svg.setAttribute("viewBox", `0 0 ${this.wide} ${this.high}`);
+  }
+  at(x, y) {
+    return [this.wide / 2 + (x - this.middle[0]) * this.pixels, this.high / 2 - (y - this.middle[1]) * this.pixels];
+  }
+  // A piece as a polyline: a beam is the cubic of its ends, magnified by m.
+  piece(piece, u, m) {
+    const a = data.nodes[piece.a], b = data.nodes[piece.b], ua = u[piece.a], ub = u[piece.b];
+    const length = Math.hypot(b.x - a.x, b.y - a.y), c = (b.x - a.x) / length, s = (b.y - a.y) / length;
+    const along = [c * ua[0] + s * ua[1], c * ub[0] + s * ub[1]], across = [c * ua[1] - s * ua[0], c * ub[1] - s * ub[0]];
+    const straight = piece.bar || a.u[2] < 0 && b.u[2] < 0, count = straight ? 1 : 10;
+    const chord = (across[1] - across[0]) / length;
+    const turns = [a.u[2] < 0 && straight ? chord : ua[2], b.u[2] < 0 && straight ? chord : ub[2]];
+    let path = "";
+    for (let i = 0; i <= count; ++i) {
+      const x = i / count, x2 = x * x, x3 = x2 * x;
+      const p = along[0] + x * (along[1] - along[0]);
+      const q = straight ? across[0] + x * (across[1] - across[0])
+        : across[0] * (1 - 3 * x2 + 2 * x3) + across[1] * (3 * x2 - 2 * x3) +
+          length * (turns[0] * (x - 2 * x2 + x3) + turns[1] * (x3 - x2));
+      const [X, Y] = this.at(a.x + x * length * c + m * (c * p - s * q), a.y + x * length * s + m * (s * p + c * q));
+      path += `${i ? "L" : "M"}${X.toFixed(1)} ${Y.toFixed(1)}`;
+    }
+    return path;
+  }
+  place(k, u, m) {
+    const node = data.nodes[k];
+    return this.at(node.x + m * u[k][0], node.y + m * u[k][1]);
+  }
+  // From one place to another in `turns` zigzags.
+  zigzag([x, y], [X, Y]) {
+    const length = Math.hypot(X - x, Y - y) || 1, c = (X - x) / length, s = (Y - y) / length, turns = 8;
+    let path = `M${x} ${y}`;
+    for (let i = 1; i < turns; ++i) {
+      const p = length * i / turns, q = i % 2 ? 6 : -6;
+      path += `L${(x + c * p - s * q).toFixed(1)} ${(y + s * p + c * q).toFixed(1)}`;
+    }
+    return path + `L${X} ${Y}`;
+  }
+  // An arrow that ends (or with `leaves` begins) at a place; dx, dy in pixels, upwards positive.
+  arrow([x, y], dx, dy, leaves) {
+    const length = Math.hypot(dx, dy);
+    if (!(length > 2)) return "";
+    const [X, Y] = leaves ? [x + dx, y - dy] : [x, y], c = dx / length, s = -dy / length, h = Math.min(9, length / 2);
+    const head = `M${X} ${Y}L${X - h * (c - 0.5 * s)} ${Y - h * (s + 0.5 * c)}M${X} ${Y}L${X - h * (c + 0.5 * s)} ${Y - h * (s - 0.5 * c)}`;
+    return `M${X - c * length} ${Y - s * length}L${X} ${Y}` + head;
+  }
+  // What does not move: grounds of contacts, supports, springs to the ground begin there.
+  fixed(parent) {
+    for (const support of data.supports) {
+      const [x, y] = this.at(data.nodes[support.node].x, data.nodes[support.node].y);
+      const clamp = support.rz ? `M${x - 8} ${y - 8}h16v16h-16z` : "";
+      const down = support.uy ? `M${x} ${y}l-9 14h18zM${x - 12} ${y + 17}h24` : "";
+      const side = support.ux ? `M${x} ${y}l-14 -9v18zM${x - 17} ${y - 12}v24` : "";
+      drawn("path", { class: "held", d: clamp || down + side }, parent);
+    }
+    for (const contact of data.contacts) {
+      if (contact.node < 0 || contact.against.length) continue;
+      const [x, y] = this.at(data.nodes[contact.node].x, data.nodes[contact.node].y);
+      const nx = contact.nx, ny = -contact.ny, tx = -ny, ty = nx, foot = [x - 9 * nx, y - 9 * ny];
+      const half = this.mark, hatches = Math.floor(half / 8);
+      let path = `M${foot[0] - half * tx} ${foot[1] - half * ty}L${foot[0] + half * tx} ${foot[1] + half * ty}`;
+      for (let i = -hatches; i <= hatches; ++i)
+        path += `M${foot[0] + 8 * i * tx} ${foot[1] + 8 * i * ty}l${-7 * nx - 5 * tx} ${-7 * ny - 5 * ty}`;
+      drawn("path", { class: "ground", d: path }, parent);
+    }
+  }
+  spring(spring, u, m) {
+    const end = this.place(spring.a, u, m);
+    if (spring.b >= 0) return this.zigzag(end, this.place(spring.b, u, m));
+    const node = data.nodes[spring.a], [x, y] = this.at(node.x, node.y);
+    return this.zigzag(end, [x - 70 * spring.dx, y + 70 * spring.dy]);
+  }
+  touched(contact, u, m) {
+    const places = contact.against.map((k) => this.place(k, u, m));
+    const [x, y] = this.place(contact.node, u, m);
+    const X = places.reduce((sum, p) => sum + p[0], 0) / places.length, Y = places.reduce((sum, p) => sum + p[1], 0) / places.length;
+    return `M${x} ${y}L${X} ${Y}`;
+  }
+}
+
+const plan = () => {
+  const stage = new Stage(byId("plan")), still = data.nodes.map(() => [0, 0, 0]), g = drawn("g", {}, stage.svg);
+  stage.fixed(g);
+  for (const spring of data.springs) drawn("path", { class: "spring", d: stage.spring(spring, still, 0) }, g);
+  for (const piece of data.pieces) drawn("path", { class: piece.bar ? "member bar" : "member", d: stage.piece(piece, still, 0) }, g);
+  const few = data.nodes.length <= 40;
+  data.nodes.forEach((node, k) => {
+    const [x, y] = stage.at(node.x, node.y);
+    drawn("circle", { class: "node", cx: x, cy: y, r: few ? 4 : 2 }, g);
+    if (few) drawn("text", { x: x + 8, y: y - 9 }, g, node.name);
+  });
+  for (const load of data.loads) {
+    const place = stage.place(load.node, still, 0);
+    drawn("path", { class: "load", d: stage.arrow(place, 60 * load.dx, 60 * load.dy, false) }, g);
+    drawn("text", { x: place[0] - 66 * load.dx, y: place[1] + 66 * load.dy + (load.dy < -0.3 ? -6 : 16), "text-anchor": "middle" },
+      g, load.name);
+  }
+  data.contacts.forEach((contact) => {
+    if (contact.node < 0) return;
+    if (contact.against.length) drawn("path", { class: "spring", d: stage.touched(contact, still, 0) }, g);
+    const [x, y] = stage.place(contact.node, still, 0);
+    if (few) drawn("text", { x: x - 30 * contact.nx, y: y + 30 * contact.ny + 5, "text-anchor": "middle" }, g, contact.name);
+  });
+};

@@ -1,0 +1,333 @@
+#include "report/run_data.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+
+#include "result/csv_read.hpp"
+#include "result/plot_parts.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_values = 120'000;  // of displacements on a page: about a megabyte
+constexpr std::size_t most_motion = 16'000;   // rows of contacts
+constexpr std::size_t most_events = 5'000;
+
+double rounded(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(rounded(value, 6)) : Json(nullptr); }
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// Which rows of times are kept: every `step`-th, and both sides of a jump.
+std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t most) {
+  const std::size_t step = std::max<std::size_t>(1, (t.size() + most - 1) / std::max<std::size_t>(most, 1));
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const bool jump = (i > 0 && t[i] == t[i - 1]) || (i + 1 < t.size() && t[i] == t[i + 1]);
+    if (i % step == 0 || i + 1 == t.size() || jump) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// The displacements that a run's tables have, by name of the column.
+struct Displacements {
+  std::vector<std::string> names;
+  std::vector<double> t;
+  std::vector<std::vector<double>> rows;
+};
+
+bool is_displacement(const std::string& column) {
+  for (const char* ending : {".ux", ".uy", ".rz", ".u"})
+    if (column.ends_with(ending)) return true;
+  return false;
+}
+
+Displacements read_displacements(const fs::path& file) {
+  CsvReader reader(file);
+  Displacements all;
+  std::vector<std::size_t> index;
+  for (std::size_t k = 1; k < reader.header().size(); ++k) {
+    if (!is_displacement(reader.header()[k])) continue;
+    all.names.push_back(reader.header()[k]);
+    index.push_back(k);
+  }
+  while (reader.next()) {
+    all.t.push_back(reader.number(0));
+    std::vector<double> row;
+    for (const std::size_t k : index) row.push_back(reader.number(k));
+    all.rows.push_back(std::move(row));
+  }
+  return all;
+}
+
+Displacements displacements(const fs::path& directory) {
+  Displacements history = read_displacements(directory / "history.csv");
+  if (!is_file(directory / "curves.csv")) return history;
+  Displacements curves = read_displacements(directory / "curves.csv");
+  const bool whole = std::all_of(history.names.begin(), history.names.end(), [&](const std::string& name) {
+    return std::find(curves.names.begin(), curves.names.end(), name) != curves.names.end();
+  });
+  return whole && !curves.t.empty() ? curves : history;
+}
+
+Json curve_json(const Displacements& all) {
+  const std::size_t columns = std::max<std::size_t>(1, all.names.size());
+  Json t = Json::array(), u = Json::array();
+  for (const std::size_t i : kept_rows(all.t, most_values / columns)) {
+    t.push_back(all.t[i]);
+    Json row = Json::array();
+    for (const double value : all.rows[i]) row.push_back(number(value));
+    u.push_back(std::move(row));
+  }
+  return {{"t", std::move(t)}, {"u", std::move(u)}};
+}
+
+/// Places by name: nodes of the scene, or degrees of freedom in a row.
+class Places {
+ public:
+  Places(const Scene& scene, const std::vector<std::string>& columns) {
+    if (scene.matrices) {
+      for (const std::string& dof : scene.matrices->dofs) {
+        const auto x = static_cast<double>(index_.size());
+        add(dof, {{"name", dof}, {"x", x}, {"y", 0.0}, {"u", {-1, column(columns, dof + ".u"), -1}}});
+      }
+      return;
+    }
+    for (const Node& node : scene.nodes)
+      add(node.name, {{"name", node.name},
+                      {"x", number(node.x)},
+                      {"y", number(node.y)},
+                      {"u",
+                       {column(columns, node.name + ".ux"), column(columns, node.name + ".uy"),
+                        column(columns, node.name + ".rz")}}});
+  }
+  [[nodiscard]] int of(const std::string& name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? -1 : found->second;
+  }
+  [[nodiscard]] const Json& json() const { return json_; }
+
+ private:
+  std::map<std::string, int> index_;
+  Json json_ = Json::array();
+
+  void add(const std::string& name, Json node) {
+    index_.emplace(name, static_cast<int>(index_.size()));
+    json_.push_back(std::move(node));
+  }
+  static int column(const std::vector<std::string>& columns, const std::string& name) {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+  }
+};
+
+Json pieces_json(const Scene& scene, const Places& places) {
+  Json pieces = Json::array();
+  for (const Member& member : scene.members)
+    for (std::size_t i = 1; i < member.nodes.size(); ++i)
+      pieces.push_back({{"a", places.of(member.nodes[i - 1])},
+                        {"b", places.of(member.nodes[i])},
+                        {"bar", member.type == MemberType::bar}});
+  return pieces;
+}
+
+Json springs_json(const Scene& scene, const Places& places) {
+  Json springs = Json::array();
+  for (const Spring& spring : scene.springs)
+    if (spring.stiffness > 0.0 || spring.damping > 0.0)
+      springs.push_back({{"a", places.of(spring.node)},
+                         {"b", spring.against.empty() ? -1 : places.of(spring.against)},
+                         {"dx", number(spring.direction[0])},
+                         {"dy", number(spring.direction[1])}});
+  return springs;
+}
+
+Json supports_json(const Scene& scene, const Places& places) {
+  Json supports = Json::array();
+  for (const Support& support : scene.supports)
+    supports.push_back(
+        {{"node", places.of(support.node)}, {"ux", support.ux}, {"uy", support.uy}, {"rz", support.rz}});
+  return supports;
+}
+
+/// The histories of loads.csv, by the name of their column.
+std::map<std::string, Json> load_histories(const fs::path& directory) {
+  std::map<std::string, Json> histories;
+  if (!is_file(directory / "loads.csv")) return histories;
+  CsvReader reader(directory / "loads.csv");
+  std::vector<double> t;
+  std::vector<std::vector<double>> columns(reader.header().size());
+  while (reader.next()) {
+    t.push_back(reader.number(0));
+    for (std::size_t k = 1; k < columns.size(); ++k) columns[k].push_back(reader.number(k));
+  }
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    Json times = Json::array(), values = Json::array();
+    for (const std::size_t i : kept_rows(t, 2000)) {
+      times.push_back(t[i]);
+      values.push_back(number(columns[k][i]));
+    }
+    histories[reader.header()[k]] = {{"t", std::move(times)}, {"f", std::move(values)}};
+  }
+  return histories;
+}
+
+Json loads_json(const Scene& scene, const Places& places, const fs::path& directory) {
+  const std::map<std::string, Json> histories = load_histories(directory);
+  Json loads = Json::array();
+  for (std::size_t k = 0; k < scene.loads.size(); ++k) {
+    const LoadSpec& load = scene.loads[k];
+    const std::string name = load.name.empty() ? fmt::format("load {}", k + 1) : load.name;
+    if (scene.matrices || load.type != LoadType::force || places.of(load.direction.node) < 0) continue;
+    Json json = {{"name", name},
+                 {"node", places.of(load.direction.node)},
+                 {"dx", number(load.direction.vector[0])},
+                 {"dy", number(load.direction.vector[1])}};
+    const auto found = histories.find(name);
+    json["t"] = found == histories.end() ? Json{0.0} : found->second["t"];
+    json["f"] = found == histories.end() ? Json{number(load.amplitude)} : found->second["f"];
+    loads.push_back(std::move(json));
+  }
+  return loads;
+}
+
+/// Where a direction acts: its node, or of [matrices] the degree of freedom that it moves most.
+int place_of_direction(const Direction& direction, const Places& places) {
+  if (!direction.node.empty()) return places.of(direction.node);
+  int place = -1;
+  double greatest = 0.0;
+  for (const auto& [dof, factor] : direction.dofs) {
+    if (std::abs(factor) <= greatest) continue;
+    greatest = std::abs(factor);
+    place = places.of(dof);
+  }
+  return place;
+}
+
+Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& places) {
+  // The tangent is (ny, -nx), so of a slider n = (-ty, tx). Degrees of freedom are drawn as moving upwards.
+  std::array<double, 2> n{0.0, 1.0};
+  const Direction& direction = contact.normal ? *contact.normal : *contact.tangent;
+  if (!scene.matrices)
+    n = contact.normal ? direction.vector : std::array{-direction.vector[1], direction.vector[0]};
+  if (scene.matrices && contact.normal && !direction.dofs.empty() && direction.dofs[0].second < 0.0)
+    n[1] = -1.0;
+  Json touched = Json::array();
+  for (const auto& [node, part] : direction.against) touched.push_back(places.of(node));
+  return {{"name", contact.name},      {"node", place_of_direction(direction, places)},
+          {"nx", number(n[0])},        {"ny", number(n[1])},
+          {"against", touched},        {"slider", !contact.normal.has_value()},
+          {"gap", number(contact.gap)}};
+}
+
+struct Motion {
+  std::vector<double> t, N, T, gap;
+  std::vector<std::string> state;
+};
+
+std::map<std::string, Motion> read_motion(const fs::path& directory) {
+  const bool record = is_file(directory / "motion.csv");
+  CsvReader reader(directory / (record ? "motion.csv" : "contacts.csv"));
+  const std::size_t t = reader.column("t"), who = reader.column("contact"), state = reader.column("state"),
+                    gap = reader.column("gap"), N = reader.column("N"), T = reader.column("T");
+  std::map<std::string, Motion> all;
+  while (reader.next()) {
+    Motion& motion = all[reader.cell(who)];
+    motion.t.push_back(reader.number(t));
+    motion.state.push_back(reader.cell(state));
+    motion.gap.push_back(reader.cell(gap).empty() ? std::nan("") : reader.number(gap));
+    motion.N.push_back(reader.number(N));
+    motion.T.push_back(reader.number(T));
+  }
+  return all;
+}
+
+Json motion_json(const Motion& motion, std::size_t most) {
+  Json t = Json::array(), state = Json::array(), N = Json::array(), T = Json::array(), gap = Json::array();
+  const std::vector<std::string>& names = state_names();
+  for (const std::size_t i : kept_rows(motion.t, most)) {
+    t.push_back(motion.t[i]);
+    state.push_back(std::find(names.begin(), names.end(), motion.state[i]) - names.begin());
+    N.push_back(number(motion.N[i]));
+    T.push_back(number(motion.T[i]));
+    gap.push_back(number(motion.gap[i]));
+  }
+  return {{"t", std::move(t)},
+          {"state", std::move(state)},
+          {"N", std::move(N)},
+          {"T", std::move(T)},
+          {"gap", std::move(gap)}};
+}
+
+Json contacts_json(const Scene& scene, const Places& places, const fs::path& directory) {
+  const std::map<std::string, Motion> motions = read_motion(directory);
+  std::size_t rows = 0;
+  for (const auto& [name, motion] : motions) rows += motion.t.size();
+  Json contacts = Json::array();
+  for (const ContactSpec& contact : scene.contacts) {
+    Json json = contact_json(contact, scene, places);
+    const auto found = motions.find(contact.name);
+    const Motion& motion = found == motions.end() ? Motion{} : found->second;
+    const std::size_t share = rows <= most_motion ? motion.t.size() : motion.t.size() * most_motion / rows;
+    json["motion"] = motion_json(motion, std::max<std::size_t>(share, 200));
+    contacts.push_back(std::move(json));
+  }
+  return contacts;
+}
+
+Json events_json(const Scene& scene, const fs::path& directory) {
+  std::map<std::string, int> index;
+  for (const ContactSpec& contact : scene.contacts)
+    index.emplace(contact.name, static_cast<int>(index.size()));
+  CsvReader reader(directory / "events.csv");
+  const std::size_t t = reader.column("t"), who = reader.column("contact"), event = reader.column("event"),
+                    from = reader.column("from"), to = reader.column("to");
+  Json events = Json::array();
+  while (reader.next() && events.size() < most_events) {
+    const auto found = index.find(reader.cell(who));
+    events.push_back({reader.number(t), found == index.end() ? -1 : found->second, reader.cell(event),
+                      reader.cell(from), reader.cell(to)});
+  }
+  return events;
+}
+
+Json colours_json() {
+  Json states = Json::array();
+  for (const std::string& name : state_names()) states.push_back({name, state_colour(name)});
+  return states;
+}
+
+}  // namespace
+
+Json run_data(const Scene& scene, const fs::path& directory) {
+  const Displacements all = displacements(directory);
+  const Places places(scene, all.names);
+  return {{"t_end", number(scene.run.t_end)},
+          {"units", {scene.units.force, scene.units.length, scene.units.time}},
+          {"matrices", scene.matrices.has_value()},
+          {"nodes", places.json()},
+          {"pieces", pieces_json(scene, places)},
+          {"springs", springs_json(scene, places)},
+          {"supports", supports_json(scene, places)},
+          {"loads", loads_json(scene, places, directory)},
+          {"contacts", contacts_json(scene, places, directory)},
+          {"curve", curve_json(all)},
+          {"events", events_json(scene, directory)},
+          {"states", colours_json()}};
+}
+
+}  // namespace signorini

@@ -1,0 +1,23 @@
+// run_data.hpp: what the page of a run draws and plays, from the scene and the run's own record.
+//
+//   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: held, or not recorded)
+//   pieces  a, b (indices of nodes), bar; springs, supports, loads, contacts with their directions
+//   curve   t, u: a row of displacements a time;   contacts[k].motion: t, state, N, T, gap
+//   events  t, contact (index, -1 without), event, from, to
+//
+// Displacements come from curves.csv where it has all nodes, else from history.csv. A scene of [matrices] has its degrees of
+// freedom as nodes in a row, which move across it. Of long records rows are left out evenly, but never the two sides of a jump.
+// Numbers have six digits, enough to draw; times all of theirs, so that an event is found in every record.
+#pragma once
+
+#include <filesystem>
+
+#include "base/json.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+/// Errors: FileError.
+[[nodiscard]] Json run_data(const Scene& scene, const std::filesystem::path& directory);
+
+}  // namespace signorini

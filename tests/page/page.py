@@ -1,0 +1,191 @@
+"""The pages of `signorini report` in a headless Chromium.
+
+page.py PROGRAM MODELS [PICTURES]     PICTURES: a folder for screenshots, to be looked at
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+from browser import Browser
+
+program, models = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+work = pathlib.Path(tempfile.mkdtemp(prefix="signorini-page-"))
+pictures = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else work
+pictures.mkdir(parents=True, exist_ok=True)
+failed = []
+
+
+def check(what, true):
+    print(("ok    " if true else "WRONG ") + what)
+    if not true:
+        failed.append(what)
+
+
+def signorini(*arguments):
+    subprocess.run([program, *map(str, arguments)], check=True, capture_output=True, cwd=work)
+
+
+def page_of(directory):
+    signorini("report", directory)
+    return work / directory / "report.html"
+
+
+def rows(browser):
+    return browser.run("return [...document.querySelectorAll('#events tbody tr')].filter(r => !r.hidden).length")
+
+
+def time_shown(browser):
+    return float(re.match(r"t = (\S+)", browser.run("return document.getElementById('now').textContent")).group(1))
+
+
+def clean(browser, name):
+    messages = browser.console()
+    check(f"{name}: nothing in the console {messages}", messages == [])
+
+
+def pipeline(browser):
+    signorini("run", models / "pipeline.toml", "-o", "pipeline", "--quiet")
+    path = page_of("pipeline")
+    check(f"pipeline: {path.stat().st_size / 1e6:.2f} MB, less than 3", path.stat().st_size < 3e6)
+    text = path.read_text()
+    check("pipeline: no address but names of XML", set(re.findall(r"https?://[^\"'\s%]*", text)) <=
+          {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"})
+    browser.look()
+    browser.open(path)
+    clean(browser, "pipeline")
+    paint = browser.run("return performance.getEntriesByName('first-contentful-paint')[0].startTime")
+    check(f"pipeline: first paint after {paint:.0f} ms, less than 1000", paint < 1000)
+
+    events = sorted({float(line.split(",")[0]) for line in (work / "pipeline/events.csv").read_text().splitlines()[1:]})
+    check("pipeline: it begins at 0", time_shown(browser) == 0)
+    browser.click("#next")
+    check("a click steps to the first event", time_shown(browser) == events[0])
+    browser.key("ArrowRight")
+    check("a key steps to the second", time_shown(browser) == events[1])
+    check("which is named", "first separation, slip- to open" in browser.run("return document.getElementById('now').textContent"))
+    check("and holds: the contact is open", browser.run("return document.querySelector('#states tbody tr').cells[1].textContent") == "open")
+    check("its row is marked", browser.run("return document.querySelector('tr.here').rowIndex") == 2)
+    browser.key("ArrowLeft")
+    check("and back", time_shown(browser) == events[0])
+    browser.click("#previous")
+    check("before the first event is the start", time_shown(browser) == 0)
+    browser.key("End")
+    check("End goes to the end", time_shown(browser) == 1.2)
+    browser.key("Home")
+    browser.run("document.activeElement.blur()")  # Space on a button presses it
+    browser.key(" ")
+    browser.wait_for("setTimeout(arguments[0], 600)")
+    playing = time_shown(browser)
+    browser.key(" ")
+    check("Space plays", 0 < playing < 1.2)
+    paused = time_shown(browser)
+    browser.wait_for("setTimeout(arguments[0], 200)")
+    check("and pauses", time_shown(browser) == paused)
+    browser.run("document.getElementById('play').click()")
+    frames = browser.wait_for("""const done = arguments[0]; let n = 0; const start = performance.now();
+        const count = () => { if (performance.now() - start < 2000) { ++n; requestAnimationFrame(count); } else done(n / 2); };
+        count();""")
+    browser.run("document.getElementById('play').click()")
+    cost = browser.run("""const start = performance.now(); for (let i = 0; i < 300; ++i) player.show(player.last * i / 300);
+        return (performance.now() - start) / 300""")
+    check(f"{frames:.0f} pictures a second while it plays; one takes {cost:.2f} ms, of 16.7", cost < 8)
+    still = browser.run("return document.querySelector('#stage .member:not(.bar)').getAttribute('d')")
+    browser.run("player.stop(0.05)")
+    check("the structure moves", still != browser.run("return document.querySelector('#stage .member:not(.bar)').getAttribute('d')"))
+    check("contact first flies", browser.run("return document.querySelector('#states tbody tr').cells[1].textContent") == "open")
+    browser.run("player.stop(0)")
+    weight = browser.run("return [...document.querySelectorAll('#states tbody tr')].map(r => +r.cells[2].textContent)")
+    check(f"at rest contacts carry the weight, 24 m of 0.4 t/m {weight}", abs(sum(weight) + 24 * 0.4 * 9.81) < 1e-2)
+
+    everything = rows(browser)
+    browser.run("const s = document.getElementById('byContact'); s.value = 'second'; s.dispatchEvent(new Event('change'))")
+    second = rows(browser)
+    browser.run("const s = document.getElementById('byType'); s.value = 'separation'; s.dispatchEvent(new Event('change'))")
+    lines = (work / "pipeline/events.csv").read_text().splitlines()[1:]
+    check("filters filter", (everything, second, rows(browser)) == (
+        len(lines), sum(",second," in line for line in lines), sum(",second,separation," in line for line in lines)))
+    browser.run("document.querySelectorAll('#events tbody tr:not([hidden])')[1].click()")
+    chosen = [float(line.split(",")[0]) for line in lines if ",second,separation," in line][1]
+    check("a click on a row goes to its event", time_shown(browser) == chosen)
+    looks(browser)
+    check("pictures are there", browser.run("return [...document.images].every(i => i.complete || i.loading === 'lazy')"))
+    clean(browser, "pipeline, used")
+
+
+def looks(browser):
+    browser.run("player.stop(0.06); document.getElementById('motion').scrollIntoView()")
+    for scheme in ("light", "dark"):
+        for name, width in (("wide", 1200), ("narrow", 390)):
+            browser.look(scheme, width)
+            wider = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
+            check(f"{scheme}, {name}: nothing stands out to the side ({wider})", wider <= 0)
+            for part in ("summary", "motion", "events", "pictures"):
+                browser.run("document.getElementById(arguments[0]).scrollIntoView()", part)
+                browser.wait_for("setTimeout(arguments[0], 150)")
+                browser.screenshot(pictures / f"{scheme}-{name}-{part}.png")
+    browser.look("dark")
+    paper = browser.run("return getComputedStyle(document.body).backgroundColor")
+    browser.look("light")
+    check(f"dark is dark ({paper})", paper == "rgb(21, 24, 28)" and
+          browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)")
+    browser.look("light", media="print")
+    check("print has no buttons", browser.run("return getComputedStyle(document.querySelector('.buttons')).display") == "none")
+    browser.look()
+
+
+def hostile(browser):
+    names = ["<script>owned()</script>", "%s%n", "a&amp", "</script>", "@script@", "`x`$(y)"]
+    text = 'schema = 1\ntitle = "</title><script>window.owned=1</script> %s \' @data@ <!--"\n'
+    text += 'units = { force = "N", mass = "kg", length = "m", time = "s" }\ngravity = [0.0, -9.81]\n[run]\nt_end = 0.3\n[nodes]\n'
+    text += "".join(f'"{name}" = [{i}.0, 0.0]\n' for i, name in enumerate(names))
+    for i, name in enumerate(names):
+        text += f'[[masses]]\nnode = "{name}"\nmass = 1.0\n[[contacts]]\nname = "{name}"\nnode = "{name}"\nlaw = "rigid"\n'
+        text += f'normal = [0.0, 1.0]\ngap = {0.01 * (i + 1)}\nfriction = 0.3\nrestitution = 0.3\n'
+    (work / "hostile.toml").write_text(text)
+    signorini("run", "hostile.toml", "-o", "hostile", "--quiet")
+    browser.open(page_of("hostile"))
+    clean(browser, "hostile names")
+    check("hostile names are not run", browser.run("return window.owned === undefined"))
+    check("and stand as they are", browser.run("return [...document.querySelectorAll('#states tbody tr')].map(r => r.cells[0].textContent)") == names)
+    check("the title, too", browser.run("return document.title") == "</title><script>window.owned=1</script> %s ' @data@ <!--")
+    browser.click("#next")
+    check("and events are named", "contact" in browser.run("return document.getElementById('now').textContent") or
+          "impact" in browser.run("return document.getElementById('now').textContent"))
+
+
+def others(browser):
+    belt = models / "belt.toml"
+    signorini("run", models / "matrices.toml", "-o", "matrices", "--quiet", "--no-plots")
+    signorini("compare", belt, "--engines", "exact,ida", "-o", "compared", "--quiet", "--set", "run.t_end=20")
+    signorini("sweep", belt, "--vary", "contacts.belt.friction.static=1.2:1.6:0.2", "-o", "swept", "--quiet", "--set", "run.t_end=20")
+    signorini("study", belt, "--engines", "exact,ida", "--rtol", "1e-6,1e-7", "--repeats", "1", "-o", "studied", "--quiet",
+              "--set", "run.t_end=10")
+    subprocess.run([program, "verify", belt, "-o", "verified", "--quiet", "--set", "run.t_end=10", "--set", "run.dt=1e-2"], cwd=work)
+    for name, tables in (("matrices", 3), ("compared", 4), ("swept", 1), ("studied", 1), ("verified", 1)):
+        browser.open(page_of(name))
+        clean(browser, name)
+        count = browser.run("return document.querySelectorAll('table').length")
+        check(f"{name}: {count} tables", count >= tables)
+        browser.screenshot(pictures / f"{name}.png")
+    for name in sorted(p.name for p in models.glob("*.toml")):
+        if name in ("pipeline.toml", "matrices.toml"):
+            continue
+        signorini("run", models / name, "-o", name + "-run", "--quiet", "--no-plots")
+        browser.open(page_of(name + "-run"))
+        clean(browser, name)
+        browser.click("#next")
+        browser.run("document.getElementById('drawing').scrollIntoView()")
+        browser.screenshot(pictures / f"model-{name}.png")
+
+
+browser = Browser()
+try:
+    pipeline(browser)
+    hostile(browser)
+    others(browser)
+finally:
+    browser.close()
+print(f"{len(failed)} wrong; screenshots in {pictures}")
+sys.exit(1 if failed else 0)

@@ -1,0 +1,100 @@
+#include "report/page.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "report/html.hpp"
+#include "report/picture.hpp"
+#include "signorini/error.hpp"
+
+using namespace signorini;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder with files; gone with its owner.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "signorini-page-XXXXXX").string();
+    path = mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path / name).parent_path());
+    std::ofstream(path / name, std::ios::binary) << text;
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("unit/report/page") {
+  TEST_CASE("html: text of a scene is never markup") {
+    CHECK(html_text("<script>&\"'") == "&lt;script&gt;&amp;&quot;&#39;");
+    CHECK(html_text("a\x01z\n") == "a\xef\xbf\xbdz\n");
+    CHECK(script_json("\"</script><!--\"") == "\"\\u003c/script>\\u003c!--\"");
+    CHECK(section("x", "A < B", "body") == "<section id=\"x\">\n<h2>A &lt; B</h2>\nbody</section>\n");
+    CHECK(section("x", "A", "").empty());
+  }
+
+  TEST_CASE("html: what is filled in is not looked through again") {
+    CHECK(fill_in("a@x@b@y@c@z@", {{"x", "@y@"}, {"y", "2"}}) == "a@y@b2c@z@");
+    CHECK(fill_in("@media", {{"m", "1"}}) == "@media");
+  }
+
+  TEST_CASE("html: tables have short numbers, escaped names, and say what they leave out") {
+    const Folder folder;
+    folder.write("t.csv", "t,contact,N\n0.12345678901234,<b>,1.23456789\n1,two,-0\n2,three,3\n");
+    const std::string table = csv_table(folder.path / "t.csv", 2);
+    CHECK(table.find("<td class=n>0.12345678901</td><td>&lt;b&gt;</td><td class=n>1.23457</td>") !=
+          std::string::npos);
+    CHECK(table.find("three") == std::string::npos);
+    CHECK(table.find("1 more rows are in t.csv") != std::string::npos);
+    CHECK(csv_table(folder.path / "t.csv", 9, {"contact"}).find("1.23457") == std::string::npos);
+    CHECK(csv_table(folder.path / "none.csv", 9).empty());
+    CHECK(short_number("1e-300x") == "1e-300x");
+    CHECK(short_number("inf") == "inf");
+  }
+
+  TEST_CASE("pictures: paths become steps of a tenth, points on the one before are left out") {
+    CHECK(slim_svg(
+              "<path d='M112.00,61.99 L115.21,60.02 L115.22,60.03 L114.00,60.00 M1.00,2.00 L1.50,2.00'/>") ==
+          "<path d='M112 62l3.2-2-1.2 0M1 2l.5 0'/>");
+    // A path of one point is drawn where its ends are round.
+    CHECK(slim_svg("<path d='M1.00,1.00 L1.01,1.01'/>") == "<path d='M1 1l0 0'/>");
+    // What is not as gnuplot writes it stays.
+    for (const std::string other :
+         {"<path d='M-1,0 h2 M0,-1 v2'/>", "<path d='M1 1 L2 2'/>", "<path id='gpPt0' d='M0,0"})
+      CHECK(slim_svg(other) == other);
+  }
+
+  TEST_CASE("pictures: steps do not drift away from the points") {
+    std::string path = "M0.04,0.04";
+    for (int i = 1; i <= 1000; ++i) path += " L" + std::to_string(i) + ".04,0.04";
+    const std::string slim = slim_svg("<path d='" + path + "'/>");
+    CHECK(slim.starts_with("<path d='M0 0l1 0 1 0"));
+    std::size_t steps = 0;
+    for (std::size_t at = slim.find("1 0"); at != std::string::npos; at = slim.find("1 0", at + 3)) ++steps;
+    CHECK(steps == 1000);
+  }
+
+  TEST_CASE("pages: every kind of directory is known by its file, others are refused by name") {
+    const Folder folder;
+    folder.write("c/compare.json", "{\"title\": \"</title>\", \"reference\": \"a\"}");
+    folder.write("c/runs.csv", "run,events\na,3\n");
+    CHECK(kind_of_results(folder.path / "c") == "comparison");
+    const std::string page = results_page(folder.path / "c");
+    CHECK(page.find("<title>&lt;/title&gt;</title>") != std::string::npos);
+    CHECK(page.find("<h2>runs.csv</h2>") != std::string::npos);
+    CHECK(page.find("id=\"data\">null</script>") != std::string::npos);
+    CHECK_THROWS_AS((void)kind_of_results(folder.path), FileError);
+    CHECK_THROWS_AS((void)kind_of_results(folder.path / "nowhere"), FileError);
+    folder.write("b/study.json", "{ not json");
+    CHECK_THROWS_AS((void)results_page(folder.path / "b"), FileError);
+  }
+}

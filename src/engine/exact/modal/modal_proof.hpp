@@ -12,6 +12,7 @@
 // eigenvalues, tested by their residual.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "engine/exact/modal/modal_system.hpp"
@@ -49,8 +50,8 @@ class ModalProof {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
   [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
-  /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact leave what they
-  /// ranged over; x_end: they do not.
+  /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact turn beyond what they
+  /// ranged over: they stay within it, or go one way; x_end: in all of it.
   [[nodiscard]] double within(const TurningPoints& known, double x_end) const;
   /// The contacts' slow parts from a point on, with ripples that are small beside those ranges; returns for
   /// how long.
@@ -76,6 +77,9 @@ class ModalProof {
   struct Size {
     double place = 0.0, rate = 0.0;
   };
+  using Watch4 = std::array<double, 4>;  // N, T, g and ut, as in TurningPoints::watched
+  [[nodiscard]] Watch4 ripples(std::size_t contact, bool of_rate) const;
+  [[nodiscard]] Watch4 one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;

@@ -50,30 +50,68 @@ void ModalProof::part_modes(bool all_slow) {
   for (std::size_t k = 0; k < pairs.size(); ++k) pair_slow_[k] = size_of(pairs[k]) * h_ * h_ <= square;
 }
 
+/// What fast modes and the rest of the slow ones may add to N, T, g and ut (TurningPoints::watched), or to
+/// their rates: each mode moves by at most A, and by sqrt(l) A in a unit of time.
+ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
+  const ForceLaw& law = laws_[c];
+  double normal = of_rate ? normal_rest_[c].rate : normal_rest_[c].place;
+  double tangent = of_rate ? tangent_rest_[c].rate : tangent_rest_[c].place;
+  for (std::size_t k = fast_; k < amplitude_.size(); ++k) {
+    const double most = of_rate ? amplitude_[k] * std::sqrt(oscillators_->real()[k]) : amplitude_[k];
+    normal += std::abs(state_->normal[c].real[k]) * most;
+    tangent += std::abs(state_->tangent[c].real[k]) * most;
+  }
+  return {std::abs(law.N_gap) * normal, std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
+          tangent};
+}
+
+namespace {
+
+/// The part of [0, 1] on which sign a(x x_end) + above > 0.
+double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,
+                   std::vector<double>& p) {
+  double power = 1.0;
+  for (std::size_t j = 0; j <= degree; ++j, power *= x_end) p[j] = sign * a[j] * power;
+  p[0] += above;
+  if (!(p[0] > 0.0)) return 0.0;
+  const FirstFall fall = first_fall(p.data(), degree, 0.0);
+  return fall.kind == FirstFall::Kind::none ? 1.0 : fall.x;
+}
+
+}  // namespace
+
+/// How far each of N, T, g and ut goes one way only, or not at all, of [0, 1]: without a turn.
+ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
+  const ForceLaw& law = laws_[c];
+  const std::array<std::pair<double, double>, 4> shares{
+      {{law.N_gap, 0.0}, {law.T_gap, law.T_ut}, {1.0, 0.0}, {0.0, 1.0}}};  // of vn and vt
+  const Watch4 ripple = ripples(c, true);
+  const double *vn = slow_[c].of(ContactSeries::vn), *vt = slow_[c].of(ContactSeries::vt);
+  std::vector<double> rate(degree_ + 1);
+  Watch4 result{};
+  for (std::size_t f = 0; f < result.size(); ++f) {
+    const auto [of_normal, of_tangent] = shares[f];
+    for (std::size_t j = 0; j <= degree_; ++j) rate[j] = of_normal * vn[j] + of_tangent * vt[j];
+    const bool constant = of_normal == 0.0 && of_tangent == 0.0;
+    result[f] =
+        constant ? 1.0 : stays_above(rate.data(), degree_, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -ripple[f], p);
+  }
+  return result;
+}
+
 double ModalProof::within(const TurningPoints& known, double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // of x_end
-  for (std::size_t c = 0; c < slow_.size(); ++c) {
-    const ForceLaw& law = laws_[c];
-    double normal = normal_rest_[c].place, tangent = tangent_rest_[c].place;
-    for (std::size_t k = fast_; k < amplitude_.size(); ++k) {
-      normal += std::abs(state_->normal[c].real[k]) * amplitude_[k];
-      tangent += std::abs(state_->tangent[c].real[k]) * amplitude_[k];
-    }
-    const std::array<double, 4> ripple{std::abs(law.N_gap) * normal,
-                                       std::abs(law.T_gap) * normal + std::abs(law.T_ut) * tangent, normal,
-                                       tangent};
+  for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
+    const Watch4 ripple = ripples(c, false), forth = one_way(c, x_end, p);
     for (std::size_t f = 0; f < ripple.size(); ++f) {
+      if (forth[f] >= safe) continue;
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
       const double* a = slow_[c].of(TurningPoints::watched[f]);
-      for (const double sign : {1.0, -1.0}) {
-        double power = 1.0;
-        for (std::size_t j = 0; j <= degree_; ++j, power *= x_end) p[j] = -sign * a[j] * power;
-        p[0] += (sign > 0.0 ? range.greatest : -range.least) - ripple[f];
-        if (!(p[0] > 0.0)) return 0.0;
-        const FirstFall fall = first_fall(p.data(), degree_, 0.0);
-        if (fall.kind != FirstFall::Kind::none) safe = std::min(safe, fall.x);
+      for (const double sign : {-1.0, 1.0}) {
+        const double room = (sign < 0.0 ? range.greatest : -range.least) - ripple[f];
+        safe = std::min(safe, std::max(forth[f], stays_above(a, degree_, x_end, sign, room, p)));
       }
     }
   }

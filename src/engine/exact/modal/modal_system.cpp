@@ -78,7 +78,10 @@ std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
   auto made = std::make_shared<const StateModes>(make(mode));
   const auto rows = static_cast<std::size_t>(poles_.size());
   const std::size_t lists = 2 * (normal_.size() + tangent_.size() + load_.size());
-  return known_.insert(states, std::move(made), rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
+  const auto pairs = static_cast<std::size_t>(made->pairs.e.size() + made->pairs.shared.size());
+  const std::size_t bytes = made->spectrum.written_bytes() + sizeof(double) * pairs;
+  return known_.insert(states, std::move(made),
+                       bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
 }
 
 /// Diagonal plus two columns a contact at most.
@@ -100,7 +103,7 @@ StateModes ModalSystem::make(const Mode& mode) const {
     forces.col(static_cast<Eigen::Index>(a)) = u[a];
     forms.col(static_cast<Eigen::Index>(a)) = v[a];
   }
-  StateModes made{Spectrum(poles_, forces, forms, symmetric), {}, {}, {}, {}, {}, {}};
+  StateModes made{Spectrum(poles_, forces, forms, symmetric), {}, {}, {}, {}, {}, {}, {}};
   const Spectrum& spectrum = made.spectrum;
   if (!spectrum.failure().empty()) return made;
   const auto both = [&](const std::vector<Vector>& list, std::vector<Amplitudes>& rows,
@@ -115,6 +118,9 @@ StateModes ModalSystem::make(const Mode& mode) const {
   both(normal_, made.normal, made.from_normal);
   both(tangent_, made.tangent, made.from_tangent);
   both(load_, made.load, made.from_load);
+  const bool slips =
+      std::any_of(mode.begin(), mode.end(), [](const ContactState& c) { return slip_sign(c.state) != 0; });
+  if (slips && spectrum.written_bytes() > 0) made.pairs = mode_pairs(spectrum, alpha_);
   return made;
 }
 

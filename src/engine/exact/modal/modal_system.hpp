@@ -10,6 +10,7 @@
 
 #include "base/bounded_cache.hpp"
 #include "contact/mode.hpp"
+#include "engine/exact/modal/mode_pairs.hpp"
 #include "engine/exact/modal/open_modes.hpp"
 #include "engine/exact/modal/spectrum.hpp"
 #include "motion/forcing.hpp"
@@ -33,10 +34,11 @@ struct StateModes {
   std::vector<Amplitudes> normal, tangent;            ///< what each mode shows of n_k . u and t_k . u
   std::vector<Amplitudes> from_normal, from_tangent;  ///< Y n_k, Y t_k
   std::vector<Amplitudes> load, from_load;            ///< of each load's direction
+  ModePairs pairs;                                    ///< where a contact slips and X is written out
 };
 
 /// At once in memory: those of a motion that comes back to its states.
-inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 24};
+inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
  public:

@@ -82,7 +82,6 @@ void ModalWorks::start(const Segment& segment, const StateModes& state, const Os
   slipping_.clear();
   for (std::size_t c = 0; c < decision_->mode.size(); ++c)
     if (slip_sign(decision_->mode[c].state) != 0) slipping_.push_back(c);
-  if (!slipping_.empty()) state.spectrum.products(c_, h_, c_pair_, h_pair_);
 }
 
 ModalWorks::Stretch ModalWorks::stretch(const ModalPoint& from, const ModalPoint& to, double time) const {
@@ -132,44 +131,97 @@ std::vector<std::size_t> ModalWorks::moving(const Stretch& s) const {
   return result;
 }
 
+/// Two modes of which one has no frequency.
+void ModalWorks::add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const {
+  const Integrals<double> both = integrals(s.real[k], s.real[l], alpha_);
+  const double x = state_->spectrum.product(k, l);
+  sums.rates += 2.0 * x * both.rates + 2.0 * with_drifts(s, k, l, x);
+  for (const std::size_t c : slipping_)  // int y_l y_k' = [y_k y_l] - int y_k y_l'
+    sums.crossed[c] += state_->normal[c].real[k] * state_->tangent[c].real[l] * both.mixed +
+                       state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
+}
+
+/// Of all modes up to the last that moves; zero for those that do not, and for those without frequency.
+ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const {
+  const Eigen::Index n = oscillating.empty() ? 0 : static_cast<Eigen::Index>(oscillating.back()) + 1;
+  Lanes lanes;
+  lanes.l = Eigen::Map<const Eigen::ArrayXd>(oscillators_->real().data(), n);
+  for (Eigen::ArrayXd* lane : {&lanes.y0, &lanes.r0, &lanes.y1, &lanes.r1}) lane->setZero(n);
+  for (const std::size_t k : oscillating) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const Ends<double>& y = s.real[k];
+    lanes.y0[i] = y.y0;
+    lanes.r0[i] = y.r0;
+    lanes.y1[i] = y.y1;
+    lanes.r1[i] = y.r1;
+  }
+  return lanes;
+}
+
+/// `integrals` of all modes that oscillate with all before them, d = l_l - l_k, e as in mode_pairs.hpp:
+///   rates = -e ( 2 alpha l_k l_l [yy] + alpha (l_k + l_l) [rr] + d (l_k [yr] - l_l [ry]) )
+///   mixed =  e ( l_l (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_l [ry]) )
+void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
+  const bool known = state_->pairs.e.size() > 0;
+  const Eigen::Index n = lanes.l.size();
+  Eigen::ArrayXd own_e(known ? 0 : n), own_shared(known ? 0 : n), yy, rr, turned, mixed;
+  for (Eigen::Index k = 1; k < n; ++k) {
+    const double lk = lanes.l[k], y0k = lanes.y0[k], y1k = lanes.y1[k], r0k = lanes.r0[k], r1k = lanes.r1[k];
+    if (y0k == 0.0 && y1k == 0.0 && r0k == 0.0 && r1k == 0.0) continue;
+    if (!known) pairs_of_mode(state_->spectrum, alpha_, k, own_e.head(k), own_shared.head(k));
+    const Eigen::Map<const Eigen::ArrayXd> e(known ? &state_->pairs.e(0, k) : own_e.data(), k),
+        shared(known ? &state_->pairs.shared(0, k) : own_shared.data(), k);
+    const auto l = lanes.l.head(k), y0 = lanes.y0.head(k), y1 = lanes.y1.head(k), r0 = lanes.r0.head(k),
+               r1 = lanes.r1.head(k);
+    yy = y1k * y1 - y0k * y0;
+    rr = r1k * r1 - r0k * r0;
+    turned = lk * (y1k * r1 - y0k * r0) - l * (r1k * y1 - r0k * y0);
+    sums.rates -=
+        2.0 * (shared * ((2.0 * alpha_ * lk) * l * yy + alpha_ * (l + lk) * rr + (l - lk) * turned)).sum();
+    mixed = e * (l * ((l - lk) + 2.0 * alpha_ * alpha_) * yy + (l - lk) * rr - (2.0 * alpha_) * turned);
+    for (const std::size_t c : slipping_) {
+      const Eigen::Map<const Eigen::ArrayXd> normal(state_->normal[c].real.data(), n),
+          tangent(state_->tangent[c].real.data(), n);
+      sums.crossed[c] +=
+          normal[k] * (tangent.head(k) * mixed).sum() + tangent[k] * (normal.head(k) * (yy - mixed)).sum();
+    }
+  }
+}
+
 void ModalWorks::add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const std::size_t k = moving[i];
+  std::vector<std::size_t> oscillating, resting;
+  for (const std::size_t k : moving) {
     const Ends<double>& y = s.real[k];
+    (y.l == 0.0 ? resting : oscillating).push_back(k);
     sums.rates +=
         spectrum.square(k) * integrals(y, y, alpha_).rates + with_drifts(s, k, k, spectrum.square(k));
     for (const std::size_t c : slipping_)
       sums.crossed[c] +=
           state_->normal[c].real[k] * state_->tangent[c].real[k] * 0.5 * (y.y1 * y.y1 - y.y0 * y.y0);
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::size_t l = moving[j];
-      const Integrals<double> both = integrals(y, s.real[l], alpha_);
-      const double x = spectrum.product(k, l, c_, h_);
-      sums.rates += 2.0 * x * both.rates;
-      if (s.drift[k] != 0.0 || s.drift[l] != 0.0) sums.rates += 2.0 * with_drifts(s, k, l, x);
-      for (const std::size_t c : slipping_)  // int y_l y_k' = [y_k y_l] - int y_k y_l'
-        sums.crossed[c] +=
-            state_->normal[c].real[k] * state_->tangent[c].real[l] * both.mixed +
-            state_->normal[c].real[l] * state_->tangent[c].real[k] * (both.changed - both.mixed);
-    }
   }
+  for (std::size_t i = 0; i < resting.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) add_two(s, resting[i], resting[j], sums);
+    for (const std::size_t k : oscillating) add_two(s, k, resting[i], sums);
+  }
+  add_oscillating(lanes(s, oscillating), sums);
 }
 
 /// Pairs with real modes, with each other and with each other's conjugates.
 void ModalWorks::add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const {
   const Spectrum& spectrum = state_->spectrum;
   const std::size_t rank = spectrum.rank();
+  const VectorProducts& own = spectrum.products();
   for (std::size_t i = 0; i < s.pair.size(); ++i) {
     const auto product = [&](const auto* c, const auto* h, Complex l) {
       Complex sum;
       for (std::size_t a = 0; a < rank; ++a)
-        sum += h_pair_[i * rank + a] * c[a] - c_pair_[i * rank + a] * h[a];
+        sum += own.h_pair[i * rank + a] * c[a] - own.c_pair[i * rank + a] * h[a];
       return sum * inverse(s.pair[i].l - l);
     };
     for (const std::size_t k : moving) {
       const Integrals<Complex> both = integrals(s.pair[i], complex(s.real[k]), alpha_);
-      const Complex x = product(c_.data() + k * rank, h_.data() + k * rank, oscillators_->real()[k]);
+      const Complex x = product(own.c.data() + k * rank, own.h.data() + k * rank, oscillators_->real()[k]);
       sums.rates += 2.0 * whole(x * (both.rates + (s.pair[i].y1 - s.pair[i].y0) * s.drift[k]));
       for (const std::size_t c : slipping_)
         sums.crossed[c] +=
@@ -186,8 +238,8 @@ void ModalWorks::add_pairs(const Stretch& s, const std::vector<std::size_t>& mov
         if (i != j || conjugate) {
           std::vector<Complex> c(rank), h(rank);
           for (std::size_t a = 0; a < rank; ++a) {
-            c[a] = turned(c_pair_[j * rank + a]);
-            h[a] = turned(h_pair_[j * rank + a]);
+            c[a] = turned(own.c_pair[j * rank + a]);
+            h[a] = turned(own.h_pair[j * rank + a]);
           }
           x = product(c.data(), h.data(), turned(y.l));
         }

@@ -50,6 +50,12 @@ class ModalWorks {
   };
   [[nodiscard]] Stretch stretch(const ModalPoint& from, const ModalPoint& to, double time) const;
   [[nodiscard]] double with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const;
+  struct Lanes {
+    Eigen::ArrayXd l, y0, r0, y1, r1;
+  };
+  [[nodiscard]] Lanes lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const;
+  void add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const;
+  void add_oscillating(const Lanes& lanes, Sums& sums) const;
   void add_real(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   void add_pairs(const Stretch& s, const std::vector<std::size_t>& moving, Sums& sums) const;
   [[nodiscard]] std::vector<std::size_t> moving(const Stretch& s) const;
@@ -65,8 +71,6 @@ class ModalWorks {
   const Amplitudes* forces_ = nullptr;
   std::vector<std::pair<std::size_t, double>> loads_;  // that act, and how strongly
   std::vector<std::size_t> slipping_;                  // contacts
-  std::vector<double> c_, h_;                          // of products of vectors, spectrum.hpp
-  std::vector<Complex> c_pair_, h_pair_;
 };
 
 }  // namespace signorini

@@ -34,7 +34,8 @@ Poles::Poles(const Eigen::VectorXd& values)
     if (base[i] == base[i - 1]) tiny[i] = tiny[i - 1] + parting * std::max(scale, base[i]);
 }
 
-Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric)
+Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
+                   std::size_t written_up_to)
     : rank_(static_cast<std::size_t>(u.cols())), order_(poles.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
@@ -72,6 +73,8 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   order_values();
   find_squares();
   part_close_roots();
+  find_products();
+  if (order_.size() + 2 * pairs_.size() <= written_up_to) write_out();
   test();
 }
 

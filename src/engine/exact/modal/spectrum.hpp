@@ -6,8 +6,8 @@
 //
 // D: squares of the open modes' frequencies; U, V: what the springs of closed contacts make of them, not
 // symmetric where a contact slips. All roots are found together (Ehrlich, Aberth). A root is a pole and an
-// offset, so that D_i - l keeps its digits however close they are, and vectors are never stored: they are
-// Cauchy vectors, and products with them are sums over 1 / (D_i - l_k), n^2 operations. Equal poles are
+// offset, so that D_i - l keeps its digits however close they are. Vectors are Cauchy vectors, and products
+// with them are sums over 1 / (D_i - l_k), n^2 operations; where they fit they are written out. Equal poles are
 // parted, and rows that are zero filled, by far less than their rounding, so that every root is simple.
 // Sources: Aberth, Math. Comp. 27 (1973), 339; Gu and Eisenstat, SIAM J. Matrix Anal. Appl. 15 (1994), 1266.
 #pragma once
@@ -53,11 +53,22 @@ struct Amplitudes {
   std::vector<Complex> pair;
 };
 
+/// c and h = U^T x of each mode, `rank` numbers each, so that of two modes
+///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
+struct VectorProducts {
+  std::vector<double> c, h;
+  std::vector<Complex> c_pair, h_pair;
+};
+
+/// Unknowns up to which X and Y are written out: 16 n^2 bytes a state, 16 MB here.
+inline constexpr std::size_t most_written = 1024;
+
 class Spectrum {
  public:
   /// U, V: n x rank, rank <= most_rank. `symmetric`: V is U but for positive factors of its columns, so that
   /// all roots are real.
-  Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric);
+  Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
+           std::size_t written_up_to = most_written);
 
   /// Why the modes cannot be used; empty: they can.
   [[nodiscard]] const std::string& failure() const { return failure_; }
@@ -71,19 +82,16 @@ class Spectrum {
   /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { project(q, false, z); }
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
-  /// c and h = U^T x of each mode, `rank()` numbers each, so that of two modes
-  ///   x_k^T x_l = (h_k . c_l - c_k . h_l) / (l_k - l_l)
-  void products(std::vector<double>& c, std::vector<double>& h, std::vector<Complex>& c_pair,
-                std::vector<Complex>& h_pair) const;
-  /// x_k^T x_l of real modes, k != l, with the numbers of `products`; x_k^T x_k of a real mode and of a
-  /// pair's.
-  [[nodiscard]] double product(std::size_t k, std::size_t l, const std::vector<double>& c,
-                               const std::vector<double>& h) const;
+  [[nodiscard]] const VectorProducts& products() const { return products_; }
+  /// x_k^T x_l of real modes, k != l; x_k^T x_k of a real mode and of a pair's.
+  [[nodiscard]] double product(std::size_t k, std::size_t l) const;
   [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
   [[nodiscard]] Complex square_of_pair(std::size_t k) const { return pair_squares_[k]; }
   [[nodiscard]] std::size_t rank() const { return rank_; }
   /// q := X z, for several z at once.
   void from_modes(const std::vector<const Amplitudes*>& z, const std::vector<Eigen::VectorXd*>& q) const;
+  /// Of X and Y, where they are written out.
+  [[nodiscard]] std::size_t written_bytes() const;
 
  private:
   using Wide = long double;  // for real roots and their vectors
@@ -127,6 +135,14 @@ class Spectrum {
   void take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eigen::MatrixXd& v);
   void order_values();
   void find_squares();
+  void find_products();
+  template <class S>
+  void entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small, const Eigen::MatrixXd& side,
+               std::vector<S>& out) const;
+  void write_out();
+  void project_written(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;
+  void from_modes_written(const std::vector<const Amplitudes*>& z,
+                          const std::vector<Eigen::VectorXd*>& q) const;
   void part_close_roots();
   template <class S>
   [[nodiscard]] S moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const;
@@ -158,6 +174,8 @@ class Spectrum {
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
+  VectorProducts products_;
+  Eigen::MatrixXd x_, y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

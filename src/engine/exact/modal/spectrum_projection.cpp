@@ -56,6 +56,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     z.pair.clear();
     return;
   }
+  if (x_.size() > 0) return project_written(q, form, z);
   Eigen::VectorXd turned = q;
   for (const auto& [row, vectors] : turns_)
     turned.segment(row, vectors.rows()) = vectors.transpose() * q.segment(row, vectors.rows());
@@ -92,6 +93,7 @@ void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,
           Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), static_cast<Eigen::Index>(z[s]->real.size()));
     return;
   }
+  if (x_.size() > 0) return from_modes_written(z, q);
   const auto n = static_cast<Eigen::Index>(n_), rank = static_cast<Eigen::Index>(rank_);
   std::vector<std::vector<double>> real(z.size(), std::vector<double>(order_.size()));
   for (std::size_t s = 0; s < z.size(); ++s)

@@ -48,7 +48,11 @@ void Spectrum::find_vectors(Roots<S>& roots) {
 template <class S, class W>
 void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c,
                             const SmallVector<W>& d) {
-  double x_size = 0.0, y_size = 0.0;
+  const auto square_of = [](W a) {
+    const auto size = static_cast<double>(size_of(a));
+    return size * size;
+  };
+  double x_square = 0.0, y_square = 0.0;
   W product{};
   for (std::size_t i = 0; i < n_; ++i) {
     const W one = inverse(W(poles_.between(i, roots.home[k])) - own);
@@ -59,10 +63,11 @@ void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVe
     }
     x *= one;
     y *= one;
-    x_size = std::hypot(x_size, static_cast<double>(size_of(x)));
-    y_size = std::hypot(y_size, static_cast<double>(size_of(y)));
+    x_square += square_of(x);
+    y_square += square_of(y);
     product += x * y;
   }
+  const double x_size = std::sqrt(x_square), y_size = std::sqrt(y_square);
   condition_ = std::max(condition_, x_size * y_size / static_cast<double>(size_of(product)));
   const W to_right = W(1.0 / x_size), to_left = inverse(product) * x_size;
   for (std::size_t a = 0; a < rank_; ++a) {
@@ -131,8 +136,8 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
-double Spectrum::product(std::size_t k, std::size_t l, const std::vector<double>& c,
-                         const std::vector<double>& h) const {
+double Spectrum::product(std::size_t k, std::size_t l) const {
+  const std::vector<double>&c = products_.c, &h = products_.h;
   const double difference = (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
   double sum = 0.0;
   for (std::size_t a = 0; a < rank_; ++a)
@@ -140,8 +145,8 @@ double Spectrum::product(std::size_t k, std::size_t l, const std::vector<double>
   return sum == 0.0 ? 0.0 : sum / difference;
 }
 
-void Spectrum::products(std::vector<double>& c, std::vector<double>& h, std::vector<Complex>& c_pair,
-                        std::vector<Complex>& h_pair) const {
+void Spectrum::find_products() {
+  auto& [c, h, c_pair, h_pair] = products_;
   const auto fill = [&](const auto& roots, auto& left, auto& right) {
     using S = typename std::decay_t<decltype(left)>::value_type;
     left = roots.right;

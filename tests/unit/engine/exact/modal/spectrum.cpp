@@ -103,6 +103,35 @@ TEST_CASE("spectrum: X L Y is the matrix, rows show what the modes show") {
   }
 }
 
+TEST_CASE("spectrum: written out or not, the same products") {
+  std::mt19937_64 random(4);
+  for (const bool symmetric : {true, false})
+    for (const int n : {12, 30}) {
+      const Case c = random_case(random, n, 3, symmetric);
+      const Spectrum written(Poles(c.d), c.u, c.v, symmetric), summed(Poles(c.d), c.u, c.v, symmetric, 0);
+      REQUIRE(written.failure() == "");
+      REQUIRE(summed.failure() == "");
+      CHECK(written.written_bytes() == sizeof(double) * 2 * static_cast<std::size_t>(n * n));
+      CHECK(summed.written_bytes() == 0);
+      const VectorXd q = VectorXd::Random(n);
+      for (const bool form : {false, true}) {
+        Amplitudes a, b;
+        form ? written.of_form(q, a) : written.to_modes(q, a);
+        form ? summed.of_form(q, b) : summed.to_modes(q, b);
+        REQUIRE(a.real.size() == b.real.size());
+        REQUIRE(a.pair.size() == b.pair.size());
+        const double size = written.condition();
+        for (std::size_t k = 0; k < a.real.size(); ++k) CHECK(std::abs(a.real[k] - b.real[k]) < 1e-13 * size);
+        for (std::size_t k = 0; k < a.pair.size(); ++k) CHECK(size_of(a.pair[k] - b.pair[k]) < 1e-13 * size);
+        VectorXd from_a, twice, from_b;
+        written.from_modes({&a, &a}, {&from_a, &twice});
+        summed.from_modes({&a}, {&from_b});
+        CHECK((from_a - from_b).norm() < 1e-13 * size * from_b.norm());
+        CHECK(twice == from_a);
+      }
+    }
+}
+
 TEST_CASE("spectrum: without springs every mode is its own") {
   const VectorXd d = VectorXd::LinSpaced(4, 0.0, 3.0), q = VectorXd::LinSpaced(4, 1.0, 2.0);
   const Poles poles(d);
@@ -119,9 +148,6 @@ TEST_CASE("spectrum: products of vectors from c and h are those of the vectors")
   const Poles poles(c.d);
   const Spectrum spectrum(poles, c.u, c.v, false);
   REQUIRE(spectrum.failure() == "");
-  std::vector<double> small, sums;
-  std::vector<Complex> small_pair, sums_pair;
-  spectrum.products(small, sums, small_pair, sums_pair);
   const std::size_t count = spectrum.real().size();
   std::vector<VectorXd> x(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -134,7 +160,6 @@ TEST_CASE("spectrum: products of vectors from c and h are those of the vectors")
   for (std::size_t k = 0; k < count; ++k) {
     CHECK(spectrum.square(k) == doctest::Approx(x[k].squaredNorm()).epsilon(1e-12));
     for (std::size_t l = 0; l < k; ++l)
-      CHECK(std::abs(spectrum.product(k, l, small, sums) - x[k].dot(x[l])) <
-            1e-9 * x[k].norm() * x[l].norm());
+      CHECK(std::abs(spectrum.product(k, l) - x[k].dot(x[l])) < 1e-9 * x[k].norm() * x[l].norm());
   }
 }

@@ -1,0 +1,111 @@
+// X and Y written out as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
+#include "engine/exact/modal/spectrum.hpp"
+
+namespace signorini {
+
+std::size_t Spectrum::written_bytes() const {
+  return sizeof(double) * static_cast<std::size_t>(x_.size() + y_.size());
+}
+
+/// side * small / (D - l) of one root, at the places of what is seen; the rest is zero.
+template <class S>
+void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
+                       const Eigen::MatrixXd& side, std::vector<S>& out) const {
+  out.assign(seen_.size() + unseen_.size(), S(0.0));
+  for (std::size_t i = 0; i < n_; ++i) {
+    S sum{};
+    for (std::size_t a = 0; a < rank_; ++a)
+      sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+    out[static_cast<std::size_t>(seen_[i])] =
+        sum * inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]);
+  }
+}
+
+void Spectrum::write_out() {
+  const auto reals = static_cast<Eigen::Index>(order_.size()),
+             pairs = static_cast<Eigen::Index>(pairs_.size()),
+             n = static_cast<Eigen::Index>(seen_.size() + unseen_.size());
+  x_.setZero(n, reals + 2 * pairs);
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(reals + 2 * pairs, n);  // rows as real_, unseen_, pairs_
+  Eigen::MatrixXd right = x_;
+  std::vector<double> one;
+  for (std::size_t k = 0; k < real_.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    entries(real_, k, real_.right, u_, one);
+    right.col(at) = Eigen::Map<const Eigen::VectorXd>(one.data(), n);
+    for (std::size_t j = 0; j < unseen_.size(); ++j)
+      right(unseen_[j], at) = moved(real_, k, j, unseen_poles_[j]);
+    entries(real_, k, real_.left, v_, one);
+    left.row(at) = Eigen::Map<const Eigen::RowVectorXd>(one.data(), n);
+  }
+  std::vector<Complex> entry;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto at = reals + 2 * static_cast<Eigen::Index>(k);
+    entries(pairs_, k, pairs_.right, u_, entry);
+    for (std::size_t j = 0; j < unseen_.size(); ++j)
+      entry[static_cast<std::size_t>(unseen_[j])] = moved(pairs_, k, j, unseen_poles_[j]);
+    for (Eigen::Index i = 0; i < n; ++i) {  // x z + its conjugate
+      right(i, at) = 2.0 * entry[static_cast<std::size_t>(i)].re;
+      right(i, at + 1) = -2.0 * entry[static_cast<std::size_t>(i)].im;
+    }
+    entries(pairs_, k, pairs_.left, v_, entry);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      left(at, i) = entry[static_cast<std::size_t>(i)].re;
+      left(at + 1, i) = entry[static_cast<std::size_t>(i)].im;
+    }
+  }
+  const Eigen::MatrixXd mixed = left;
+  for (const Close& pair : close_)
+    left.row(static_cast<Eigen::Index>(pair.k)) -=
+        pair.product * mixed.row(static_cast<Eigen::Index>(pair.l));
+  for (std::size_t j = 0; j < unseen_.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(real_.size() + j);
+    left.row(at) = -(right.row(unseen_[j]) * left);  // none of this row yet, and none of right's column
+    left(at, unseen_[j]) += 1.0;
+    right(unseen_[j], at) = 1.0;
+  }
+  for (const auto& [row, vectors] : turns_) {
+    right.middleRows(row, vectors.rows()) = (vectors * right.middleRows(row, vectors.rows())).eval();
+    left.middleCols(row, vectors.rows()) =
+        (left.middleCols(row, vectors.rows()) * vectors.transpose()).eval();
+  }
+  y_ = left;
+  x_ = right;
+  for (std::size_t p = 0; p < order_.size(); ++p) {
+    const auto to = static_cast<Eigen::Index>(p), from = static_cast<Eigen::Index>(order_[p]);
+    x_.col(to) = right.col(from);
+    y_.row(to) = left.row(from);
+  }
+}
+
+void Spectrum::project_written(const Eigen::VectorXd& q, bool form, Amplitudes& z) const {
+  Eigen::VectorXd all;
+  if (form)
+    all.noalias() = x_.transpose() * q;
+  else
+    all.noalias() = y_ * q;
+  const auto reals = static_cast<Eigen::Index>(order_.size());
+  z.real.assign(all.data(), all.data() + reals);
+  z.pair.clear();
+  for (Eigen::Index k = reals; k < all.size(); k += 2)
+    z.pair.push_back(form ? Complex{0.5 * all[k], -0.5 * all[k + 1]} : Complex{all[k], all[k + 1]});
+}
+
+void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,
+                                  const std::vector<Eigen::VectorXd*>& q) const {
+  Eigen::MatrixXd all(x_.cols(), static_cast<Eigen::Index>(z.size()));
+  const auto reals = static_cast<Eigen::Index>(order_.size());
+  for (std::size_t s = 0; s < z.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    all.col(column).head(reals) = Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), reals);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const auto at = reals + 2 * static_cast<Eigen::Index>(k);
+      all(at, column) = z[s]->pair[k].re;
+      all(at + 1, column) = z[s]->pair[k].im;
+    }
+  }
+  const Eigen::MatrixXd back = x_ * all;
+  for (std::size_t s = 0; s < z.size(); ++s) *q[s] = back.col(static_cast<Eigen::Index>(s));
+}
+
+}  // namespace signorini

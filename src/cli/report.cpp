@@ -123,7 +123,7 @@ std::string method_of(const Method& method) {
       fmt::format("{}{}", method.reason.starts_with("auto") ? "auto: " : "", engine.name);
   switch (engine.accuracy) {
     case Accuracy::rounding:
-      return fmt::format("{} ({})", name, engine.title);
+      return fmt::format("{} ({})", name, method.flow == "modal" ? "closed form in modes" : engine.title);
     case Accuracy::step:
       return fmt::format("{}, dt {:g}", name, method.accuracy);
     case Accuracy::tolerance:

@@ -65,7 +65,8 @@ Method closed_flow(const Model& model, const RunSpec& run) {
           "",
           0.0,
           most_levels,
-          "Taylor series as long as rounding needs; rtol has no part in it",
+          flow.modal ? "of the Taylor series where a state has no modes; rtol has no part in it"
+                     : "Taylor series as long as rounding needs; rtol has no part in it",
           flow.modal ? "modal" : "taylor",
           std::move(flow.reason)};
 }

@@ -240,9 +240,7 @@ void ModalEngine::fill(const ModalPoint& z, Point& point) {
     second.pair.push_back(forces_.pair[k] - z.rate.pair[k] * alpha - oscillators_.pairs()[k] * z.z.pair[k]);
   Vector q, rate, change;
   state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, &change});
-  point.u = system_.motion(q);
-  point.v = system_.motion(rate);
-  point.a = system_.motion(change);
+  system_.motions({&q, &rate, &change}, {&point.u, &point.v, &point.a});
   point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const ForceLaw law = proof_.law(c);

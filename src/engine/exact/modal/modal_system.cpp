@@ -58,6 +58,7 @@ ModalSystem::ModalSystem(const Model& model)
       alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {
   if (!modes_.found()) return;
   poles_ = Poles(modes_.square);
+  shapes_ = modes_.shapes;
   projection_ = (model.mass * modes_.shapes).transpose();
   const auto amplitudes_of = [&](const Combination& form) {
     Vector x = Vector::Zero(model.size());
@@ -69,6 +70,7 @@ ModalSystem::ModalSystem(const Model& model)
     tangent_.push_back(amplitudes_of(contact.tangent));
   }
   for (const Load& load : model.loads) load_.push_back(amplitudes_of(load.direction));
+  modes_.shapes.resize(0, 0);  // kept by rows
 }
 
 std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {

@@ -13,6 +13,7 @@
 #include "engine/exact/modal/mode_pairs.hpp"
 #include "engine/exact/modal/open_modes.hpp"
 #include "engine/exact/modal/spectrum.hpp"
+#include "engine/exact/modal/thin_product.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini {
@@ -52,13 +53,16 @@ class ModalSystem {
   [[nodiscard]] long made() const { return made_; }
 
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
-  [[nodiscard]] Vector motion(const Vector& q) const { return modes_.shapes * q; }
+  void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
+    thin_product(shapes_, q, u);
+  }
 
  private:
   const Model& model_;
   OpenModes modes_;
   Poles poles_;
   double alpha_ = 0.0;
+  RowMatrix shapes_;            // Phi
   Eigen::MatrixXd projection_;  // Phi^T M
   std::vector<Vector> normal_, tangent_, load_;
   [[nodiscard]] StateModes make(const Mode& mode) const;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "engine/exact/modal/small_lu.hpp"
+#include "engine/exact/modal/thin_product.hpp"
 
 namespace signorini {
 
@@ -175,7 +176,8 @@ class Spectrum {
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
   VectorProducts products_;
-  Eigen::MatrixXd x_, y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
+  RowMatrix x_;
+  Eigen::MatrixXd y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

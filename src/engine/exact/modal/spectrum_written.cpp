@@ -25,9 +25,8 @@ void Spectrum::write_out() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(seen_.size() + unseen_.size());
-  x_.setZero(n, reals + 2 * pairs);
   Eigen::MatrixXd left = Eigen::MatrixXd::Zero(reals + 2 * pairs, n);  // rows as real_, unseen_, pairs_
-  Eigen::MatrixXd right = x_;
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);
   std::vector<double> one;
   for (std::size_t k = 0; k < real_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -93,19 +92,19 @@ void Spectrum::project_written(const Eigen::VectorXd& q, bool form, Amplitudes& 
 
 void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,
                                   const std::vector<Eigen::VectorXd*>& q) const {
-  Eigen::MatrixXd all(x_.cols(), static_cast<Eigen::Index>(z.size()));
+  std::vector<Eigen::VectorXd> all(z.size(), Eigen::VectorXd(x_.cols()));
+  std::vector<const Eigen::VectorXd*> lists;
   const auto reals = static_cast<Eigen::Index>(order_.size());
   for (std::size_t s = 0; s < z.size(); ++s) {
-    const auto column = static_cast<Eigen::Index>(s);
-    all.col(column).head(reals) = Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), reals);
+    all[s].head(reals) = Eigen::Map<const Eigen::VectorXd>(z[s]->real.data(), reals);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const auto at = reals + 2 * static_cast<Eigen::Index>(k);
-      all(at, column) = z[s]->pair[k].re;
-      all(at + 1, column) = z[s]->pair[k].im;
+      all[s][at] = z[s]->pair[k].re;
+      all[s][at + 1] = z[s]->pair[k].im;
     }
+    lists.push_back(&all[s]);
   }
-  const Eigen::MatrixXd back = x_ * all;
-  for (std::size_t s = 0; s < z.size(); ++s) *q[s] = back.col(static_cast<Eigen::Index>(s));
+  thin_product(x_, lists, q);
 }
 
 }  // namespace signorini

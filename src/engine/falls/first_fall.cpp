@@ -107,11 +107,13 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     for (std::size_t i = k; i <= degree; ++i) stack[0].b[i] += a[k] * table[k][i];
 
   FirstFall result;  // none, or the first touch
+  const auto falls_at = [&](double x) { return FirstFall{FirstFall::Kind::fall, x, result.intervals}; };
   const auto touch = [&](double x) {
-    if (result.kind == FirstFall::Kind::none) result = {FirstFall::Kind::touch, x};
+    if (result.kind == FirstFall::Kind::none) result = {FirstFall::Kind::touch, x, result.intervals};
   };
   while (count > 0) {
     Interval& now = stack[count - 1];
+    ++result.intervals;
     std::size_t above = 0, below = 0, rises = 0, falls = 0;
     bool one_change = true;  // from above slack to below -slack, nothing between
     for (std::size_t i = 0; i <= degree; ++i) {
@@ -126,11 +128,11 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
       --count;
       continue;
     }
-    if (below == degree + 1) return {FirstFall::Kind::fall, now.lo};
+    if (below == degree + 1) return falls_at(now.lo);
     one_change = one_change && above + below == degree + 1 && now.b[0] > slack;
-    if (one_change) return {FirstFall::Kind::fall, only_zero(a, degree, now.lo, now.hi, guess(degree, now))};
+    if (one_change) return falls_at(only_zero(a, degree, now.lo, now.hi, guess(degree, now)));
     if (rises == degree) {  // monotone: its ends tell
-      if (now.b[0] < -slack) return {FirstFall::Kind::fall, now.lo};
+      if (now.b[0] < -slack) return falls_at(now.lo);
       if (now.b[0] <= slack && now.lo > 0.0) touch(now.lo);
       --count;
       continue;
@@ -138,8 +140,7 @@ FirstFall first_fall(const double* a, std::size_t degree, double slack) {
     if (falls == degree) {
       const double right = now.b[degree];
       if (right < -slack)
-        return {FirstFall::Kind::fall,
-                now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo};
+        return falls_at(now.b[0] > 0.0 ? only_zero(a, degree, now.lo, now.hi, guess(degree, now)) : now.lo);
       // At the end of the step the next one sees whether it falls.
       if (right <= slack && now.hi < 1.0) touch(now.hi);
       --count;

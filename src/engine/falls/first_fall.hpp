@@ -22,6 +22,7 @@ struct FirstFall {
     lost,   ///< coefficients or slack are not finite: nothing can be said
   } kind = Kind::none;
   double x = 0.0;
+  std::size_t intervals = 0;  ///< that were looked at: what it cost
 };
 
 inline constexpr std::size_t most_fall_degree = 32;

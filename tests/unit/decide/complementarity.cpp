@@ -168,6 +168,20 @@ TEST_CASE("contacts that couple: Lemke's solution fulfils all conditions and is 
   CHECK(several > 10);
 }
 
+TEST_CASE("up to six contacts all states are tried, and no more") {
+  for (const std::size_t count : {most_enumerated, most_enumerated + 1}) {
+    const auto n = static_cast<Eigen::Index>(2 * count);
+    CoulombProblem p{MatrixXd::Identity(n, n), VectorXd::Zero(n), {}};
+    for (std::size_t i = 0; i < count; ++i) {
+      p.items.push_back({Kind::frictional, 0.5, 0.5, 0.0, 0});
+      p.b[static_cast<Eigen::Index>(2 * i)] = -1.0;
+    }
+    const Enumerated all = all_solutions(p);
+    CHECK(all.solutions.size() == (count == most_enumerated ? 1 : 0));
+    CHECK(std::isnan(all.least_miss) == (count > most_enumerated));
+  }
+}
+
 TEST_CASE("an impact without restitution has a solution whatever the friction, and never gains energy") {
   std::mt19937_64 random(5);
   for (int trial = 0; trial < 3000; ++trial) {

@@ -26,6 +26,25 @@ Form gap() {
 
 TEST_SUITE_BEGIN("unit/decide/guard_signs");
 
+TEST_CASE(
+    "of guards that fail at the same order separation counts, not the friction limit that ends with it") {
+  Model model;
+  Contact contact;
+  contact.law = Law::rigid;
+  contact.name = "c";
+  contact.friction.static_ = contact.friction.kinetic = 0.5;
+  model.contacts.push_back(contact);
+  MotionJet
+      jet;  // N = t^2, T = t^2: compression ends and the limit is exceeded, both in the second derivative
+  for (std::size_t k = 0; k < jet.motion.size(); ++k) jet.noise[k].N = jet.noise[k].T = 1e-12;
+  jet.motion[2].N = jet.motion[2].T = 2.0;
+  const std::vector<Failure> failed =
+      failures(model, {jet}, {{State::stick}}, Instant{}, false, std::vector<KnownGuards>(1));
+  REQUIRE(failed.size() == 1);
+  CHECK(failed[0].guard == Guard::separation);
+  CHECK(failed[0].sign.order == 2);
+}
+
 TEST_CASE("the first derivative that is not zero decides, and says how clearly") {
   const Instant instant;
   const Sign falls = sign_after(gap(), gap_of({0.5, -30.0, 9.0, 0.0, 0.0}, 1.0), instant, 0);

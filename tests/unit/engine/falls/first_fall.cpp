@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace signorini;
@@ -94,6 +95,25 @@ TEST_CASE("oscillations over a step: 1 + depth - cos-like wiggles touch or cross
         CHECK(f.x == doctest::Approx((std::acos(-1.0) - std::sqrt(2.0 * e)) / 3.4).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("what stays above everywhere is passed as it is, not halved until it is monotone") {
+  // 2 + T_6(2x - 1): six turns, never below 1
+  std::vector<double> now{1.0}, next{-1.0, 2.0};
+  for (int i = 1; i < 6; ++i) {
+    std::vector<double> after(next.size() + 1, 0.0);
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      after[k] -= 2.0 * next[k];
+      after[k + 1] += 4.0 * next[k];
+    }
+    for (std::size_t k = 0; k < now.size(); ++k) after[k] -= now[k];
+    now = std::exchange(next, after);
+  }
+  next[0] += 2.0;
+  const FirstFall none = fall(next);
+  CHECK(none.kind == FirstFall::Kind::none);
+  CHECK(none.intervals > 1);
+  CHECK(none.intervals <= 15);  // halves, quarters, eighths: in an eighth all its coefficients are above zero
 }
 
 TEST_CASE("random polynomials: no sample before the reported fall is negative, and it is a root") {

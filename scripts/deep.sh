@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [install];
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [install];
 # without arguments all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
@@ -9,6 +9,7 @@
 #   fuzz     the fuzzers, a quarter of an hour each (FUZZ_SECONDS)
 #   schema   scenes against the schema, by Debian's jsonschema
 #   page     the pages of `report` in a headless Chromium; screenshots in build/page, to be looked at
+#   python   the Python package by pip, its tests and its tutorial
 #   install  the Debian package on a bare Debian 12 (needs root)
 set -euo pipefail
 
@@ -66,6 +67,14 @@ page() {
   /usr/bin/python3 -B tests/page/page.py build/release/signorini models build/page
 }
 
+python_package() {
+  scripts/setup.sh pybind11-dev python3-dev python3-numpy python3-pandas python3-setuptools python3-wheel python3-pip
+  command -v ccache >/dev/null && export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_SLOPPINESS=pch_defines,time_macros
+  rm -rf build/pip
+  /usr/bin/python3 -m pip install -q --no-build-isolation --no-deps --target build/pip .
+  PYTHONPATH=build/pip /usr/bin/python3 -B tests/python/test_signorini.py
+}
+
 installed() {
   scripts/setup.sh debootstrap dpkg-dev
   build_program all
@@ -73,7 +82,7 @@ installed() {
 }
 
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page install
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python install
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -84,8 +93,9 @@ for what in "$@"; do
     fuzz) fuzz ;;
     schema) scene_schema ;;
     page) page ;;
+    python) python_package ;;
     install) installed ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, install" >&2; exit 2 ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, install" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

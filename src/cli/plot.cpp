@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ExitCode plot(const fs::path& directory, const PlotWindow& window) {
+ExitCode plot(const fs::path& directory, const PlotWindow& window, const PictureLook& look) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
-  const std::vector<fs::path> scripts = first_ones(write_plots(directory, window));
+  const std::vector<fs::path> scripts = first_ones(write_plots(directory, window, look));
   if (scripts.empty())
     throw FileError(directory.string(), "has fewer than two output times: nothing to draw");
   const Drawing drawing = draw(scripts);
@@ -26,24 +26,43 @@ ExitCode plot(const fs::path& directory, const PlotWindow& window) {
   if (drawing.kind == Drawing::Kind::failed) throw FileError("gnuplot", drawing.message);
   std::string text;
   for (fs::path picture : scripts) {
-    text += picture.replace_extension(".png").string() + "\n";
-    text += picture.replace_extension(".svg").string() + "\n";
+    for (const std::string& format : look.formats) text += picture.replace_extension(format).string() + "\n";
   }
   print(text);
   return ExitCode::done;
 }
 
+struct PlotOptions {
+  std::string directory;
+  PlotWindow window;
+  std::optional<std::string> size, formats;
+  bool no_title = false;
+};
+
 }  // namespace
 
 void add_plot(Program& program) {
-  auto directory = std::make_shared<std::string>();
-  auto window = std::make_shared<PlotWindow>();
+  auto options = std::make_shared<PlotOptions>();
   CLI::App* command = program.app.add_subcommand("plot", "draw the pictures of a run again");
-  command->add_option("DIR", *directory, "a directory that `signorini run` wrote")->required();
-  command->add_option("--from", window->from, "first time shown (default: the whole run)")->option_text("T");
-  command->add_option("--to", window->to, "last time shown")->option_text("T");
-  command->callback([&program, directory, window] {
-    program.action = [directory, window] { return plot(fs::path(*directory), *window); };
+  command->add_option("DIR", options->directory, "a directory that `signorini run` wrote")->required();
+  command->add_option("--from", options->window.from, "first time shown (default: the whole run)")
+      ->option_text("T");
+  command->add_option("--to", options->window.to, "last time shown")->option_text("T");
+  command
+      ->add_option("--size", options->size,
+                   "width in mm, or width and height: 160x90 (default: for a screen)")
+      ->option_text("WxH");
+  command->add_option("--format", options->formats, "svg, png, pdf, several with commas (default: svg,png)")
+      ->option_text("NAME,...");
+  command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
+  command->callback([&program, options] {
+    program.action = [options] {
+      PictureLook look;
+      look.title = !options->no_title;
+      if (options->size) read_size(*options->size, look);
+      if (options->formats) read_formats(*options->formats, look);
+      return plot(fs::path(options->directory), options->window, look);
+    };
   });
 }
 

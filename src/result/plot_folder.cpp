@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& file) {
   const std::string type = file.extension().string();
-  return type == ".gp" || type == ".svg" || type == ".png";
+  return type == ".gp" || type == ".svg" || type == ".png" || type == ".pdf";
 }
 
 void clear_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {

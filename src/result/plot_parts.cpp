@@ -60,25 +60,26 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
   std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
   const bool shaded = picture.over_time && run.facts.certain_until && *run.facts.certain_until < run.to;
   if (shaded) note += fmt::format(" (shaded: not certain, from t = {:.6g} on)", *run.facts.certain_until);
-  std::string s = "# Draws " + picture.name + ".svg and " + picture.name +
-                  ".png from the tables of the run. In this folder: gnuplot " + picture.name + ".gp\n";
+  std::string s = "# Draws " + picture.name +
+                  ".svg and the like from the tables of the run. In this folder: gnuplot " + picture.name +
+                  ".gp\n";
   if (picture.over_time) {
     s += fmt::format("from = {}; to = {}   # the time shown\n", shortest(run.from), shortest(run.to));
   }
   s += "reset\nset datafile separator ','\nset encoding utf8\n";
-  s += "do for [format in 'svg png'] {\n";
-  s += fmt::format(
-      "if (format eq 'svg') {{ set terminal svg noenhanced size 1120,{0} background '#ffffff' font "
-      "'DejaVu Sans,13' }} else {{ set terminal pngcairo noenhanced size 1680,{1} background '#ffffff' font "
-      "'DejaVu Sans,13' fontscale 1.3 linewidth 1.5 }}\n",
-      picture.height, picture.height * 3 / 2);
+  std::string formats;
+  for (const std::string& format : run.look.formats) formats += (formats.empty() ? "" : " ") + format;
+  s += "do for [format in '" + formats + "'] {\n";
+  const Terminals size = terminals(run.look, picture.height, picture.over_time);
+  s += size.text;
   s += "set output " + quoted(picture.name + ".") + ".format\n";
   s += "set multiplot\n";
-  const double line = 1.0 / picture.height;
-  s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',15'\n", quoted(title + note), panel_left,
-                   1.0 - 24.0 * line);
-  s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n", quoted(picture.subtitle),
-                   panel_left, 1.0 - 46.0 * line);
+  if (run.look.title) {
+    s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',{:.4g}'\n", quoted(title + note),
+                     panel_left, 1.0 - 24.0 * size.line, size.font * 15.0 / 13.0);
+    s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n",
+                     quoted(picture.subtitle), panel_left, 1.0 - 46.0 * size.line);
+  }
   s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", panel_left, panel_right);
   s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
   s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";

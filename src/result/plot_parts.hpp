@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "result/picture_look.hpp"
 #include "result/summary.hpp"
 
 namespace signorini {
@@ -23,6 +24,7 @@ struct PlottedRun {
   double t_first = 0.0, t_last = 0.0;
   double from = 0.0, to = 0.0;  ///< the time shown
   std::string suffix;           ///< of the pictures' names
+  PictureLook look;
   /// Intervals of constant state, one list a contact.
   struct Band {
     double from, to;

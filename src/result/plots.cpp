@@ -207,8 +207,10 @@ bool is_picture_of_run(const fs::path& file) {
 
 }  // namespace
 
-std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window) {
+std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& window,
+                                  const PictureLook& look) {
   PlottedRun run;
+  run.look = look;
   run.facts = read_run_facts(directory);
   const std::size_t shown = read_times(directory, window, run);
   if (run.times < 2) return {};

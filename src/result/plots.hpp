@@ -19,6 +19,8 @@
 #include <optional>
 #include <vector>
 
+#include "result/picture_look.hpp"
+
 namespace signorini {
 
 /// The time shown; absent ends are those of the run.
@@ -30,7 +32,7 @@ struct PlotWindow {
 /// than two output times to draw. Errors: FileError; UsageError when the window
 /// shows nothing of the run, before anything is removed.
 std::vector<std::filesystem::path> write_plots(const std::filesystem::path& directory,
-                                               const PlotWindow& window = {});
+                                               const PlotWindow& window = {}, const PictureLook& look = {});
 
 /// Removes from DIR/plots what write_plots and its scripts put there, and the folder if that empties it.
 void remove_plots(const std::filesystem::path& directory);

@@ -28,6 +28,38 @@ TEST_CASE("cli plot: draws again what was removed") {
   }
 }
 
+TEST_CASE("cli plot: size, format and title for a paper") {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml"}).code == 0);
+  const Ending ending =
+      shell.run({"plot", "belt-run", "--size", "160x90", "--no-title", "--format", "pdf,svg"});
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  const std::string svg = shell.read("belt-run/plots/energy.svg");
+  CHECK(svg.find("width=\"605\" height=\"340\"") != std::string::npos);  // 160 and 90 mm of 96 pixels an inch
+  CHECK(svg.find("Block on a moving belt") == std::string::npos);
+  CHECK(svg.find("time t [s]") != std::string::npos);
+  CHECK(shell.read("belt-run/plots/energy.pdf").starts_with("%PDF"));
+  CHECK(shell.read("belt-run/plots/cone.svg").find("width=\"605\"") != std::string::npos);
+  CHECK_FALSE(signorini::cli_test::exists(shell, "belt-run/plots/energy.png"));
+  // A later run takes them away with the rest.
+  REQUIRE(shell.run({"run", "belt.toml", "--force", "--no-plots"}).code == 0);
+  CHECK_FALSE(signorini::cli_test::exists(shell, "belt-run/plots"));
+  for (const auto& wrong : std::vector<std::vector<std::string>>{{"--size", "160"},
+                                                                 {"--size", "160x"},
+                                                                 {"--size", "10x90"},
+                                                                 {"--size", "10"},
+                                                                 {"--size", "160x9000"},
+                                                                 {"--format", "gif"},
+                                                                 {"--format", ""}}) {
+    const Ending refused = shell.run({"plot", "belt-run", wrong[0], wrong[1]});
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find(wrong[0] + ": ") != std::string::npos);
+  }
+}
+
 TEST_CASE("cli plot: a window beside the run is refused, and the pictures stay") {
   const Shell shell;
   shell.write("belt.toml", belt(2));

@@ -1,0 +1,268 @@
+// module.cpp: the library for Python: the part of the package `signorini` that is compiled.
+//
+//   check(text, file, settings)                 -> JSON of `signorini check`
+//   run(text, file, settings, directory)        -> tables as arrays, summary.json as text
+//   compare(reference, other)                   -> differences of two directories of runs
+//
+// settings: [(path, value as TOML)]. The interpreter is free while a run is computed; it is asked now and then whether somebody
+// wants to interrupt. Errors of the library are signorini.Error, with the exit code of the program.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/version.hpp"
+#include "result/run_directory.hpp"
+#include "result/summary.hpp"
+#include "scene/schema.hpp"
+#include "signorini/certify.hpp"
+#include "study/check/check.hpp"
+#include "study/compare/comparison.hpp"
+
+namespace py = pybind11;
+
+namespace signorini {
+
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<Override> overrides(const Settings& settings) {
+  std::vector<Override> list;
+  for (const auto& [path, value] : settings) list.push_back({path, value});
+  return list;
+}
+
+/// Keeps the rows, hands them to a directory where there is one, and asks Python for interrupts.
+class Kept : public Result {
+ public:
+  explicit Kept(RunDirectory* directory) : directory_(directory) {}
+  void event(const Event& event) override {
+    Result::event(event);
+    if (directory_) directory_->event(event);
+  }
+  void sample(const Sample& sample) override {
+    Result::sample(sample);
+    if (directory_) directory_->sample(sample);
+  }
+  void frame(const Sample& sample) override {
+    if (directory_) directory_->frame(sample);
+  }
+  [[nodiscard]] bool wants_motion() const override { return directory_ != nullptr; }
+  void motion(int contact, const std::vector<MotionRow>& list) override {
+    if (directory_) directory_->motion(contact, list);
+  }
+  void curves(const Curves& curves) override {
+    if (directory_) directory_->curves(curves);
+  }
+  bool progress(double t) override {
+    if (directory_) directory_->progress(t);
+    return go_on();
+  }
+  /// Asked often; Python is asked twenty times a second.
+  bool go_on() {
+    const auto now = std::chrono::steady_clock::now();
+    if (interrupted_ || now - asked_ < std::chrono::milliseconds(50)) return !interrupted_;
+    asked_ = now;
+    const py::gil_scoped_acquire held;
+    interrupted_ = PyErr_CheckSignals() != 0;
+    return !interrupted_;
+  }
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
+
+ private:
+  RunDirectory* directory_;
+  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+  bool interrupted_ = false;
+};
+
+py::array_t<double> array(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// A value of each row, as an array.
+template <class Rows, class Value>
+py::array_t<double> column(const Rows& rows, const Value& value) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const auto& row : rows) values.push_back(value(row));
+  return array(values);
+}
+
+std::string contact_name(const Model& model, int contact) {
+  return contact < 0 ? "" : model.contacts[static_cast<std::size_t>(contact)].name;
+}
+
+py::list event_cells(const Model& model, const std::vector<Event>& events, EventColumn::Field field) {
+  py::list list;
+  for (const Event& event : events)
+    list.append(std::visit(
+        [&](auto member) -> py::object {
+          const auto& value = event.*member;
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<Value, int>) {
+            return py::str(contact_name(model, value));
+          } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+            return py::float_(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+          } else if constexpr (std::is_same_v<Value, double>) {
+            return py::float_(value);
+          } else if constexpr (std::is_same_v<Value, State>) {
+            return py::str(event.contact < 0 ? "" : to_string(value));
+          } else {
+            return py::str(to_string(value));
+          }
+        },
+        field));
+  return list;
+}
+
+py::dict event_table(const Model& model, const std::vector<Event>& events) {
+  py::dict table;
+  for (const EventColumn& c : event_columns) table[c.name] = event_cells(model, events, c.field);
+  return table;
+}
+
+py::dict history_table(const Model& model, const std::vector<Result::Row>& rows) {
+  py::dict table;
+  table["t"] = column(rows, [](const auto& row) { return row.t; });
+  for (const Column& c : model.columns)
+    table[c.name.c_str()] =
+        column(rows, [&](const auto& row) { return (c.velocity ? row.v : row.u)[c.dof]; });
+  return table;
+}
+
+py::dict contact_tables(const Model& model, const std::vector<Result::Row>& rows) {
+  py::dict tables;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const auto of = [&](double ContactSample::*member) {
+      return column(rows, [&](const auto& row) { return row.contacts[k].*member; });
+    };
+    py::dict table;
+    table["t"] = column(rows, [](const auto& row) { return row.t; });
+    py::list states;
+    for (const Result::Row& row : rows) states.append(to_string(row.contacts[k].state));
+    table["state"] = states;
+    table["gap"] = of(&ContactSample::gap);
+    table["ut"] = of(&ContactSample::ut);
+    table["vt"] = of(&ContactSample::vt);
+    table["slip"] = of(&ContactSample::slip);
+    table["N"] = of(&ContactSample::N);
+    table["T"] = of(&ContactSample::T);
+    tables[model.contacts[k].name.c_str()] = table;
+  }
+  return tables;
+}
+
+py::dict energy_table(const std::vector<Result::Row>& rows) {
+  py::dict table;
+  table["t"] = column(rows, [](const auto& row) { return row.t; });
+  for (const EnergyColumn& c : energy_columns)
+    table[c.name] = column(rows, [&](const auto& row) { return row.energy.*c.value; });
+  table[balance_column] = column(rows, [](const auto& row) { return row.energy.balance(); });
+  return table;
+}
+
+/// Units of the columns of history, by name.
+py::dict history_units(const Model& model) {
+  py::dict units;
+  units["t"] = model.units.time;
+  for (const Column& c : model.columns) {
+    const std::string what = model.turns(c) ? "rad" : model.units.length;
+    units[c.name.c_str()] = c.velocity ? what + "/" + model.units.time : what;
+  }
+  return units;
+}
+
+py::dict run(const std::string& text, const std::string& file, const Settings& settings,
+             const std::optional<std::string>& path, bool force) {
+  const Scene scene = parse_scene(text, file, overrides(settings));
+  std::optional<Model> model;
+  std::optional<RunDirectory> directory;
+  std::optional<Kept> kept;
+  CertifiedReport report;
+  std::string summary;
+  {
+    const py::gil_scoped_release free;
+    model = build_model(scene);
+    if (path) directory.emplace(*path, scene, *model, RunDirectoryOptions{force, {"python"}});
+    kept.emplace(directory ? &*directory : nullptr);
+    report = simulate_certified(*model, scene.run, *kept, {{}, [&] { return kept->go_on(); }});
+    summary = directory ? directory->finish(report) : summary_json(scene, *model, report, {"python"});
+  }
+  if (kept->interrupted()) throw py::error_already_set();
+  py::dict result;
+  result["events"] = event_table(*model, kept->events);
+  if (report.certificate) {
+    const auto& errors = report.certificate->t_errors;
+    result["events"]["t_error"] = array({errors.begin(), errors.end()});
+  }
+  result["history"] = history_table(*model, kept->rows);
+  result["contacts"] = contact_tables(*model, kept->rows);
+  result["energy"] = energy_table(kept->rows);
+  result["history_units"] = history_units(*model);
+  result["summary"] = summary;
+  result["toml"] = scene.resolved;
+  return result;
+}
+
+std::string check_scene(const std::string& text, const std::string& file, const Settings& settings) {
+  const Scene scene = parse_scene(text, file, overrides(settings));
+  const py::gil_scoped_release free;
+  const Model model = build_model(scene);
+  return check_json(scene, model, check(scene, model));
+}
+
+py::dict compare(const std::string& reference, const std::string& other) {
+  Comparison c;
+  {
+    const py::gil_scoped_release free;
+    c = compare_runs(read_compared_run(reference, "reference"), read_compared_run(other, "other"));
+  }
+  py::dict result;
+  result["t_end"] = c.t_end;
+  result["events"] = c.alignment.pairs.size();
+  result["parted"] = c.alignment.split.has_value();
+  const auto add = [&](const char* name, const Deviation& d) {
+    py::dict entry;
+    entry["value"] = d.whole.value;
+    entry["t"] = d.whole.t;
+    entry["where"] = d.whole.where;
+    result[name] = entry;
+  };
+  add("event_time", c.event_time);
+  add("displacement", c.displacement);
+  add("rotation", c.rotation);
+  add("velocity", c.velocity);
+  add("angular_velocity", c.angular_velocity);
+  add("force", c.force);
+  add("force_away", c.force_away);
+  add("energy", c.energy);
+  return result;
+}
+
+}  // namespace
+
+}  // namespace signorini
+
+PYBIND11_MODULE(_signorini, module) {
+  using namespace signorini;
+  static py::exception<Error> failure(module, "Error");
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const Error& error) {
+      py::object thrown = py::reinterpret_borrow<py::object>(failure)(error.what());
+      thrown.attr("code") = static_cast<int>(error.code());
+      PyErr_SetObject(failure.ptr(), thrown.ptr());
+    }
+  });
+  module.attr("version") = version;
+  module.def("run", &run);
+  module.def("check", &check_scene);
+  module.def("compare", &compare);
+  module.def("schema", &scene_schema);
+}

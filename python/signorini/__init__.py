@@ -1,0 +1,158 @@
+"""Motion of structures on unilateral frictional contacts, event by event.
+
+    import signorini
+
+    result = signorini.run("pipeline.toml", {"run.t_end": 0.4})
+    result.events["t"], result.history["A.ux"], result.contacts["first"]["N"], result.units["A.ux"]
+
+Scenes are files, TOML text, or dicts of the same keys (docs/scene.md). Signs and units are those of the program.
+"""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import json
+import math
+import os
+import pathlib
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy
+
+from . import _signorini
+from ._signorini import Error
+
+__version__ = _signorini.version
+__all__ = ["Error", "Result", "check", "compare", "run", "schema", "sweep", "to_toml"]
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def to_toml(value) -> str:
+    """A value or a scene as TOML; tables are written in line."""
+    if isinstance(value, numpy.generic):
+        value = value.item()
+    if isinstance(value, numpy.ndarray):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value) if math.isfinite(value) else ("nan" if math.isnan(value) else "inf" if value > 0 else "-inf")
+    if isinstance(value, (str, os.PathLike)):
+        return _quoted(os.fspath(value))
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_quoted(str(key))} = {to_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(to_toml(item) for item in value) + "]"
+    raise TypeError(f"found {type(value).__name__}, expected what TOML has: numbers, strings, flags, lists, dicts")
+
+
+def _text(scene) -> tuple[str, str]:
+    """The text of a scene, and the file that messages and relative paths refer to."""
+    if isinstance(scene, dict):
+        order = sorted(scene, key=lambda key: key != "schema")
+        return "".join(f"{_quoted(key)} = {to_toml(scene[key])}\n" for key in order), "<dict>"
+    if isinstance(scene, str) and "\n" in scene:
+        return scene, "<text>"
+    path = pathlib.Path(scene)
+    try:
+        return path.read_text(encoding="utf-8"), str(path)
+    except (OSError, UnicodeDecodeError) as error:
+        failure = Error(f"{path}: {error}")
+        failure.code = 6
+        raise failure from None
+
+
+def _settings(settings) -> list[tuple[str, str]]:
+    return [(path, to_toml(value)) for path, value in (settings or {}).items()]
+
+
+class Result:
+    """What a run yields. Tables are dicts of NumPy arrays; texts (contact, event, state) are arrays of strings.
+
+    events, history, energy    tables;   contacts[name]: a table each
+    units                      of the columns of history, by name;   scene_units: force, mass, length, time
+    summary                    summary.json: outcome, settings, counters, audit, certified, ...
+    toml                       the scene with every default filled in
+    """
+
+    def __init__(self, raw):
+        def table(columns):
+            return {name: numpy.asarray(values) for name, values in columns.items()}
+
+        self.events = table(raw["events"])
+        self.history = table(raw["history"])
+        self.energy = table(raw["energy"])
+        self.contacts = {name: table(columns) for name, columns in raw["contacts"].items()}
+        self.units = raw["history_units"]
+        self.summary = json.loads(raw["summary"])
+        self.scene_units = self.summary["units"]
+        self.toml = raw["toml"]
+
+    @property
+    def outcome(self) -> str:
+        """done or stopped; summary["outcome"] says at what time and why."""
+        return self.summary["outcome"]["kind"]
+
+    def frame(self, table="history"):
+        """events, history, energy, or the name of a contact as a pandas.DataFrame, with its units in attrs."""
+        import pandas
+
+        columns = getattr(self, table) if table in ("events", "history", "energy") else self.contacts[table]
+        frame = pandas.DataFrame(columns)
+        frame.attrs["units"] = self.units if table == "history" else self.scene_units
+        return frame
+
+    def __repr__(self):
+        return f"<signorini.Result {self.outcome} at t = {self.summary['outcome']['t']}, {len(self.events['t'])} events>"
+
+
+def run(scene, settings=None, *, directory=None, force=False) -> Result:
+    """Computes a scene. settings: {"run.rtol": 1e-10, "contacts.*.friction": 0.5}. With a directory, all files of
+    `signorini run` but pictures are written, too. A run that stops early is a result; what cannot be run is an Error."""
+    text, file = _text(scene)
+    return Result(_signorini.run(text, file, _settings(settings), None if directory is None else os.fspath(directory), force))
+
+
+def check(scene, settings=None) -> dict:
+    """What `signorini check --json` says."""
+    text, file = _text(scene)
+    return json.loads(_signorini.check(text, file, _settings(settings)))
+
+
+def compare(scene, engines, settings=None) -> dict:
+    """Runs a scene with several engines; the first is the reference. By engine: the greatest difference of event times,
+    displacements, forces, ..., each {value, t, where}; `parted`: whether the sequences of events differ."""
+    with tempfile.TemporaryDirectory() as folder:
+        runs = {}
+        for engine in engines:
+            runs[engine] = os.path.join(folder, engine)
+            run(scene, {**(settings or {}), "run.engine": engine}, directory=runs[engine])
+        return {engine: _signorini.compare(runs[engines[0]], runs[engine]) for engine in engines[1:]}
+
+
+def sweep(scene, vary, settings=None, *, workers=None) -> list[tuple[dict, Result | Error]]:
+    """Runs a scene for all combinations of {"PATH": values}, the last one fastest, several at a time. A run that is refused
+    is its Error in the list."""
+    points = [dict(zip(vary, values)) for values in itertools.product(*vary.values())]
+    scene = copy.deepcopy(scene) if isinstance(scene, dict) else scene
+
+    def one(point):
+        try:
+            return run(scene, {**(settings or {}), **point, "run.certify": False})
+        except Error as error:
+            return error
+
+    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
+        return list(zip(points, pool.map(one, points)))
+
+
+def schema() -> dict:
+    """The JSON Schema of scenes."""
+    return json.loads(_signorini.schema())

@@ -12,6 +12,7 @@
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
 #include "motion/powers.hpp"
+#include "motion/series.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -30,6 +31,13 @@ struct Step {
   std::vector<Fired> fired;       ///< Kind::event
   std::optional<Mode> adopted;    ///< Kind::event: states that the engine found itself, instead of `fired`
   std::string reason;             ///< Kind::failed
+};
+
+/// The motion on the last step as a series: its end is at t + scale x.
+struct Expansion {
+  const Series* series = nullptr;  ///< null: the engine knows none
+  std::size_t degree = 0;          ///< up to which u, v, a and forces are complete
+  double x = 0.0;
 };
 
 class Stepper {
@@ -52,6 +60,8 @@ class Stepper {
     static const std::vector<double> none;
     return none;
   }
+
+  [[nodiscard]] virtual Expansion expansion() const { return {}; }
 
   /// Brings `counters` up to date.
   virtual void count() {}

@@ -17,6 +17,7 @@
 #include "run/event_log.hpp"
 #include "run/last_touch.hpp"
 #include "run/motion_record.hpp"
+#include "run/observer.hpp"
 #include "run/physical.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
@@ -34,10 +35,11 @@ constexpr int most_gains = 5;  // warnings about impacts that gain energy
 class Loop {
  public:
   Loop(const Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
-       const RoundListener& listener)
+       const RoundListener& listener, MotionObserver* observer)
       : model_(model),
         spec_(spec),
         recorder_(recorder),
+        observer_(observer),
         structure_(model),
         systems_(model, structure_),
         tolerance_(tolerance_of(model, spec)),
@@ -92,6 +94,7 @@ class Loop {
     const std::vector<std::string> cut = cut_shears(model_, decision_);
     report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
     warn_of_gain();
+    if (observer_) observer_->begin({0.0, 0.0, {}, false, guessed, decision_, forcing_, forcing_});
     auditor_.begin(decision_, guessed, forcing_);
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
     take_decision(std::nullopt);
@@ -111,6 +114,8 @@ class Loop {
       Step step = engine_->advance();
       if (step.kind == Step::Kind::failed) return stop(step.reason);
       resolution_ = step.resolution;
+      if (observer_)
+        observer_->step({step, engine_->expansion(), decision_, forcing_, engine_->turning_points()});
       pass(step);
       if (step.kind == Step::Kind::event) return instant(std::move(step.fired), std::move(step.adopted));
       auditor_.observe(forcing_, t_, decision_.mode, point_);
@@ -173,12 +178,16 @@ class Loop {
     const bool all = now.jump;
     if (all) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
+    const std::vector<Fired> observed = observer_ ? now.fired : std::vector<Fired>{};
     Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
     if (!next.consistent) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return refuse(next.refusal);
     }
+    if (observer_)
+      observer_->instant(
+          {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_});
     touches_.instant(t_, old_mode, next);
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
@@ -251,6 +260,7 @@ class Loop {
   const Model& model_;
   const RunSpec& spec_;
   Recorder& recorder_;
+  MotionObserver* observer_;  // null: nobody
   Report report_;
   Structure structure_;
   ModeSystems systems_;
@@ -282,8 +292,10 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder)
   return simulate(model, settings, recorder, {});
 }
 
-Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
-                const RoundListener& listener) {
+namespace {
+
+Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder,
+                 const RoundListener& listener, MotionObserver* observer) {
   const EngineChoice choice = choose_engine(model, settings);
   RunSpec spec = settings;
   spec.engine = choice.engine;
@@ -295,7 +307,19 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
   const Model computed = rescaled(model, to_machine);
   spec = rescaled(std::move(spec), to_machine);
   PhysicalRecorder in_scene(computed, recorder);
-  return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed)).run();
+  return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed), observer)
+      .run();
+}
+
+}  // namespace
+
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
+                const RoundListener& listener) {
+  return simulated(model, settings, recorder, listener, nullptr);
+}
+
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, MotionObserver& observer) {
+  return simulated(model, settings, recorder, {}, &observer);
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

@@ -320,6 +320,7 @@ Step ExactEngine::advance() {
   step_.end = end;
   step_.resolution = resolution_at(end, end - t_);
   turns_.find(contacts_, series_, x);
+  end_x_ = x;
   evaluate_at(x, end_);  // sharper than at the rounded time
   t_ = end;
   // Roundoff in g'' adds up twice over a long phase.

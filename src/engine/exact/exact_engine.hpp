@@ -39,6 +39,7 @@ class ExactEngine final : public Stepper {
     return 0.0;
   }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
+  [[nodiscard]] Expansion expansion() const override { return {&series_, degree_, end_x_}; }
 
  private:
   [[nodiscard]] double growth_of(const ModeSystemPtr& system);
@@ -81,7 +82,8 @@ class ExactEngine final : public Stepper {
   int touches_ = 0;
   Point end_;  // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
-  double last_ = 0.0;  // length of the last step of the segment
+  double last_ = 0.0;   // length of the last step of the segment
+  double end_x_ = 0.0;  // of the last step in its series
   Step step_;
   SeriesWorks works_;
   TurningPoints turns_;

@@ -1,0 +1,111 @@
+// sensitivity.hpp: how events, peaks and columns of a run move with keys of its scene.
+//
+//   M u'' + C u' + K u + sum ( n N + t T ) = P,  rows of the mode           the motion
+//   M w'' + C w' + K w + sum ( n N_p + t T_p )
+//     = P_p - M_p u'' - C_p u' - K_p u - sum ( n_p N + t_p T )              w = du/dp, the tangent motion
+//   dt/dp = - (G_p + grad G . w) / G'                                       an event where the guard G falls
+//   w+ = w- + (u'- - u'+) dt/dp,   w'+ = w'- + (u''- - u''+) dt/dp          across it
+//
+// _p: derivatives by p of what is given, at fixed time; grad G . w stands for all that G is made of. Where
+// rigid contacts are hit, w' follows from the derivative of the impact's equations. Engine `exact`, Taylor
+// series.
+//
+//   Sensitivities s = sensitivities(reader_of("models/pipeline.toml"), {"contacts.*.friction"});
+//   s.event_rates[0][0].t                       dt/dp of the first event, in the scene's units
+//
+// Units: of the quantity over that of the key. NaN: there is no such derivative, or none is known;
+// Parameter::until and `reason` say from when on and why.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// The scene with some of its keys changed.
+using SceneReader = std::function<Scene(const std::vector<Override>& changes)>;
+/// Reads a file; `always` is changed in any case, first.
+[[nodiscard]] SceneReader reader_of(std::string path, std::vector<Override> always = {});
+
+/// A key that is varied, as `--set` takes it; "contacts.*.friction" is one parameter.
+struct Parameter {
+  std::string path;
+  double value = 0.0;
+  double step = 0.0;  ///< of the differences of the model's data, in the key's unit
+  /// Derivatives are known before this time, and why not after it; infinity: to the end.
+  double until = std::numeric_limits<double>::infinity();
+  std::string reason;
+};
+
+/// Derivatives of a row of events.csv by one parameter. Those of states: of what the row holds, at the event.
+struct EventRates {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double t = none;
+  double gap = none, N = none, T = none, N_after = none, T_after = none;
+  double vn = none, vn_after = none, vt = none, vt_after = none;
+  double impulse_n = none, impulse_t = none;
+};
+
+struct EventRateColumn {
+  const char* name;
+  const char* of;  ///< the column of events.csv
+  double EventRates::*value;
+};
+inline constexpr std::array event_rate_columns = {
+    EventRateColumn{"dt_dp", "t", &EventRates::t},
+    EventRateColumn{"dgap_dp", "gap", &EventRates::gap},
+    EventRateColumn{"dN_dp", "N", &EventRates::N},
+    EventRateColumn{"dT_dp", "T", &EventRates::T},
+    EventRateColumn{"dN_after_dp", "N_after", &EventRates::N_after},
+    EventRateColumn{"dT_after_dp", "T_after", &EventRates::T_after},
+    EventRateColumn{"dvn_dp", "vn", &EventRates::vn},
+    EventRateColumn{"dvn_after_dp", "vn_after", &EventRates::vn_after},
+    EventRateColumn{"dvt_dp", "vt", &EventRates::vt},
+    EventRateColumn{"dvt_after_dp", "vt_after", &EventRates::vt_after},
+    EventRateColumn{"dimpulse_n_dp", "impulse_n", &EventRates::impulse_n},
+    EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
+};
+
+/// A figure of a contact: its peak and when, or what is left at the end.
+struct Response {
+  std::string name;  ///< "peak N", "peak T", "peak lift", "peak shift", "rest ut", "rest slip", "rest gap"
+  int contact = -1;
+  double value = 0.0, t = 0.0;
+  std::vector<double> rates, t_rates;  ///< one a parameter; t_rates: of a peak's time
+};
+
+struct Sensitivities {
+  std::vector<Parameter> parameters;
+  std::vector<std::string> contacts;  ///< names
+  std::vector<Event> events;
+  std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
+  std::vector<std::string> columns;         ///< of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"
+  std::vector<double> times;                ///< the grid
+  std::vector<std::vector<double>> values;  ///< [time][column]
+  std::vector<std::vector<std::vector<double>>> value_rates;  ///< [parameter][time][column]
+  std::vector<Response> responses;
+  Units units;
+  std::string title;
+  Report report;
+};
+
+/// Where, to first order, the order of two events of one sequence changes.
+struct Swap {
+  std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
+  double change = 0.0;                               ///< of the parameter at which their times meet
+};
+
+/// The least change of each parameter upwards, and downwards, at which two neighbours meet; none where no two
+/// do.
+[[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
+
+/// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for
+/// one of which the model does not depend smoothly, and for laws that engine `exact` does not know.
+[[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
+                                          Recorder* recorder = nullptr);
+
+}  // namespace signorini

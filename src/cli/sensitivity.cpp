@@ -1,0 +1,211 @@
+// signorini sensitivity: how events, peaks and columns move with keys of a scene.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/number.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/owned_folder.hpp"
+#include "cli/settings.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "result/csv.hpp"
+#include "result/writers.hpp"
+#include "signorini/error.hpp"
+#include "study/sensitivity/sensitivity_files.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SensitivityOptions : OutputOptions {
+  std::string scene;
+  std::optional<std::string> directory;
+  std::vector<std::string> parameters, sigmas, settings;
+};
+
+/// "columns-1.csv" and so on are removed by number.
+const OwnedFolder& sensitivity_folder() {
+  static const OwnedFolder folder = [] {
+    OwnedFolder f{"sensitivities",
+                  "sensitivity.json",
+                  {"events.csv", "sensitivities.csv", "figures.csv", "spread.csv"}};
+    constexpr int most_parameters = 1000;
+    for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
+    return f;
+  }();
+  return folder;
+}
+
+fs::path directory_of(const SensitivityOptions& options) {
+  if (!options.directory) return fs::path(options.scene).stem().string() + "-sensitivity";
+  if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
+  return *options.directory;
+}
+
+/// Stops where an interrupt asks for it.
+class Stoppable : public Recorder {
+ public:
+  void event(const Event& /*event*/) override {}
+  void sample(const Sample& /*sample*/) override {}
+  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+};
+
+/// The parameters that were asked for, those with a sigma among them, and the sigmas one a parameter.
+Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& paths) {
+  Sigmas sigmas(paths.size(), 0.0);
+  for (const std::string& text : options.sigmas) {
+    const std::size_t equals = text.find('=');
+    const auto value = equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (equals == 0 || !value || !(*value >= 0.0) || !std::isfinite(*value))
+      throw UsageError(fmt::format("--sigma {}: expected path=value, the value a standard deviation", text));
+    const std::string path = text.substr(0, equals);
+    auto place = std::find(paths.begin(), paths.end(), path);
+    if (place == paths.end()) {
+      paths.push_back(path);
+      sigmas.push_back(0.0);
+      place = paths.end() - 1;
+    }
+    sigmas[static_cast<std::size_t>(place - paths.begin())] = *value;
+  }
+  return options.sigmas.empty() ? Sigmas{} : sigmas;
+}
+
+std::string shown(double x) { return std::isfinite(x) ? number(x) : "-"; }
+
+void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
+  std::size_t most = s.events.size();
+  for (std::size_t i = 0; i < s.events.size(); ++i) {
+    const double rate = std::abs(s.event_rates[i][p].t);
+    if (std::isfinite(rate) && (most == s.events.size() || rate > std::abs(s.event_rates[most][p].t)))
+      most = i;
+  }
+  const std::string path = s.parameters[p].path;
+  if (most < s.events.size()) {
+    const Event& event = s.events[most];
+    const double rate = s.event_rates[most][p].t;
+    table.row({path, fmt::format("t of event {}", most + 1), contact_of(s, event), number(event.t),
+               shown(rate), shown(elasticity(s.parameters[p].value, event.t, rate))});
+  }
+  for (const Response& r : s.responses)
+    table.row({path, r.name, s.contacts[static_cast<std::size_t>(r.contact)], number(r.value),
+               shown(r.rates[p]), shown(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
+}
+
+std::string swap_text(const Sensitivities& s) {
+  std::string text;
+  for (const Swap& swap : least_swaps(s))
+    text += fmt::format("{}: to first order events {} and {} meet at {} ({}{})\n",
+                        s.parameters[swap.parameter].path, swap.first + 1, swap.second + 1,
+                        number(s.parameters[swap.parameter].value + swap.change),
+                        swap.change > 0.0 ? "+" : "", number(swap.change));
+  return text;
+}
+
+std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
+  Table table({"parameter p", "x", "contact", "value", "dx/dp", "p/x dx/dp"},
+              {false, false, false, true, true, true});
+  for (std::size_t p = 0; p < s.parameters.size(); ++p) add_parameter(s, p, table);
+  std::string text = table.str() + "\n" + swap_text(s);
+  for (const Parameter& parameter : s.parameters)
+    if (!parameter.reason.empty())
+      text +=
+          fmt::format("{}: known until {}: {}\n", parameter.path, number(parameter.until), parameter.reason);
+  if (sigmas.empty()) return text;
+  const Spread spreads = spread(s, sigmas);
+  Table figures({"x", "contact", "value", "sigma"}, {false, false, true, true});
+  for (std::size_t i = 0; i < s.responses.size(); ++i)
+    figures.row({s.responses[i].name, s.contacts[static_cast<std::size_t>(s.responses[i].contact)],
+                 number(s.responses[i].value), shown(spreads.responses[i])});
+  text += "\n" + figures.str() + "\n";
+  for (std::size_t p = 0; p < sigmas.size(); ++p)
+    if (sigmas[p] > 0.0)
+      text += fmt::format("{}: the sequence of events is the same, to first order, up to {:.2g} sigma\n",
+                          s.parameters[p].path, spreads.reach[p]);
+  return text;
+}
+
+ExitCode code_of(const Outcome& outcome) {
+  switch (outcome.kind) {
+    case Outcome::Kind::done:
+      return ExitCode::done;
+    case Outcome::Kind::stopped:
+      return ExitCode::stopped;
+    case Outcome::Kind::interrupted:
+      return ExitCode::interrupted;
+  }
+  return ExitCode::bug;
+}
+
+void write_events(const fs::path& path, const Model& model, const Sensitivities& s) {
+  EventWriter writer(path / "events.csv", model);
+  for (const Event& event : s.events) writer.write(event);
+}
+
+ExitCode run(const SensitivityOptions& options) {
+  const std::vector<Override> changes = overrides_of(options.settings);
+  for (const Override& change : changes)
+    if (change.path == "run.engine" && change.value != "exact" && change.value != "auto")
+      throw UsageError(fmt::format("--set run.engine={}: derivatives follow engine \"exact\"", change.value));
+  std::vector<std::string> paths = options.parameters;
+  const Sigmas sigmas = take_sigmas(options, paths);
+  if (paths.empty()) throw UsageError("expected --parameter PATH or --sigma PATH=VALUE");
+  const fs::path path = directory_of(options);
+  check_folder(path, sensitivity_folder(), options.force, options.scene);
+  const SceneReader read = reader_of(options.scene, changes);
+  std::optional<Interrupt> interrupt(std::in_place);
+  Stoppable recorder;
+  const Sensitivities s = sensitivities(read, paths, &recorder);
+  interrupt.reset();
+  begin_folder(path, sensitivity_folder());
+  write_events(path, build_model(read({})), s);
+  write_sensitivities(path, s, sigmas);
+  const std::string json = sensitivity_json(s, sigmas);
+  write_file(path / "sensitivity.json", json);
+  if (options.json) print(json);
+  if (options.tables()) {
+    if (!s.title.empty()) print(s.title + "\n\n");
+    print(summary_of(s, sigmas) + "results: " + path.string() +
+          "/ (sensitivities.csv, figures.csv, columns-1.csv)\n");
+  }
+  for (const std::string& warning : s.report.warnings) print_warning(warning);
+  if (s.report.outcome.kind != Outcome::Kind::done) print_error("stopped: " + s.report.outcome.reason);
+  return code_of(s.report.outcome);
+}
+
+}  // namespace
+
+void add_sensitivity(Program& program) {
+  auto options = std::make_shared<SensitivityOptions>();
+  CLI::App* command =
+      program.app.add_subcommand("sensitivity", "how events, peaks and columns move with keys of a scene");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  command
+      ->add_option(
+          "--parameter", options->parameters,
+          "a key of the scene to derive by: contacts.*.friction, loads.1.amplitude (may be repeated)")
+      ->option_text("PATH")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--sigma", options->sigmas,
+                   "the standard deviation of a key; times and figures get theirs (may be repeated)")
+      ->option_text("PATH=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory of the results (default: SCENE's name with -sensitivity)")
+      ->option_text("DIR");
+  add_settings(*command, options->settings);
+  command->add_flag("--force", options->force, "replace earlier sensitivities in the directory");
+  command->add_flag("--quiet", options->quiet, "print errors only");
+  command->add_flag("--json", options->json, "print sensitivity.json instead of tables");
+  command->callback([&program, options] { program.action = [options] { return run(*options); }; });
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,44 @@
+// observer.hpp: somebody who follows the motion of a run from inside: its series, its decisions.
+//
+//   begin(decision at 0)  { step(series of the step) ... instant(decision before, after) } ...
+//
+// All in the units of the model that is computed, the machine's. What is handed over lives until the call
+// ends.
+#pragma once
+
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+/// A step that was made.
+struct ObservedStep {
+  const Step& step;
+  const Expansion& expansion;
+  const Decision& decision;  ///< the mode of the step
+  const Forcing& forcing;
+  const std::vector<double>& turns;  ///< Stepper::turning_points()
+};
+
+/// An instant at which states were decided.
+struct ObservedInstant {
+  double t = 0.0, resolution = 0.0;
+  const std::vector<Fired>& fired;
+  bool breakpoint = false;  ///< the forcing is not smooth here
+  const Mode& mode_before;
+  const Decision& after;
+  const Forcing &forcing_before, &forcing_after;
+};
+
+class MotionObserver {
+ public:
+  virtual ~MotionObserver() = default;
+  virtual void begin(const ObservedInstant& start) = 0;
+  virtual void step(const ObservedStep& step) = 0;
+  virtual void instant(const ObservedInstant& instant) = 0;
+};
+
+/// signorini/simulate.hpp, and the observer follows: of an engine that has expansions (`exact`, its series).
+[[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
+                              MotionObserver& observer);
+
+}  // namespace signorini

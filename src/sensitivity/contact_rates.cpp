@@ -1,0 +1,71 @@
+#include "sensitivity/contact_rates.hpp"
+
+namespace signorini {
+
+DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t c, double x) {
+  DrivenRates d;
+  const auto value = [&](const std::vector<double>& rows, std::size_t order) {
+    double sum = 0.0;
+    const double* row = rows.data() + c * series.count;
+    for (std::size_t k = series.count; k-- > order;) {
+      double factor = 1.0;
+      for (std::size_t j = 0; j < order; ++j) factor *= static_cast<double>(k - j) / scale;
+      sum = sum * x + factor * row[k];
+    }
+    return sum;
+  };
+  for (std::size_t order = 0; order < 3; ++order) d.surface[order] = value(series.surface, order);
+  for (std::size_t order = 0; order < 2; ++order) d.pressing[order] = value(series.pressing, order);
+  return d;
+}
+
+ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing, double t,
+                        const SeriesPoint& point) {
+  return motion_of(contact, k, forcing, t, Point{point.u, point.v, point.forces, point.a});
+}
+
+ContactMotion time_rate(std::size_t k, const ContactMotion& m, const SeriesPoint& point) {
+  ContactMotion rate;
+  rate.N = point.force_rates[static_cast<Eigen::Index>(normal_slot(k))];
+  rate.T = point.force_rates[static_cast<Eigen::Index>(tangent_slot(k))];
+  rate.gap = m.vn;
+  rate.ut = m.vt;
+  rate.vn = m.an;
+  rate.vt = m.at;
+  rate.pressing = m.pressing_rate;
+  return rate;
+}
+
+ContactMotion parameter_rate(const Contact& contact, const ContactRates& rates, std::size_t k,
+                             const SeriesPoint& point, const SeriesPoint& w, const DrivenRates& driven) {
+  ContactMotion m;
+  m.N = w.forces[static_cast<Eigen::Index>(normal_slot(k))];
+  m.T = w.forces[static_cast<Eigen::Index>(tangent_slot(k))];
+  m.gap = contact.normal.dot(w.u) + rates.normal.dot(point.u) + rates.gap;
+  m.vn = contact.normal.dot(w.v) + rates.normal.dot(point.v);
+  m.an = contact.normal.dot(w.a) + rates.normal.dot(point.a);
+  m.ut = contact.tangent.dot(w.u) + rates.tangent.dot(point.u) - driven.surface[0];
+  m.vt = contact.tangent.dot(w.v) + rates.tangent.dot(point.v) - driven.surface[1];
+  m.at = contact.tangent.dot(w.a) + rates.tangent.dot(point.a) - driven.surface[2];
+  m.pressing = driven.pressing[0];
+  m.pressing_rate = driven.pressing[1];
+  return m;
+}
+
+ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor) {
+  ContactMotion m;
+  for (const auto field : {&ContactMotion::N, &ContactMotion::T, &ContactMotion::gap, &ContactMotion::ut,
+                           &ContactMotion::vn, &ContactMotion::vt, &ContactMotion::an, &ContactMotion::at,
+                           &ContactMotion::pressing, &ContactMotion::pressing_rate})
+    m.*field = a.*field + factor * b.*field;
+  return m;
+}
+
+BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const SeriesPoint& point,
+                     const SeriesPoint& w, const DrivenRates& driven) {
+  const Combination& body = contact.body_tangent();
+  return {body.dot(w.u) + rates.body_tangent.dot(point.u) - driven.surface[0],
+          body.dot(w.v) + rates.body_tangent.dot(point.v) - driven.surface[1]};
+}
+
+}  // namespace signorini

@@ -1,0 +1,372 @@
+#include "sensitivity/model_derivative.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
+#include "model/rescale.hpp"
+#include "sensitivity/parameter.hpp"
+#include "sensitivity/static_rates.hpp"
+
+namespace signorini {
+namespace {
+
+/// Points in units of the step, and weights over it.
+struct Stencil {
+  std::vector<int> points;
+  std::vector<double> weights, check;  ///< check: of lower order, through the same points
+};
+
+const Stencil& two_points() {
+  static const Stencil s{{1, -1}, {0.5, -0.5}, {0.5, -0.5}};
+  return s;
+}
+const Stencil& six_points() {
+  static const Stencil s{{1, -1, 2, -2, 3, -3},
+                         {0.75, -0.75, -0.15, 0.15, 1.0 / 60.0, -1.0 / 60.0},
+                         {2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0, 0.0, 0.0}};
+  return s;
+}
+/// To the upper side; to the lower one h is negative.
+const Stencil& one_side() {
+  static const Stencil s{{0, 1, 2, 3, 4, 5},
+                         {-137.0 / 60.0, 5.0, -5.0, 10.0 / 3.0, -1.25, 0.2},
+                         {-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25, 0.0}};
+  return s;
+}
+
+constexpr double first_step = 1.0 / 512.0;  // of the size of the value
+constexpr double shorter = 1.0 / 16.0;
+constexpr int most_attempts = 3;
+// Of a derivative, that both stencils must agree in; chosen: fourth order leaves 1e-10 at the first step
+// where the data go as 1/p or sqrt(p), and a kink inside the stencil leaves a tenth.
+constexpr double agreement = 1e-6;
+constexpr double rounding_of_data = 4096.0 * rounding::eps;
+// Of the greatest of what went through solves: equilibria, and matrices with the lowest frequency in them.
+// Chosen; the pipeline's own equilibrium is known to 1e-11.
+constexpr double rounding_of_solves = 1e-8;
+
+/// All numbers of a model but its matrices; of derivatives the same shape holds.
+struct Numbers {
+  std::vector<double> values;
+  std::vector<long> shape;
+};
+
+template <class Visit>
+void visit_form(Form& f, const Visit& visit) {
+  for (double* x :
+       {&f.N, &f.T, &f.gap, &f.ut, &f.vn, &f.vt, &f.an, &f.at, &f.pressing, &f.pressing_rate, &f.constant})
+    visit(*x);
+}
+
+template <class Visit>
+void visit_rates(HistoryRates& h, const Visit& visit) {
+  for (double& t : h.starts) visit(t);
+  for (Piece& piece : h.pieces) {
+    visit(piece.origin);
+    for (double& c : piece.coefficients) visit(c);
+    visit(piece.amplitude);
+    visit(piece.omega);
+    visit(piece.phase);
+  }
+}
+
+template <class Visit>
+void visit_all(ModelDerivative& d, const Visit& visit) {
+  const auto combination = [&](Combination& c) {
+    for (auto& [index, factor] : c.terms) visit(factor);
+  };
+  for (LoadRates& load : d.loads) {
+    combination(load.direction);
+    visit_rates(load.history, visit);
+  }
+  for (ContactRates& c : d.contacts) {
+    for (Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) combination(*form);
+    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction})
+      visit(*x);
+    visit_rates(c.normal_force, visit);
+    visit_rates(c.surface_motion, visit);
+    for (Rows& rows : c.rows) {
+      visit_form(rows.normal, visit);
+      visit_form(rows.tangent, visit);
+    }
+    for (auto& guards : c.guards)
+      for (Form& guard : guards) visit_form(guard, visit);
+  }
+  for (double& u : d.u0) visit(u);
+  for (double& v : d.v0) visit(v);
+}
+
+HistoryRates numbers_of(const History& history) { return {history.starts(), history.pieces()}; }
+
+ContactRates numbers_of(const Contact& contact) {
+  ContactRates c;
+  c.normal = contact.normal;
+  c.tangent = contact.tangent;
+  c.body_tangent = contact.body_tangent();
+  c.gap = contact.gap;
+  c.tangential_stiffness = contact.tangential_stiffness.value_or(0.0);
+  c.initial_shear = contact.initial_shear;
+  c.restitution = contact.restitution;
+  c.kinetic_friction = kinetic_friction(contact);
+  c.normal_force = numbers_of(contact.normal_force);
+  c.surface_motion = numbers_of(contact.surface_motion);
+  for (const State state : all_states) {
+    c.rows[index_of(state)] = rows(contact, {state, 0.0});
+    if (state == State::inside && !(contact.normal_stiffness > 0.0)) continue;
+    const auto forms = guards(contact, {state, 0.0});
+    for (std::size_t i = 0; i < forms.size(); ++i) c.guards[index_of(state)][i] = forms[i].form;
+  }
+  return c;
+}
+
+/// The data themselves in the place of their derivatives.
+ModelDerivative data_of(const Model& model) {
+  ModelDerivative d;
+  d.mass = model.mass;
+  d.damping = model.damping;
+  d.stiffness = model.stiffness;
+  for (const Load& load : model.loads) d.loads.push_back({load.direction, numbers_of(load.history)});
+  for (const Contact& contact : model.contacts) d.contacts.push_back(numbers_of(contact));
+  d.u0 = model.u0;
+  d.v0 = model.v0;
+  return d;
+}
+
+/// What must be the same for differences to mean something.
+std::vector<long> shape_of(const Model& model) {
+  std::vector<long> shape{static_cast<long>(model.dofs.size())};
+  const auto combination = [&](const Combination& c) {
+    shape.push_back(static_cast<long>(c.terms.size()));
+    for (const auto& [index, factor] : c.terms) shape.push_back(index);
+  };
+  const auto history = [&](const History& h) {
+    for (const Piece& piece : h.pieces()) shape.push_back(static_cast<long>(piece.coefficients.size()));
+    shape.push_back(-1);
+  };
+  for (const Dof& dof : model.dofs) shape.push_back(dof.massless);
+  for (const Load& load : model.loads) {
+    combination(load.direction);
+    history(load.history);
+  }
+  for (const Contact& c : model.contacts) {
+    for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()}) combination(*form);
+    history(c.normal_force);
+    history(c.surface_motion);
+    for (const bool has : {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(),
+                           c.normal_damping > 0.0, c.friction.stribeck_velocity.has_value()})
+      shape.push_back(has);
+    shape.push_back(static_cast<long>(c.law));
+  }
+  for (const double reaction : model.statics.reactions) shape.push_back(reaction > 0.0);
+  return shape;
+}
+
+std::vector<double> values_of(ModelDerivative& data) {
+  std::vector<double> values;
+  visit_all(data, [&](double& x) { values.push_back(x); });
+  return values;
+}
+
+class Differences {
+ public:
+  Differences(const SceneReader& read, const Model& model, const std::string& path, double value)
+      : read_(read),
+        model_(model),
+        path_(path),
+        value_(value),
+        base_(data_of(model)),
+        shape_(shape_of(model)) {}
+
+  /// Nothing where the data are not smooth, or not there.
+  std::optional<ModelDerivative> at(double h) {
+    step_ = h;
+    moved_.clear();
+    refusal_.reset();
+    try {
+      take(two_points());
+      if (is_linear()) return combined(two_points());
+      take(six_points());
+      if (agree(six_points())) return combined(six_points());
+      return std::nullopt;
+    } catch (const SceneError& error) {
+      refusal_ = error;
+    }
+    for (const double side : {1.0, -1.0}) {
+      moved_.clear();
+      step_ = side * h;
+      try {
+        take(one_side());
+      } catch (const SceneError&) {
+        continue;
+      }
+      if (!agree(one_side())) continue;
+      ModelDerivative d = combined(one_side());
+      d.one_sided = true;
+      return d;
+    }
+    return std::nullopt;
+  }
+
+  /// Why the scene is refused beside the value, if it is.
+  [[nodiscard]] const std::optional<SceneError>& refusal() const { return refusal_; }
+
+ private:
+  struct Moved {
+    int point = 0;
+    ModelDerivative data;
+    std::vector<double> values;
+  };
+
+  void take(const Stencil& stencil) {
+    for (const int point : stencil.points) {
+      if (std::any_of(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; }))
+        continue;
+      const Scene scene = read_({set_to(path_, value_ + point * step_)});
+      const Model model = rescaled(build_model(scene), inverse(model_.machine));
+      if (shape_of(model) != shape_ || !same_coordinates(model))
+        throw SceneError({}, path_, "the structure of the model changes with it near its value");
+      moved_.push_back({point, data_of(model), {}});
+      moved_.back().values = values_of(moved_.back().data);
+    }
+  }
+
+  /// Amplitudes of shapes that move with the parameter are other unknowns.
+  [[nodiscard]] bool same_coordinates(const Model& model) const {
+    if (model_.reduction) return model.reduction && model.reduction->shapes == model_.reduction->shapes;
+    if (model_.basis) return model.basis && SparseMatrix(*model.basis - *model_.basis).norm() == 0.0;
+    return !model.reduction && !model.basis;
+  }
+
+  [[nodiscard]] const Moved& at_point(int point) const {
+    return *std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; });
+  }
+
+  static bool is_straight(double a, double b, double c) {
+    return std::abs(a - 2.0 * b + c) <= 8.0 * rounding::eps * (std::abs(a) + 2.0 * std::abs(b) + std::abs(c));
+  }
+  static bool is_straight(const SparseMatrix& a, const SparseMatrix& b, const SparseMatrix& c) {
+    const SparseMatrix bend = a - 2.0 * b + c;
+    const SparseMatrix size = a.cwiseAbs() + 2.0 * b.cwiseAbs() + c.cwiseAbs();
+    for (int j = 0; j < bend.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(bend, j); it; ++it)
+        if (std::abs(it.value()) > 8.0 * rounding::eps * size.coeff(it.row(), j)) return false;
+    return true;
+  }
+  [[nodiscard]] bool is_linear() {
+    const Moved &up = at_point(1), &down = at_point(-1);
+    const std::vector<double> here = values_of(base_);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (!is_straight(up.values[i], here[i], down.values[i])) return false;
+    return is_straight(up.data.mass, base_.mass, down.data.mass) &&
+           is_straight(up.data.damping, base_.damping, down.data.damping) &&
+           is_straight(up.data.stiffness, base_.stiffness, down.data.stiffness);
+  }
+
+  /// Both stencils say the same of every number, to what rounding makes of it.
+  [[nodiscard]] bool agree(const Stencil& stencil) const {
+    const std::size_t count = moved_.front().values.size();
+    const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 come last
+    const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
+    for (std::size_t i = 0; i < count; ++i) {
+      double better = 0.0, check = 0.0, size = 0.0;
+      for (std::size_t k = 0; k < stencil.points.size(); ++k) {
+        const double x = at_point(stencil.points[k]).values[i];
+        better += stencil.weights[k] * x;
+        check += stencil.check[k] * x;
+        size = std::max(size, std::abs(x));
+      }
+      const double rounding = i + states < count ? rounding_of_data * size : rounding_of_solves * motion;
+      if (std::abs(better - check) > agreement * std::abs(better) + rounding) return false;
+    }
+    for (const auto matrix :
+         {&ModelDerivative::mass, &ModelDerivative::damping, &ModelDerivative::stiffness}) {
+      SparseMatrix better(model_.size(), model_.size()), check = better;
+      double size = 0.0;
+      for (std::size_t k = 0; k < stencil.points.size(); ++k) {
+        const SparseMatrix& x = at_point(stencil.points[k]).data.*matrix;
+        better += SparseMatrix(stencil.weights[k] * x);
+        check += SparseMatrix(stencil.check[k] * x);
+        size = std::max(size, x.norm());
+      }
+      if (SparseMatrix(better - check).norm() > agreement * better.norm() + rounding_of_solves * size)
+        return false;
+    }
+    return true;
+  }
+
+  /// What does not change is zero, not its rounding.
+  static SparseMatrix without_rounding(SparseMatrix a, const SparseMatrix& size, double step) {
+    a.prune([&](Eigen::Index row, Eigen::Index column, double value) {
+      return std::abs(value) > 4.0 * rounding::eps / std::abs(step) * std::abs(size.coeff(row, column));
+    });
+    return a;
+  }
+
+  [[nodiscard]] ModelDerivative combined(const Stencil& stencil) const {
+    ModelDerivative d = base_;
+    std::vector<double> sums(moved_.front().values.size(), 0.0);
+    SparseMatrix zero(model_.size(), model_.size());
+    d.mass = d.damping = d.stiffness = zero;
+    for (std::size_t k = 0; k < stencil.points.size(); ++k) {
+      const Moved& m = at_point(stencil.points[k]);
+      const double weight = stencil.weights[k] / step_;
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weight * m.values[i];
+      for (const auto matrix :
+           {&ModelDerivative::mass, &ModelDerivative::damping, &ModelDerivative::stiffness})
+        (d.*matrix) += SparseMatrix(weight * (m.data.*matrix));
+    }
+    std::size_t i = 0;
+    visit_all(d, [&](double& x) {
+      // sums of the stencil's weights are zero: what stays when nothing changes is their rounding
+      const double size = std::abs(x), sum = sums[i++];
+      x = std::abs(sum) > 16.0 * rounding::eps / std::abs(step_) * size ? sum : 0.0;
+    });
+    for (const auto matrix : {&ModelDerivative::mass, &ModelDerivative::damping, &ModelDerivative::stiffness})
+      d.*matrix = without_rounding(d.*matrix, base_.*matrix, step_);
+    const auto drop_constant = [](HistoryRates& h) {
+      bool any = false;
+      visit_rates(h, [&](double& x) { any = any || x != 0.0; });
+      if (!any) h = {};
+    };
+    for (LoadRates& load : d.loads) drop_constant(load.history);
+    for (ContactRates& c : d.contacts) {
+      drop_constant(c.normal_force);
+      drop_constant(c.surface_motion);
+    }
+    d.step = step_;
+    return d;
+  }
+
+  const SceneReader& read_;
+  const Model& model_;
+  const std::string& path_;
+  double value_, step_ = 0.0;
+  ModelDerivative base_;
+  std::vector<long> shape_;
+  std::vector<Moved> moved_;
+  std::optional<SceneError> refusal_;
+};
+
+}  // namespace
+
+ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
+                           double size) {
+  Differences differences(read, model, path, value);
+  double h = first_step * size;
+  for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter)
+    if (auto d = differences.at(h)) {
+      if (model.static_start && !model.statics.frictional)
+        if (auto w = static_rate(model, *d)) d->u0 = std::move(*w);
+      return *d;
+    }
+  std::string why = "the data of the model do not depend smoothly on it at its value";
+  if (differences.refusal()) why = std::string("it cannot be varied: ") + differences.refusal()->what();
+  throw UsageError(fmt::format("--parameter {}: {}", path, why));
+}
+
+}  // namespace signorini

@@ -1,0 +1,58 @@
+// model_derivative.hpp: the derivative of all data of a model by a key of its scene.
+//
+//   x_p = ( 3/4 (x1 - x-1) - 3/20 (x2 - x-2) + 1/60 (x3 - x-3) ) / h      x_j: the data at p + j h
+//   linear data: (x1 - x-1) / 2h;   at the edge of what a key may be: five points to one side
+//
+// Data are smooth functions of the keys, mostly linear ones: what is left out is of the order h^6 (h^5 at an
+// edge), and rounding eps/h. h = 2^-9 of the value: both below 1e-12. A stencil of fourth order through the
+// same points tells whether the data are smooth there; if not h is cut by 16, twice at most.
+// Rows and guards of contacts are differenced too, so that a law is known in one place (contact/law.hpp).
+#pragma once
+
+#include "contact/law.hpp"
+#include "signorini/sensitivity.hpp"
+
+namespace signorini {
+
+/// Derivatives of a history's numbers, piece by piece. Empty: it does not change.
+struct HistoryRates {
+  std::vector<double> starts;
+  std::vector<Piece> pieces;  ///< numbers are derivatives
+  [[nodiscard]] bool none() const { return pieces.empty(); }
+};
+
+inline constexpr std::array all_states = {State::open,  State::inside,    State::closed,
+                                          State::stick, State::slip_plus, State::slip_minus};
+[[nodiscard]] constexpr std::size_t index_of(State state) { return static_cast<std::size_t>(state); }
+
+/// Of one contact, with anchors at zero.
+struct ContactRates {
+  Combination normal, tangent, body_tangent;
+  double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0,
+         kinetic_friction = 0.0;
+  HistoryRates normal_force, surface_motion;
+  std::array<Rows, all_states.size()> rows;
+  std::array<std::array<Form, guards_per_contact>, all_states.size()> guards;
+};
+
+struct LoadRates {
+  Combination direction;
+  HistoryRates history;
+};
+
+/// In the units of `model`, over that of the key.
+struct ModelDerivative {
+  SparseMatrix mass, damping, stiffness;  ///< without entries where nothing changes
+  std::vector<LoadRates> loads;
+  std::vector<ContactRates> contacts;
+  Vector u0, v0;
+  double step = 0.0;
+  bool one_sided = false;
+};
+
+/// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError where the key
+/// cannot be varied, or the data do not depend smoothly on it.
+[[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,
+                                         double value, double size);
+
+}  // namespace signorini

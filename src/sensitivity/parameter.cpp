@@ -1,0 +1,111 @@
+#include "sensitivity/parameter.hpp"
+
+#include <fmt/core.h>
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <set>
+
+#include "base/number.hpp"
+#include "scene/quantities.hpp"
+
+namespace signorini {
+namespace {
+
+[[noreturn]] void fail_at(const std::string& path, const std::string& message) {
+  throw UsageError(fmt::format("--parameter {}: {}", path, message));
+}
+
+void numbers_at(const toml::node& node, const std::vector<std::string>& rest, std::size_t next,
+                const std::string& path, std::set<double>& found) {
+  if (next == rest.size()) {
+    if (const auto* both = node.as_table(); both && rest.back() == "friction") {
+      for (const char* key : {"static", "kinetic"})
+        if (const auto f = (*both)[key].value<double>()) found.insert(*f);
+      if (both->contains("stribeck_velocity"))
+        fail_at(path, "friction that depends on the slip rate has no derivatives here");
+      return;
+    }
+    const auto number = node.value<double>();
+    if (!number || node.is_boolean()) fail_at(path, "expected the key of a number");
+    found.insert(*number);
+    return;
+  }
+  const std::string& name = rest[next];
+  if (const auto* table = node.as_table()) {
+    const toml::node* inner = table->get(name);
+    if (!inner) fail_at(path, fmt::format("there is no \"{}\" in the scene", name));
+    numbers_at(*inner, rest, next + 1, path, found);
+  } else if (const auto* array = node.as_array()) {
+    const auto index = parse_integer(name);
+    bool any = false;
+    for (std::size_t i = 0; i < array->size(); ++i) {
+      const auto* entry = (*array)[i].as_table();
+      const bool named = entry && (*entry)["name"].value<std::string>() == name;
+      if (name != "*" && !named && !(index && *index == static_cast<long long>(i) + 1)) continue;
+      any = true;
+      numbers_at((*array)[i], rest, next + 1, path, found);
+    }
+    if (!any) fail_at(path, fmt::format("there is no \"{}\" in the scene", name));
+  } else if (const auto number = node.value<double>(); number && rest[next - 1] == "friction") {
+    found.insert(*number);  // friction = 0.3 stands for both
+  } else {
+    fail_at(path, fmt::format("\"{}\" is no table", rest[next - 1]));
+  }
+}
+
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+}  // namespace
+
+Override set_to(const std::string& path, double x) { return {path, shortest(x)}; }
+
+double value_of(const Scene& scene, const std::string& path) {
+  toml::table root;
+  try {
+    root = toml::parse(scene.resolved);
+  } catch (const toml::parse_error& error) {
+    fail_at(path, std::string("the resolved scene cannot be read: ") + std::string(error.description()));
+  }
+  std::set<double> found;
+  numbers_at(root, parts_of(path), 0, path, found);
+  if (found.size() != 1)
+    fail_at(path, fmt::format("found {} numbers that differ, expected one value to vary", found.size()));
+  if (!std::isfinite(*found.begin())) fail_at(path, "expected a finite number");
+  return *found.begin();
+}
+
+double typical_size(const SceneReader& read, const Scene& scene, const Model& model,
+                    const std::string& path) {
+  constexpr double probe = 1.0 / 1024.0;  // any number that is not zero
+  std::vector<double> before;
+  Scene copy = scene;
+  visit_quantities(copy, [&](double& x, const Unit&) { before.push_back(x); });
+  const double time = model.scales.displacement / model.scales.velocity;
+  const Factors typical{model.scales.force, model.scales.displacement, time};
+  for (const double x : {probe, -probe}) {
+    try {
+      Scene moved = read({set_to(path, x)});
+      std::size_t i = 0;
+      double size = 1.0;
+      visit_quantities(moved, [&](double& y, const Unit& of) {
+        if (i < before.size() && y != before[i]) size = factor_of(of, typical);
+        ++i;
+      });
+      return size;
+    } catch (const SceneError&) {  // it may be of one sign only
+    }
+  }
+  return 1.0;
+}
+
+}  // namespace signorini

@@ -1,0 +1,224 @@
+#include "sensitivity/rate_record.hpp"
+
+#include <cmath>
+
+#include "run/physical.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double nothing = EventRates::none;
+struct PeakKind {
+  const char* name;
+  Unit of;
+};
+/// As in summary.json: forces, and displacements of the body from where it was at the start.
+constexpr std::array<PeakKind, 4> peak_kinds = {
+    PeakKind{"peak N", unit::force}, PeakKind{"peak T", unit::force}, PeakKind{"peak vertical", unit::length},
+    PeakKind{"peak horizontal", unit::length}};
+constexpr std::array contact_columns = {"N", "T", "ut", "slip", "gap"};
+
+EventRates in_scene(const EventRates& rates, const Factors& of) {
+  EventRates r = rates;
+  const auto scale = [&](const Unit& unit, std::initializer_list<double*> values) {
+    for (double* x : values) *x *= factor_of(unit, of);
+  };
+  scale(unit::time, {&r.t});
+  scale(unit::length, {&r.gap});
+  scale(unit::force, {&r.N, &r.T, &r.N_after, &r.T_after});
+  scale(unit::velocity, {&r.vn, &r.vn_after, &r.vt, &r.vt_after});
+  scale(unit::impulse, {&r.impulse_n, &r.impulse_t});
+  return r;
+}
+
+}  // namespace
+
+RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives,
+                       Recorder* recorder, Sensitivities& result)
+    : model_(computed), derivatives_(derivatives), recorder_(recorder), result_(result) {
+  for (const Column& column : model_.columns) result_.columns.push_back(column.name);
+  for (const Contact& contact : model_.contacts) {
+    result_.contacts.push_back(contact.name);
+    for (const char* name : contact_columns) result_.columns.push_back(contact.name + "." + name);
+  }
+  result_.value_rates.resize(derivatives_.size());
+  peaks_.resize(model_.contacts.size());
+}
+
+void RateRecord::event(const Event& event) {
+  if (recorder_) recorder_->event(event);
+  result_.events.push_back(event);
+  std::vector<EventRates>& row = result_.event_rates.emplace_back();
+  for (const TangentState& state : *states_) {
+    EventRates rates;
+    if (event.contact >= 0)
+      rates = state.rates[static_cast<std::size_t>(event.contact)];
+    else
+      rates.t = state.dt;
+    row.push_back(in_scene(rates, model_.unit));
+  }
+}
+
+void RateRecord::sample(const Sample& s) {
+  if (recorder_) recorder_->sample(s);
+  result_.times.push_back(s.t);
+  std::vector<double>& row = result_.values.emplace_back();
+  for (const Column& column : model_.columns)
+    row.push_back(column.dof < 0 ? 0.0 : (column.velocity ? *s.v : *s.u)[column.dof]);
+  for (const ContactSample& c : s.contacts)
+    for (const double x : {c.N, c.T, c.ut, c.slip, c.gap}) row.push_back(x);
+}
+
+void RateRecord::frame(const Sample& s) {
+  if (recorder_) recorder_->frame(s);
+}
+void RateRecord::motion(int contact, const std::vector<MotionRow>& rows) {
+  if (recorder_) recorder_->motion(contact, rows);
+}
+void RateRecord::curves(const Curves& curves) {
+  if (recorder_) recorder_->curves(curves);
+}
+bool RateRecord::progress(double t) { return recorder_ == nullptr || recorder_->progress(t); }
+
+void RateRecord::sample(const TangentSample& s, bool row, bool turn) {
+  if (row) add_row(s);
+  for (std::size_t c = 0; turn && c < model_.contacts.size(); ++c) see_turn(s, c);
+}
+
+void RateRecord::add_row(const TangentSample& s) {
+  for (std::size_t p = 0; p < derivatives_.size(); ++p) {
+    std::vector<double>& row = result_.value_rates[p].emplace_back(result_.columns.size(), nothing);
+    const SeriesPoint& w = s.tangents[p];
+    if (w.u.size() == 0) continue;
+    const Vector u = physical(model_.physical(w.u), model_.physical_dofs(), false, model_.unit);
+    const Vector v = physical(model_.physical(w.v), model_.physical_dofs(), true, model_.unit);
+    std::size_t at = 0;
+    for (const Column& column : model_.columns)
+      row[at++] = column.dof < 0 ? 0.0 : (column.velocity ? v : u)[column.dof];
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      const ContactRates& rates = derivatives_[p].contacts[c];
+      const ContactMotion m = parameter_rate(contact, rates, c, s.point, w, s.driven[p][c]);
+      const double body = slide_rate(contact, rates, s.point, w, s.driven[p][c]).ut;
+      const double kt = contact.tangential_stiffness.value_or(0.0);
+      const double T = s.point.forces[static_cast<Eigen::Index>(tangent_slot(c))];
+      double slip = m.ut;
+      if (kt > 0.0) slip = m.ut - m.T / kt + T * rates.tangential_stiffness / (kt * kt);
+      if (kt > 0.0 && s.mode[c].state == State::stick) slip = s.anchors[p][c];
+      row[at++] = m.N * factor(unit::force);
+      row[at++] = m.T * factor(unit::force);
+      row[at++] = body * factor(unit::length);
+      row[at++] = slip * factor(unit::length);
+      row[at++] = m.gap * factor(unit::length);
+    }
+  }
+}
+
+void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
+  Peak& peak = peaks_[c][which];
+  if (!(std::abs(seen.value) > peak.size)) return;
+  peak = {std::abs(seen.value), seen.value, t, std::move(seen.rates), std::move(seen.t_rates)};
+}
+
+/// At a turn the rate is zero, so a peak's value moves as the quantity does at fixed time.
+void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
+  const Contact& contact = model_.contacts[c];
+  const ContactMotion m = motion_of(contact, c, s.forcing, s.t, s.point);
+  const Vector first = s.point.u - model_.u0;
+  const auto n = static_cast<Eigen::Index>(normal_slot(c));
+  const std::array<double, 4> values = {m.N, m.T, contact.normal.dot(first),
+                                        contact.body_tangent().dot(first)};
+  const std::array<double, 4> bends = {s.force_bends[n], s.force_bends[n + 1], contact.normal.dot(s.point.a),
+                                       contact.body_tangent().dot(s.point.a)};
+  for (std::size_t which = 0; which < values.size(); ++which) {
+    if (!(std::abs(values[which]) > peaks_[c][which].size)) continue;
+    Seen seen{values[which], {}, {}};
+    for (std::size_t p = 0; p < derivatives_.size(); ++p) {
+      const SeriesPoint& w = s.tangents[p];
+      double rate = nothing, bent = nothing;
+      if (w.u.size() > 0) {
+        const ContactRates& rates = derivatives_[p].contacts[c];
+        const Vector moved = w.u - derivatives_[p].u0;
+        const std::array<double, 4> by_p = {
+            w.forces[n], w.forces[n + 1], contact.normal.dot(moved) + rates.normal.dot(first),
+            contact.body_tangent().dot(moved) + rates.body_tangent.dot(first)};
+        const std::array<double, 4> slopes = {
+            w.force_rates[n], w.force_rates[n + 1], contact.normal.dot(w.v) + rates.normal.dot(s.point.v),
+            contact.body_tangent().dot(w.v) + rates.body_tangent.dot(s.point.v)};
+        rate = by_p[which];
+        bent = bends[which] != 0.0 ? -slopes[which] / bends[which] : nothing;
+      }
+      seen.rates.push_back(rate);
+      seen.t_rates.push_back(bent);
+    }
+    see(c, which, s.t, std::move(seen));
+  }
+}
+
+/// Forces may jump at an instant, so that both of its sides count.
+void RateRecord::see_instant(const InstantMotion& motion, const std::vector<TangentState>& states,
+                             std::size_t c) {
+  const Contact& contact = model_.contacts[c];
+  const double t = motion.instant.t;
+  const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
+    if (!(std::abs(value) > peaks_[c][which].size)) return;
+    Seen seen{value, {}, {}};
+    for (std::size_t p = 0; p < states.size(); ++p) {
+      seen.rates.push_back(rate_of(p));
+      seen.t_rates.push_back(states[p].rates[c].t);
+    }
+    see(c, which, t, std::move(seen));
+  };
+  if (t > 0.0) {
+    offer(0, motion.motion_before[c].N, [&](std::size_t p) { return states[p].rates[c].N; });
+    offer(1, motion.motion_before[c].T, [&](std::size_t p) { return states[p].rates[c].T; });
+  }
+  offer(0, motion.motion_after[c].N, [&](std::size_t p) { return states[p].rates[c].N_after; });
+  offer(1, motion.motion_after[c].T, [&](std::size_t p) { return states[p].rates[c].T_after; });
+  const Vector first = motion.after.u - model_.u0;
+  const auto along = [&](const Combination& form, const Combination ContactRates::*rates) {
+    return [&, rates](std::size_t p) {
+      if (!states[p].alive) return nothing;
+      const TangentState& state = states[p];
+      return form.dot(Vector(state.now.point.u - derivatives_[p].u0)) +
+             (derivatives_[p].contacts[c].*rates).dot(first) + state.rates[c].t * form.dot(motion.after.v);
+    };
+  };
+  offer(2, contact.normal.dot(first), along(contact.normal, &ContactRates::normal));
+  offer(3, contact.body_tangent().dot(first), along(contact.body_tangent(), &ContactRates::body_tangent));
+}
+
+void RateRecord::instant(const InstantMotion& motion, const std::vector<TangentState>& states) {
+  states_ = &states;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) see_instant(motion, states, c);
+}
+
+void RateRecord::finish() {
+  const std::size_t parameters = derivatives_.size();
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    for (std::size_t which = 0; which < peak_kinds.size(); ++which) {
+      Peak& peak = peaks_[c][which];
+      if (peak.size == 0.0 || (which == 2 && !model_.contacts[c].has_gap())) continue;
+      const double f = factor(peak_kinds[which].of);
+      Response r{peak_kinds[which].name,    static_cast<int>(c),   peak.value * f,
+                 peak.t * model_.unit.time, std::move(peak.rates), std::move(peak.t_rates)};
+      for (double& x : r.rates) x *= f;
+      for (double& x : r.t_rates) x *= model_.unit.time;
+      result_.responses.push_back(std::move(r));
+    }
+    if (result_.times.empty()) continue;
+    constexpr std::array rests = {std::pair{"rest horizontal", 2}, std::pair{"rest slip", 3}};
+    for (const auto& [name, place] : rests) {
+      const std::size_t column =
+          model_.columns.size() + c * contact_columns.size() + static_cast<std::size_t>(place);
+      Response r{name, static_cast<int>(c), result_.values.back()[column], result_.times.back(), {}, {}};
+      for (std::size_t p = 0; p < parameters; ++p) {
+        r.rates.push_back(result_.value_rates[p].back()[column]);
+        r.t_rates.push_back(nothing);
+      }
+      result_.responses.push_back(std::move(r));
+    }
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,57 @@
+// rate_record.hpp: events, rows and figures of contacts with their derivatives, in the scene's units.
+//
+//   peak of q:   at a turn q_p there, its time -(q'_p)/q'';   at an instant Dq, and the instant's own dt/dp
+//   rest:        what is left at the last output time
+#pragma once
+
+#include "sensitivity/tangent_run.hpp"
+
+namespace signorini {
+
+class RateRecord final : public TangentListener, public Recorder {
+ public:
+  /// computed: in the machine's units. Both must outlive it; recorder: may be null.
+  RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
+             Sensitivities& result);
+
+  void sample(const TangentSample& sample, bool row, bool turn) override;
+  void instant(const InstantMotion& motion, const std::vector<TangentState>& states) override;
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override;
+  void frame(const Sample& sample) override;
+  [[nodiscard]] bool wants_motion() const override {
+    return recorder_ != nullptr && recorder_->wants_motion();
+  }
+  void motion(int contact, const std::vector<MotionRow>& rows) override;
+  void curves(const Curves& curves) override;
+  bool progress(double t) override;
+
+  /// Peaks and rests into the result.
+  void finish();
+
+ private:
+  /// Of one contact.
+  struct Peak {
+    double size = 0.0, value = 0.0, t = 0.0;
+    std::vector<double> rates, t_rates;
+  };
+  struct Seen {
+    double value = 0.0;
+    std::vector<double> rates, t_rates;
+  };
+  void add_row(const TangentSample& sample);
+  void see(std::size_t contact, std::size_t which, double t, Seen seen);
+  void see_turn(const TangentSample& sample, std::size_t contact);
+  void see_instant(const InstantMotion& motion, const std::vector<TangentState>& states, std::size_t contact);
+  [[nodiscard]] double factor(const Unit& of) const { return factor_of(of, model_.unit); }
+
+  const Model& model_;
+  const std::vector<ModelDerivative>& derivatives_;
+  Recorder* recorder_;
+  Sensitivities& result_;
+  const std::vector<TangentState>* states_ = nullptr;  // of the last instant
+  std::vector<std::array<Peak, 4>> peaks_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,98 @@
+// sensitivities(): the model and its derivatives, then one run with its tangents.
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "contact/friction.hpp"
+#include "model/rescale.hpp"
+#include "sensitivity/parameter.hpp"
+#include "sensitivity/rate_record.hpp"
+#include "sensitivity/tangent_run.hpp"
+
+namespace signorini {
+namespace {
+
+/// Keys that say how a run is computed, not what moves.
+void check_path(const std::string& path) {
+  for (const std::string_view table : {"run.", "reduction.", "schema", "title", "units"})
+    if (path.starts_with(table) && !path.starts_with("run.initial"))
+      throw UsageError(fmt::format("--parameter {}: it is no datum of the motion", path));
+}
+
+RunSpec along_series(RunSpec run) {
+  if (run.flow == Flow::modal)
+    throw SceneError(
+        run.place, "run.flow",
+        "derivatives follow the Taylor series; found \"modal\", expected \"taylor\" or \"auto\"");
+  run.engine = Engine::exact;
+  run.flow = Flow::taylor;
+  run.certify = Certify::no;
+  return run;
+}
+
+}  // namespace
+
+SceneReader reader_of(std::string path, std::vector<Override> always) {
+  return [path = std::move(path), always = std::move(always)](const std::vector<Override>& changes) {
+    std::vector<Override> all = always;
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read_scene(path, all);
+  };
+}
+
+Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
+                            Recorder* recorder) {
+  const Scene scene = read({});
+  const Model model = build_model(scene);
+  const RunSpec run = along_series(scene.run);
+  const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
+  const Model computed = rescaled(model, to_machine);
+  Sensitivities result;
+  result.units = model.units;
+  result.title = model.title;
+  std::vector<ModelDerivative> derivatives;
+  std::vector<double> sizes;
+  for (const std::string& path : paths) {
+    check_path(path);
+    Parameter parameter;
+    parameter.path = path;
+    parameter.value = value_of(scene, path);
+    const double size =
+        parameter.value != 0.0 ? std::abs(parameter.value) : typical_size(read, scene, model, path);
+    derivatives.push_back(derivative(read, computed, path, parameter.value, size));
+    parameter.step = derivatives.back().step;
+    sizes.push_back(size);
+    result.parameters.push_back(std::move(parameter));
+  }
+  RateRecord record(computed, derivatives, recorder, result);
+  const RunSpec inside = rescaled(run, to_machine);
+  TangentRun tangents(computed, inside, derivatives, sizes, record);
+  result.report = simulate(model, run, record, tangents);
+  record.finish();
+  for (std::size_t p = 0; p < paths.size(); ++p)
+    if (const TangentState& state = tangents.states()[p]; !state.alive) {
+      result.parameters[p].until = state.until * computed.unit.time;
+      result.parameters[p].reason = state.reason;
+    }
+  return result;
+}
+
+std::vector<Swap> least_swaps(const Sensitivities& s) {
+  std::vector<Swap> found;
+  for (std::size_t p = 0; p < s.parameters.size(); ++p) {
+    std::optional<Swap> up, down;
+    for (std::size_t i = 0; i + 1 < s.events.size(); ++i) {
+      const double apart = s.events[i + 1].t - s.events[i].t;
+      const double closing = s.event_rates[i][p].t - s.event_rates[i + 1][p].t;
+      if (!(apart > 0.0) || !(std::abs(closing) > 0.0)) continue;
+      const Swap swap{p, i, i + 1, apart / closing};
+      std::optional<Swap>& least = swap.change > 0.0 ? up : down;
+      if (!least || std::abs(swap.change) < std::abs(least->change)) least = swap;
+    }
+    if (down) found.push_back(*down);
+    if (up) found.push_back(*up);
+  }
+  return found;
+}
+
+}  // namespace signorini

@@ -1,0 +1,316 @@
+#include "sensitivity/tangent_event.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/friction.hpp"
+#include "run/physical.hpp"
+#include "sensitivity/tangent_impact.hpp"
+
+namespace signorini {
+namespace {
+
+// Relative differences of two derivatives that mean the same: far above their rounding, far below what
+// differs. Chosen; the symmetric frames of tests/unit/sensitivity move where it does.
+constexpr double same = 1e-7;
+constexpr double same_motion = 1e-9;  // of accelerations, or velocities, that do not jump
+// A guard falls with g'^2 > 2 n |g''| n_g, or its time is not a smooth function of anything: n roundings n_g.
+constexpr double grazes = 1e3;
+
+double greatest(const Vector& x, const Model& model) {
+  double size = 0.0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    size = std::max(size, std::abs(x[i]) / (turns ? model.scales.rotation : model.scales.displacement));
+  }
+  return size;
+}
+
+/// By more than a part of themselves, and of `least`.
+bool differ(const Vector& a, const Vector& b, const Model& model, double part, double least) {
+  return greatest(b - a, model) > part * std::max({greatest(a, model), greatest(b, model), least});
+}
+
+double scale_of(const Form& form, const Scales& scales) {
+  if (form.N != 0.0 || form.T != 0.0) return scales.force;
+  if (form.gap != 0.0 || form.ut != 0.0) return scales.displacement;
+  return scales.velocity;
+}
+
+/// Of one everywhere.
+ContactMotion unit_motion() {
+  ContactMotion m;
+  m.N = m.T = m.gap = m.ut = m.vn = m.vt = m.an = m.at = m.pressing = m.pressing_rate = 1.0;
+  return m;
+}
+
+Vector massive(Vector x, const std::vector<DofKind>& kinds) {
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    if (kinds[static_cast<std::size_t>(i)] != DofKind::massive) x[i] = 0.0;
+  return x;
+}
+
+}  // namespace
+
+struct TangentEvents::Course {
+  const InstantMotion& m;
+  const TangentBefore& before;
+  TangentSeries& series;
+  TangentAfter after;
+  std::vector<std::optional<double>> own;    // dt/dp of a contact's own guard
+  std::vector<ContactMotion> p_before;       // derivatives at fixed time, one a contact
+  std::vector<double> impulse_n, impulse_t;  // derivatives, where there is an impact
+
+  [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
+  void stop(std::string why) {
+    if (after.reason.empty()) after.reason = std::move(why);
+  }
+};
+
+/// dt/dp from the guard of a contact, if it is one that fell by itself.
+std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) const {
+  const ObservedInstant& now = course.m.instant;
+  const Contact& contact = model_.contacts[c];
+  const ContactState& state = now.mode_before[c];
+  const auto forms = guards(contact, state);
+  Crossing crossing = now.after.crossings[c];
+  if (!crossing.failed) {
+    if (now.after.impulses.empty() || !now.after.impulses[c].hit) return std::nullopt;
+    crossing = {forms[0].form, true, {course.m.motion_before[c].vn, course.m.motion_before[c].an}, 0.0};
+  }
+  const auto guard = std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) {
+    return g.kind != Guard::none && g.form == crossing.form;
+  });
+  if (guard == forms.end()) return std::nullopt;  // of a state in between
+  const bool fired =
+      std::any_of(now.fired.begin(), now.fired.end(), [&](const Fired& f) { return f.contact == c; });
+  const double value = crossing.form.value(course.m.motion_before[c]);
+  const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
+  if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // pushed by another
+  const double rate = fired ? crossing.derivatives[0] : crossing.form.rate(course.m.rate_before[c]);
+  if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
+    course.stop(fmt::format("the {} of contact '{}' grazes: its rate is {:.3g}", to_string(guard->kind),
+                            contact.name,
+                            rate * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time));
+    return std::nullopt;
+  }
+  const Form& form_rate =
+      derivative_.contacts[c].guards[index_of(state.state)][static_cast<std::size_t>(guard - forms.begin())];
+  const double moved = form_rate.value(course.m.motion_before[c]) + crossing.form.rate(course.p_before[c]);
+  return -moved / rate;
+}
+
+void TangentEvents::find_times(Course& course) const {
+  const ObservedInstant& now = course.m.instant;
+  std::vector<double> times;
+  if (!now.fired.empty() || now.breakpoint)
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      course.own[c] = time_of(course, c);
+      if (course.own[c]) times.push_back(*course.own[c]);
+    }
+  if (now.breakpoint)
+    for (const MovingBreakpoint& b : breakpoints_at(model_, derivative_, now.t, now.resolution))
+      times.push_back(b.rate);
+  if (times.empty()) return;
+  const auto [least, most] = std::minmax_element(times.begin(), times.end());
+  course.after.dt = times.front();
+  if (*most - *least <= same * std::max(std::abs(*least), std::abs(*most)) + least_) return;
+  const std::vector<DofKind>& kinds = now.after.system->kinds();
+  const double rate = model_.scales.velocity / model_.scales.displacement;
+  if (!differ(massive(course.m.before.a, kinds), massive(course.m.after.a, kinds), model_, same_motion,
+              rate * rate) &&
+      !differ(massive(course.m.before.v, kinds), massive(course.m.after.v, kinds), model_, same_motion,
+              rate)) {
+    course.after.dt = 0.0;  // nothing jumps: each has its own, and the motion none
+    return;
+  }
+  course.stop("events at one instant part with it, and what comes after depends on which is first");
+}
+
+/// The tangent of the state just after.
+void TangentEvents::move_state(Course& course) const {
+  const InstantMotion& m = course.m;
+  const ObservedInstant& now = m.instant;
+  const SeriesPoint& w = course.before.point;
+  const double dt = course.after.dt;
+  const Vector Du = w.u + dt * m.before.v;
+  Vector Dv = w.v + dt * m.before.a;
+  const bool hit = std::any_of(now.after.impulses.begin(), now.after.impulses.end(),
+                               [](const Impulse& i) { return i.normal > 0.0; });
+  if (hit) {
+    std::vector<double> surface;
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+      surface.push_back(course.before.driven[c].surface[1] + dt * now.forcing_before.surface(c, now.t, 2));
+    ImpactRates rates =
+        impact_rates(systems_, derivative_, now.mode_before, now.after, m.before.v, Dv, surface);
+    if (!rates.known) return course.stop("the equations of the impact are singular");
+    Dv = std::move(rates.v);
+    course.impulse_n = std::move(rates.normal);
+    course.impulse_t = std::move(rates.tangent);
+  } else if (const auto& kinds = now.after.system->kinds();
+             differ(massive(m.before.v, kinds), massive(m.after.v, kinds), model_, same,
+                    model_.scales.velocity / model_.scales.displacement)) {
+    return course.stop("velocities jump otherwise than by an impact");
+  }
+  course.after.start.u = Du - dt * m.after.v;
+  course.after.start.v = Dv - dt * m.after.a;
+}
+
+/// An anchor lies where the slip has left it: p = ut - T/kt, T just before, or the kinetic friction where
+/// that has let go and taken hold again.
+void TangentEvents::move_anchors(Course& course) const {
+  const InstantMotion& m = course.m;
+  course.after.start.anchors = course.before.start.anchors;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactState &old = m.instant.mode_before[c], &now = m.instant.after.mode[c];
+    if (!contact.tangential_stiffness || now.state != State::stick) continue;
+    if (old.state == State::stick && old.anchor == now.anchor) continue;
+    const ContactRates& rates = derivative_.contacts[c];
+    const double kt = *contact.tangential_stiffness;
+    const ContactMotion& before = m.motion_before[c];
+    const ContactMotion D = sum(course.p_before[c], m.rate_before[c], course.dt_of(c));
+    const double size = std::abs(before.ut) + std::abs(before.T / kt) + std::abs(now.anchor) +
+                        1e-6 * model_.scales.displacement;
+    const auto matches = [&](double T) {
+      return std::abs(before.ut - T / kt - now.anchor) <= same_motion * size;
+    };
+    double T = before.T, DT = D.T;
+    for (const int s : {1, -1}) {
+      if (matches(T)) break;
+      T = -s * kinetic_friction(contact) * before.N;
+      DT = -s * (rates.kinetic_friction * before.N + kinetic_friction(contact) * D.N);
+    }
+    if (!matches(T))
+      return course.stop(
+          fmt::format("contact '{}' lets go and takes hold again within one instant", contact.name));
+    course.after.start.anchors[c] = D.ut - DT / kt + T * rates.tangential_stiffness / (kt * kt);
+  }
+}
+
+/// To what rounding makes of its terms, or of a typical size.
+bool TangentEvents::vanishes(double rate, double terms, double scale) const {
+  return std::abs(rate) <= 10.0 * same * terms + same_motion * scale / size_;
+}
+
+/// What a mode holds still stays where it is held for other values of the parameter too, or the mode is
+/// theirs on one side only.
+void TangentEvents::look_at_holds(Course& course) const {
+  const InstantMotion& m = course.m;
+  const TangentAfter& after = course.after;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const State state = m.instant.after.mode[c].state;
+    const ContactMotion D =
+        sum(parameter_rate(contact, derivative_.contacts[c], c, m.after, after.point, after.driven[c]),
+            m.rate_after[c], course.dt_of(c));
+    const Scales& scales = model_.scales;
+    bool held = true;
+    if (contact.takes_impulses() && !is_open(state))
+      held = vanishes(D.gap, contact.normal.magnitude(after.point.u), scales.displacement) &&
+             vanishes(D.vn, contact.normal.magnitude(after.point.v), scales.velocity);
+    if (contact.sticks_rigidly() && state == State::stick)
+      held = held &&
+             vanishes(D.vt, contact.tangent.magnitude(after.point.v) + std::abs(after.driven[c].surface[1]),
+                      scales.velocity);
+    if (!held)
+      return course.stop(fmt::format(
+          "contact '{}' is held here for this value only: derivatives from both sides differ", contact.name));
+  }
+}
+
+/// A guard that is zero afterwards, and is not for other values of the parameter, falls on one side of it.
+void TangentEvents::look_for_kinks(Course& course) const {
+  const InstantMotion& m = course.m;
+  const Decision& decision = m.instant.after;
+  const Vector &w = course.after.point.u, &wv = course.after.point.v;
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
+    const GuardStart& guard = decision.guards[slot];
+    if (guard.kind == Guard::none || !guard.at_zero || guard.form.an != 0.0) continue;
+    const std::size_t c = contact_of_guard(slot);
+    const Contact& contact = model_.contacts[c];
+    const double dt = course.dt_of(c);
+    const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], c, m.after, course.after.point,
+                                           course.after.driven[c]);
+    const Form& form_rate =
+        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][slot % guards_per_contact];
+    const ContactMotion D = sum(p, m.rate_after[c], dt);
+    const double value = form_rate.value(m.motion_after[c]) + guard.form.rate(D);
+    ContactMotion terms = p;
+    terms.gap = std::abs(p.gap) + contact.normal.magnitude(w);
+    terms.ut = std::abs(p.ut) + contact.tangent.magnitude(w);
+    terms.vn = std::abs(p.vn) + contact.normal.magnitude(wv);
+    terms.vt = std::abs(p.vt) + contact.tangent.magnitude(wv);
+    const double size = form_rate.magnitude(m.motion_after[c]) + guard.form.magnitude(terms) +
+                        std::abs(dt) * guard.form.magnitude(m.rate_after[c]);
+    // a gap that opens from rest: its rate, too
+    const bool opens_slowly = guard.kind == Guard::closing && guard.leading != 1;
+    if (vanishes(value, size, guard.form.magnitude(unit_motion()) * scale_of(guard.form, model_.scales)) &&
+        (!opens_slowly || vanishes(D.vn, contact.normal.magnitude(wv), model_.scales.velocity)))
+      continue;
+    return course.stop(fmt::format(
+        "the {} of contact '{}' is zero here for this value only: derivatives from both sides differ",
+        to_string(guard.kind), contact.name));
+  }
+}
+
+void TangentEvents::fill_rates(Course& course) const {
+  const InstantMotion& m = course.m;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactRates& rates = derivative_.contacts[c];
+    const double dt = course.dt_of(c);
+    const ContactMotion before = sum(course.p_before[c], m.rate_before[c], dt);
+    const ContactMotion after =
+        sum(parameter_rate(contact, rates, c, m.after, course.after.point, course.after.driven[c]),
+            m.rate_after[c], dt);
+    const double t = m.instant.t;
+    EventRates row;
+    row.t = dt;
+    if (contact.has_gap()) row.gap = after.gap;
+    row.N = before.N;
+    row.T = before.T;
+    row.vn = before.vn;
+    row.N_after = after.N;
+    row.T_after = after.T;
+    row.vn_after = after.vn;
+    row.vt = slide_rate(contact, rates, m.before, course.before.point, course.before.driven[c]).vt +
+             dt * (contact.body_tangent().dot(m.before.a) - m.instant.forcing_before.surface(c, t, 2));
+    row.vt_after = slide_rate(contact, rates, m.after, course.after.point, course.after.driven[c]).vt +
+                   dt * (contact.body_tangent().dot(m.after.a) - m.instant.forcing_after.surface(c, t, 2));
+    if (!course.impulse_n.empty() && m.instant.after.impulses[c].hit) {
+      row.impulse_n = course.impulse_n[c];
+      row.impulse_t = course.impulse_t[c];
+    }
+    course.after.rates.push_back(row);
+  }
+}
+
+TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefore& before,
+                                 TangentSeries& series) const {
+  Course course{motion, before, series, {}, {}, {}, {}, {}};
+  const std::size_t count = model_.contacts.size();
+  course.own.resize(count);
+  for (std::size_t c = 0; c < count; ++c)
+    course.p_before.push_back(parameter_rate(model_.contacts[c], derivative_.contacts[c], c, motion.before,
+                                             before.point, before.driven[c]));
+  find_times(course);
+  if (course.after.reason.empty()) move_state(course);
+  if (course.after.reason.empty()) move_anchors(course);
+  if (!course.after.reason.empty()) return std::move(course.after);
+  const double t = motion.instant.t;
+  const ForcingRates forcing(model_, derivative_, t, Side::after);
+  series.expand_to(*motion.instant.after.system, motion.series_after, forcing, course.after.start,
+                   has_massless(model_) ? 2 : 0);
+  course.after.point = series.at(0.0);
+  for (std::size_t c = 0; c < count; ++c)
+    course.after.driven.push_back(driven_rates(series.forcing(), series.scale(), c, 0.0));
+  look_at_holds(course);
+  look_for_kinks(course);
+  fill_rates(course);
+  return std::move(course.after);
+}
+
+}  // namespace signorini

@@ -1,0 +1,88 @@
+// tangent_run.hpp: the tangent motions of several parameters, carried along beside a run.
+//
+//   begin:    w = u0_p, w' = v0_p, anchors from the start
+//   step:     every tangent over the step's series (tangent_series.hpp), halved where it does not converge
+//   instant:  across the event (tangent_event.hpp)
+//
+// What is wanted of them on the way is handed to a listener: rows at output times, turns, instants.
+#pragma once
+
+#include "sensitivity/tangent_event.hpp"
+#include "signorini/sensitivity.hpp"
+
+namespace signorini {
+
+/// The motion and its tangents at one time between events.
+struct TangentSample {
+  double t = 0.0;
+  const Forcing& forcing;
+  const Mode& mode;
+  SeriesPoint point;
+  Vector force_bends;                            ///< second derivatives of the contact forces
+  std::vector<SeriesPoint> tangents;             ///< one a parameter; empty vectors: it has none any more
+  std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
+  std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
+};
+
+/// One parameter's tangent.
+struct TangentState {
+  explicit TangentState(const Model& model, const Structure& structure, ModeSystems& systems,
+                        const ModelDerivative& data, double size, double t_end)
+      : derivative(data), series(model, structure, data, size), events(model, systems, data, size, t_end) {}
+
+  const ModelDerivative& derivative;
+  TangentSeries series;
+  TangentEvents events;
+  TangentBefore now;                    ///< the state just before the next instant
+  std::optional<ForcingRates> forcing;  ///< of the segment
+  double reach = 0.0;                   ///< time over which its series converged last; 0: not known
+  bool alive = true;
+  double until = 0.0;  ///< where it is not
+  std::string reason;
+  std::vector<EventRates> rates;  ///< of the last instant, one a contact
+  double dt = 0.0;                ///< of the last instant
+};
+
+class TangentListener {
+ public:
+  virtual ~TangentListener() = default;
+  /// Output time: a row. turn: T, N, g or ut of a contact may turn here beyond all before.
+  virtual void sample(const TangentSample& sample, bool row, bool turn) = 0;
+  /// After every instant, the start among them.
+  virtual void instant(const InstantMotion& motion, const std::vector<TangentState>& states) = 0;
+};
+
+class TangentRun final : public MotionObserver {
+ public:
+  /// model, run: in the machine's units. All but sizes must outlive it.
+  TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
+             const std::vector<double>& sizes, TangentListener& listener);
+
+  void begin(const ObservedInstant& start) override;
+  void step(const ObservedStep& step) override;
+  void instant(const ObservedInstant& instant) override;
+
+  [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
+
+ private:
+  struct Output {
+    double t = 0.0, x = 0.0;
+    bool row = false, turn = false;
+  };
+  [[nodiscard]] std::vector<Output> outputs(const ObservedStep& step);
+  void advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& outputs,
+               std::vector<TangentSample>& samples, std::size_t parameter) const;
+  void pass(const ObservedInstant& instant);
+  void rows_at(const ObservedInstant& instant, const SeriesPoint& after);
+
+  const Model& model_;
+  Structure structure_;
+  ModeSystems systems_;
+  TangentListener& listener_;
+  std::vector<TangentState> states_;
+  std::vector<double> grid_;
+  std::size_t next_ = 0;
+  SeriesPoint end_;  ///< the motion just before the next instant
+};
+
+}  // namespace signorini

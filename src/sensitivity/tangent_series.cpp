@@ -1,0 +1,249 @@
+#include "sensitivity/tangent_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+// Of the tangent at the beginning: a greater term has cost its digits in what it is summed with. Chosen:
+// three.
+constexpr double most_cancelling = 1e3;
+// Of the tangent, the last terms of a series; ten thousand steps leave the square root of that many. Chosen.
+constexpr double left_out = 1e-14;
+constexpr int first_terms = 3;  // that say how large it is
+
+std::size_t index_in(const Series& series, std::size_t contact, int order) {
+  return contact * series.forcing.count + static_cast<std::size_t>(order);
+}
+
+bool any(const Combination& c) {
+  return std::any_of(c.terms.begin(), c.terms.end(), [](const auto& term) { return term.second != 0.0; });
+}
+
+}  // namespace
+
+SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
+                     std::size_t degree, double x) {
+  SeriesPoint p;
+  const Eigen::Index n = u.rows(), m = forces.rows();
+  p.u.setZero(n);
+  p.v.setZero(n);
+  p.a.setZero(n);
+  p.forces.setZero(m);
+  p.force_rates.setZero(m);
+  for (std::size_t k = degree + 1; k-- > 0;) {
+    const auto e = static_cast<Eigen::Index>(k);
+    const double first = static_cast<double>(k + 1) / scale,
+                 second = first * static_cast<double>(k + 2) / scale;
+    p.u = p.u * x + u.col(e);
+    p.v = p.v * x + first * u.col(e + 1);
+    p.a = p.a * x + second * u.col(e + 2);
+    p.forces = p.forces * x + forces.col(e);
+    if (k < degree) p.force_rates = p.force_rates * x + first * forces.col(e + 1);
+  }
+  return p;
+}
+
+void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out) {
+  // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
+  const Eigen::Index columns = series.u.cols(), rows = series.forces.cols();
+  Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
+  double power = 1.0;
+  for (Eigen::Index j = 0; j < columns; ++j, power *= part) {
+    double term = power;  // binomial(j, j)
+    for (Eigen::Index k = j; k < columns; ++k) {
+      shift(k, j) = term;
+      term *= x * static_cast<double>(k + 1) / static_cast<double>(k + 1 - j);
+    }
+  }
+  out.t = series.t + series.scale * x;
+  out.scale = series.scale * part;
+  out.levels = series.levels;
+  out.u.noalias() = series.u * shift;
+  out.forces.noalias() = series.forces * shift.topLeftCorner(rows, rows);
+  forcing.expand(out.t, out.scale, static_cast<std::size_t>(columns), out.forcing);
+}
+
+TangentSeries::TangentSeries(const Model& model, const Structure& structure,
+                             const ModelDerivative& derivative, double size)
+    : model_(model),
+      structure_(structure),
+      derivative_(derivative),
+      massless_(has_massless(model)),
+      matrices_(derivative.mass.nonZeros() + derivative.damping.nonZeros() + derivative.stiffness.nonZeros() >
+                0),
+      forms_(std::any_of(derivative.contacts.begin(), derivative.contacts.end(),
+                         [](const ContactRates& c) { return any(c.normal) || any(c.tangent); })),
+      x_(static_cast<std::size_t>(model.size()) + 2 * model.contacts.size()),
+      work_(x_.size()),
+      known_u_(static_cast<std::size_t>(model.size())),
+      known_v_(known_u_.size()) {
+  nothing_ = rounding::eps / size;
+  for (const Dof& dof : model.dofs)
+    scales_.push_back(1.0 / (dof.rotation ? model.scales.rotation : model.scales.displacement));
+}
+
+void TangentSeries::begin(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+                          const Tangent& start) {
+  system_ = &system;
+  motion_ = &motion;
+  start_ = &start;
+  scale_ = motion.scale;
+  levels_ = -1;
+  constexpr int columns = most_tangent_levels + 3;
+  u_.setZero(model_.size(), columns);
+  forces_.setZero(static_cast<Eigen::Index>(2 * model_.contacts.size()), columns);
+  forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
+  u_.col(0) = start.u;
+  for (Eigen::Index i = 0; i < start.u.size(); ++i)
+    if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
+}
+
+/// The greatest entry, rotations and displacements by the scales of the scene.
+double TangentSeries::size_of(const Eigen::Ref<const Vector>& x) const {
+  double size = 0.0;
+  for (std::size_t i = 0; i < scales_.size(); ++i)
+    size = std::max(size, scales_[i] * std::abs(x[static_cast<Eigen::Index>(i)]));
+  return size;
+}
+
+bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+                           const Tangent& start, double x, int levels) {
+  begin(system, motion, forcing, start);
+  for (int k = 0; k <= std::min(levels, motion.levels); ++k) level(k);
+  double first = 0.0, greatest = 0.0, power = 1.0;
+  int checked = 0;
+  for (;; level(levels_ + 1)) {
+    const int complete = levels_ - late();
+    for (; checked <= complete + 2; ++checked, power *= x) {
+      const double size = size_of(u_.col(checked)) * power;
+      if (!std::isfinite(size)) return false;
+      (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
+    }
+    const double last =
+        std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
+    if (last <= left_out * std::max(first, greatest) + nothing_) break;
+    if (levels_ == most_tangent_levels) return false;
+  }
+  if (greatest <= most_cancelling * (first + nothing_)) return true;
+  return greatest <= most_cancelling * size_of(at(x).u);  // it may start from nothing
+}
+
+void TangentSeries::expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+                              const Tangent& start, int levels) {
+  begin(system, motion, forcing, start);
+  for (int k = 0; k <= levels; ++k) level(k);
+}
+
+/// x += what the parameter does to the equations of motion at order k.
+void TangentSeries::add_sources(int k) {
+  if (forcing_.loaded)
+    for (std::size_t i = 0; i < known_u_.size(); ++i) x_[i] += forcing_.load(static_cast<Eigen::Index>(i), k);
+  const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
+  if (matrices_) {
+    Eigen::Map<Vector> r(x_.data(), model_.size());
+    if (derivative_.mass.nonZeros() > 0) r -= derivative_.mass * (to_acceleration * motion_->u.col(k + 2));
+    if (derivative_.damping.nonZeros() > 0) r -= derivative_.damping * (to_velocity * motion_->u.col(k + 1));
+    if (derivative_.stiffness.nonZeros() > 0) r -= derivative_.stiffness * motion_->u.col(k);
+  }
+  if (!forms_) return;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const auto at = static_cast<Eigen::Index>(normal_slot(c));
+    derivative_.contacts[c].normal.add_to(x_, -motion_->forces(at, k));
+    derivative_.contacts[c].tangent.add_to(x_, -motion_->forces(at + 1, k));
+  }
+}
+
+/// The right sides of the contacts' rows at order k.
+void TangentSeries::add_rows(int k) {
+  const Unknowns& at = system_->unknowns();
+  const Series& s = *motion_;
+  const bool source = k <= s.levels;
+  const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
+  for (std::size_t c = 0; c < at.contacts; ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactState& state = system_->mode()[c];
+    const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
+    double r = 0.0, q = 0.0;
+    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_);
+    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_);
+    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_);
+    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_);
+    if (source) {
+      const ContactRates& rates = derivative_.contacts[c];
+      const auto u = s.u.col(k), v = s.u.col(k + 1), a = s.u.col(k + 2);
+      const std::size_t f = index_in(s, c, k);
+      ContactMotion m;
+      m.N = s.forces(static_cast<Eigen::Index>(normal_slot(c)), k);
+      m.T = s.forces(static_cast<Eigen::Index>(tangent_slot(c)), k);
+      m.gap = gap_coefficient(contact, s, static_cast<std::size_t>(k));
+      m.ut = ut_coefficient(contact, c, s, static_cast<std::size_t>(k));
+      m.vn = to_velocity * contact.normal.dot(v);
+      m.vt = to_velocity * ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 1);
+      m.an = to_acceleration * contact.normal.dot(a);
+      m.at = to_acceleration * ut_coefficient(contact, c, s, static_cast<std::size_t>(k) + 2);
+      m.pressing = s.forcing.pressing[f];
+      m.pressing_rate = to_velocity * s.forcing.pressing[f + 1];
+      const Rows& row_rates = rates.rows[index_of(state.state)];
+      r += row_rates.normal.rate(m);
+      q += row_rates.tangent.rate(m);
+      const std::size_t p = c * forcing_.count + static_cast<std::size_t>(k);
+      const double* surface = forcing_.surface.data() + p;
+      r += normal.gap * rates.normal.dot(u) + normal.vn * to_velocity * rates.normal.dot(v) +
+           normal.an * to_acceleration * rates.normal.dot(a) + normal.pressing * forcing_.pressing[p];
+      q += tangent.ut * (rates.tangent.dot(u) - surface[0]) +
+           tangent.vt * to_velocity * (rates.tangent.dot(v) - surface[1]) +
+           tangent.at * to_acceleration * (rates.tangent.dot(a) - surface[2]);
+      if (k == 0) {
+        r += row_rates.normal.constant + normal.gap * rates.gap;
+        q += row_rates.tangent.constant;
+        if (state.state == State::stick && contact.tangential_stiffness)
+          q += rates.tangential_stiffness * state.anchor + *contact.tangential_stiffness * start_->anchors[c];
+      }
+    }
+    x_[at.normal(c)] = -r;
+    x_[at.tangent(c)] = -q;
+  }
+}
+
+void TangentSeries::level(int k) {
+  const std::size_t n = known_u_.size();
+  const double to_velocity = (k + 1) / scale_, to_acceleration = to_velocity * (k + 2) / scale_;
+  const std::vector<DofKind>& kinds = system_->kinds();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    known_u_[i] = kinds[i] == DofKind::algebraic ? 0.0 : u_(e, k);
+    known_v_[i] = kinds[i] == DofKind::massive ? to_velocity * u_(e, k + 1) : 0.0;
+    x_[i] = 0.0;
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    const double uj = known_u_[j], vj = known_v_[j];
+    const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
+    for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
+      x_[static_cast<std::size_t>(structure_.row[p])] -= structure_.c[p] * vj + structure_.k[p] * uj;
+  }
+  if (k <= motion_->levels) add_sources(k);
+  add_rows(k);
+  system_->solve(x_.data(), work_.data());
+  ++solves_;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    if (kinds[i] == DofKind::massive)
+      u_(e, k + 2) = x_[i] / to_acceleration;
+    else if (kinds[i] == DofKind::damped)
+      u_(e, k + 1) = x_[i] / to_velocity;
+    else
+      u_(e, k) = x_[i];
+  }
+  std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), forces_.col(k).data());
+  levels_ = k;
+}
+
+SeriesPoint TangentSeries::at(double x) const {
+  return point_at(u_, forces_, scale_, static_cast<std::size_t>(std::max(levels_ - late(), 0)), x);
+}
+
+}  // namespace signorini

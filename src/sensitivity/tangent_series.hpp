@@ -1,0 +1,84 @@
+// tangent_series.hpp: the tangent motion of a mode as a series, beside that of the motion.
+//
+//   M wa_k + C wv_k + K w_k + sum ( n N_p,k + t T_p,k )
+//     = P_p,k - M_p a_k - C_p v_k - K_p u_k - sum ( n_p N_k + t_p T_k )
+//   row . (motion of the contact)_p,k = - row_p . (motion of the contact)_k          rows of the mode
+//   wv_k = (k+1)/s w_(k+1),   wa_k = (k+1)(k+2)/s^2 w_(k+2)
+//
+// The same recurrence as that of the motion (motion/taylor.hpp), differentiated: each level is one solve with
+// the mode's own factors. Levels past those of the motion have no source: what the motion left out is below
+// its rounding. The motion may be quiet where its tangent is not, so the tangent has its own measure of
+// convergence.
+#pragma once
+
+#include "motion/mode_systems.hpp"
+#include "motion/series.hpp"
+#include "sensitivity/forcing_rates.hpp"
+
+namespace signorini {
+
+/// Tangents of u and v at one instant, and of the anchors; one parameter.
+struct Tangent {
+  Vector u, v;
+  std::vector<double> anchors;
+};
+
+/// Everything at one place of a series: values or tangents.
+struct SeriesPoint {
+  Vector u, v, a, forces, force_rates;
+};
+[[nodiscard]] SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
+                                   std::size_t degree, double x);
+
+/// A series about t + scale x of half-width `part` of it, from one about t; the forcing expanded anew.
+void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out);
+
+class TangentSeries {
+ public:
+  /// Levels at most. A step of six radians has 6^40/40! = 2e-17 left.
+  static constexpr int most_tangent_levels = 40;
+
+  /// All but size must outlive it; size: of the parameter. Less than eps of a scale's displacement for all of
+  /// it is nothing.
+  TangentSeries(const Model& model, const Structure& structure, const ModelDerivative& derivative,
+                double size);
+
+  /// As many levels as it takes to reach x, at least so many or those of the motion; false: it does not
+  /// converge there.
+  [[nodiscard]] bool expand(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+                            const Tangent& start, double x, int levels);
+  /// `levels` levels and no more.
+  void expand_to(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+                 const Tangent& start, int levels);
+
+  [[nodiscard]] SeriesPoint at(double x) const;
+  [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
+  [[nodiscard]] double scale() const { return scale_; }
+  [[nodiscard]] long solves() const { return solves_; }
+
+ private:
+  void begin(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
+             const Tangent& start);
+  void level(int k);
+  void add_sources(int k);
+  void add_rows(int k);
+  [[nodiscard]] double size_of(const Eigen::Ref<const Vector>& x) const;
+  [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
+
+  const Model& model_;
+  const Structure& structure_;
+  const ModelDerivative& derivative_;
+  bool massless_, matrices_, forms_;
+  const ModeSystem* system_ = nullptr;
+  const Series* motion_ = nullptr;
+  const Tangent* start_ = nullptr;
+  ForcingRatesSeries forcing_;
+  Eigen::MatrixXd u_, forces_;
+  std::vector<double> x_, work_, known_u_, known_v_, scales_;
+  Vector a_, v_;
+  int levels_ = -1;
+  double scale_ = 1.0, nothing_ = 0.0;
+  long solves_ = 0;
+};
+
+}  // namespace signorini

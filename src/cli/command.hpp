@@ -29,6 +29,7 @@ void add_study(Program& program);
 void add_sweep(Program& program);
 void add_verify(Program& program);
 void add_sensitivity(Program& program);
+void add_fit(Program& program);
 void add_keys(Program& program);
 void add_schema(Program& program);
 void add_new(Program& program);

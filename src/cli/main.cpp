@@ -55,6 +55,7 @@ int main_program(int argc, char** argv) {
   add_check(program);
   add_verify(program);
   add_sensitivity(program);
+  add_fit(program);
   add_compare(program);
   add_sweep(program);
   add_study(program);

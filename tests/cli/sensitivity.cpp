@@ -1,0 +1,87 @@
+// `sensitivity` as a shell sees it.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+
+using nlohmann::json;
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::exists;
+using signorini::cli_test::has;
+using signorini::cli_test::Shell;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("cli/sensitivity");
+
+TEST_CASE("cli sensitivity: tables, spreads, and its exit code") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const Ending ending = shell.run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.static",
+                                   "--sigma", "contacts.1.friction.kinetic=0.01"});
+  INFO(ending.err);
+  CHECK(ending.code == 0);
+  CHECK(has(ending.out, "elasticity") == false);
+  CHECK(has(ending.out, "up to"));
+  CHECK(has(ending.out, "sigma"));
+  const auto events = lines_of(shell.read("belt-sensitivity/events.csv"));
+  const auto rates = lines_of(shell.read("belt-sensitivity/sensitivities.csv"));
+  CHECK(rates[0].rfind("event_index,t,contact,event,parameter,dt_dp,", 0) == 0);
+  CHECK(rates.size() == 2 * (events.size() - 1) + 1);
+  const auto columns = lines_of(shell.read("belt-sensitivity/columns-1.csv"));
+  CHECK(columns[0].find(".slip") != std::string::npos);
+  CHECK(exists(shell, "belt-sensitivity/columns-2.csv"));
+  CHECK(exists(shell, "belt-sensitivity/figures.csv"));
+  const auto spread = lines_of(shell.read("belt-sensitivity/spread.csv"));
+  CHECK(spread[0] == "what,contact,value,sigma");
+  const json j = json::parse(shell.read("belt-sensitivity/sensitivity.json"));
+  REQUIRE(j["parameters"].size() == 2);
+  CHECK(j["parameters"][0]["path"] == "contacts.1.friction.static");
+  CHECK(j["parameters"][0]["sigma"] == 0.0);
+  CHECK(j["parameters"][1]["sigma"] == 0.01);
+  // sigma of a time is |dt/dp| sigma_p: the second row of the first event is of the kinetic coefficient
+  std::vector<std::string> cells;
+  std::istringstream row(rates[2]);
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  const double sigma = std::stod(spread[1].substr(spread[1].rfind(',') + 1));
+  CHECK(sigma == doctest::Approx(std::abs(std::stod(cells[5])) * 0.01));
+  CHECK(shell.run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.static"}).code == 6);
+  CHECK(shell
+            .run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.static", "--force",
+                  "--quiet"})
+            .code == 0);
+  CHECK_FALSE(exists(shell, "belt-sensitivity/spread.csv"));
+}
+
+TEST_CASE("cli sensitivity: what it refuses, it names") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& said) {
+    std::vector<std::string> line{"sensitivity", "belt.toml"};
+    line.insert(line.end(), more.begin(), more.end());
+    const Ending ending = shell.run(line);
+    CAPTURE(ending.err);
+    CHECK(ending.code == code);
+    CHECK(has(ending.err, said));
+  };
+  refused({}, 2, "expected --parameter PATH");
+  refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: it is no datum of the motion");
+  refused({"--parameter", "contacts.1.frictoin"}, 2, "there is no \"frictoin\"");
+  refused({"--parameter", "contacts.1.law"}, 2, "expected the key of a number");
+  refused({"--parameter", "contacts.1.friction.static", "--set", "run.engine=ida"}, 2, "engine \"exact\"");
+  refused({"--parameter", "contacts.1.friction.static", "--set", "run.flow=modal"}, 3, "run.flow");
+  refused({"--sigma", "contacts.1.friction.static=-1"}, 2, "standard deviation");
+}

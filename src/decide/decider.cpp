@@ -305,6 +305,15 @@ Refusal Decider::go(const Forcing& before, Course& course) {
   return {};
 }
 
+/// Does it stick at its limit from this instant on, and no derivative says for how long?
+bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard) {
+  const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+  const bool asked =
+      course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
+  return limit && asked && guard.at_zero && guard.leading < 0 &&
+         std::abs(course.jets[c].motion[0].T) > guard.noise;
+}
+
 /// What an engine and the log want to know of the new mode.
 void Decider::finish(Course& course) const {
   Decision& d = course.decision;
@@ -321,9 +330,13 @@ void Decider::finish(Course& course) const {
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);
         start.at_zero = known.zeros > 0 || starts_at_zero(guard.form, jet, course.instant);
-        start.noise = guard.form.magnitude(jet.noise[0]);
+        start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
         const int order = sign_of_guard(guard.form, jet, course.instant, known).order;
         start.leading = order < static_cast<int>(jet.motion.size()) ? order : -1;
+        // What the decision took for zero is rounding to an engine, too.
+        if (start.at_zero && start.leading < 0)
+          start.noise = std::max(start.noise, std::abs(guard.form.value(now)));
+        d.undecided = d.undecided || rests_at_limit(course, c, start);
       }
       d.guards.push_back(std::move(start));
     }

@@ -47,6 +47,7 @@ class Decider {
   static bool blur(Course& course);
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
+  [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
   void finish(Course& course) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
 

@@ -16,7 +16,7 @@ struct GuardStart {
   Guard kind = Guard::none;
   Form form;
   bool at_zero = false;  ///< starts at zero and rises
-  double noise = 0.0;    ///< rounding of its value at the start
+  double noise = 0.0;    ///< rounding of its value at the start; no less than what was taken for zero
   int leading = 0;       ///< order of its first derivative that is not zero; -1: none is known
 };
 
@@ -45,7 +45,9 @@ struct Decision {
   double impact_loss = 0.0;          ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;  ///< that moving surfaces do in them
   bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
-  bool undecided = false;            ///< rounding could not tell: the states that fail least were taken
+  /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
+  /// friction.
+  bool undecided = false;
   int rounds = 0;
 };
 

@@ -45,7 +45,14 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     miss[i] = f.value - f.form->dot(v);
   }
   v += effect * least_squares(W, miss);
-  for (const Fixed& f : fixed) set_exactly(*f.form, f.value, v);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const Fixed& f = fixed[i];
+    const bool both = i + 1 < fixed.size() && f.row % 2 == 0 && fixed[i + 1].row == f.row + 1;
+    if (both)
+      set_exactly(*f.form, f.value, *fixed[i + 1].form, fixed[i + 1].value, v);
+    else
+      set_exactly(*f.form, f.value, v);
+  }
 }
 
 }  // namespace signorini

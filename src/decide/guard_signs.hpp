@@ -17,6 +17,9 @@ namespace signorini {
 struct Known {
   std::size_t zeros = 0;
   bool rises = false;
+
+  /// Zero to the last known derivative: no rounding of it tells more.
+  [[nodiscard]] static Known at_limit() { return {MotionJet::orders, false}; }
 };
 
 /// Of the guards of one contact that is decided together with others.

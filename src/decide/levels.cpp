@@ -282,7 +282,11 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {
-    if (entry.standing == Standing::limit) mode[entry.who.contact].state = State::stick;
+    if (entry.standing == Standing::limit) {
+      mode[entry.who.contact].state = State::stick;
+      KnownGuards& guards = known[entry.who.contact];
+      (entry.who.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();
+    }
     if (entry.standing == Standing::apex) mode[entry.who.contact] = old[entry.who.contact];
   }
   return {};

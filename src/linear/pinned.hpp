@@ -1,8 +1,10 @@
-// pinned.hpp: motions along one degree of freedom that a contact alone prescribes.
+// pinned.hpp: motions of a degree of freedom that a contact alone prescribes.
 //
-//   factor x = value       row g'' = 0 or ut'' = s'', form of a single term
+//   n . x = r,  t . x = q      rows g'' = 0 and ut'' = s'' of one contact, q of velocities and so on likewise
+//   x_i = (a r + b q)/d        forms of a single term each, or both of the same two degrees of freedom
 //
-// Such a degree of freedom is set exactly, not to the rounding of an elimination: no drift.
+// Such degrees of freedom are set exactly, not to the rounding of an elimination: no drift, and what is held
+// still on an incline does not move at all, as on level ground.
 #pragma once
 
 #include <vector>
@@ -12,11 +14,10 @@
 
 namespace signorini {
 
-/// A degree of freedom whose acceleration a row prescribes.
+/// A degree of freedom whose acceleration a contact's rows prescribe: (normal r + tangent q)/divisor.
 struct Pinned {
   std::size_t dof = 0, contact = 0;
-  double factor = 1.0;
-  bool tangent = false;  ///< by the tangent row, else by the normal one
+  double normal = 0.0, tangent = 0.0, divisor = 1.0;
 };
 
 /// rows: one entry a contact.
@@ -24,5 +25,7 @@ struct Pinned {
 
 /// x such that form . x = value to the last digit, where the form has a single term; else x as it is.
 void set_exactly(const Combination& form, double value, Vector& x);
+/// Both n . x = r and t . x = q, where the forms have a single term each or the same two.
+void set_exactly(const Combination& n, double r, const Combination& t, double q, Vector& x);
 
 }  // namespace signorini

@@ -24,14 +24,16 @@ bool vanishes(const Piece& piece) {
 
 }  // namespace
 
-Forcing::Forcing(const Model& model, double t, Side side)
-    : model_(&model), constant_(Vector::Zero(model.size())) {
+Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Piece* p = piece(model.loads[i].history, t, side);
     if (changes(*p))
       varying_.emplace_back(i, p);
     else if (!vanishes(*p))
       model.loads[i].direction.add_to(constant_, p->coefficients[0]);
+    if (changes(*p) || vanishes(*p)) continue;
+    for (const auto& [dof, factor] : model.loads[i].direction.terms)
+      constant_terms_[dof] += std::abs(factor * p->coefficients[0]);
   }
   for (const Contact& contact : model.contacts) {
     pressing_.push_back(piece(contact.normal_force, t, side));
@@ -91,6 +93,15 @@ void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) co
   for (std::size_t i = 0; i < varying_.size(); ++i)
     if (const double f = series.loads[i * series.count + k]; f != 0.0)
       model_->loads[varying_[i].first].direction.add_to(P, f);
+}
+
+void Forcing::add_load_terms(const ForcingSeries& series, std::size_t k, double* P) const {
+  if (k == 0)
+    for (Eigen::Index i = 0; i < constant_terms_.size(); ++i) P[i] += constant_terms_[i];
+  for (std::size_t i = 0; i < varying_.size(); ++i)
+    if (const double f = series.loads[i * series.count + k]; f != 0.0)
+      for (const auto& [dof, factor] : model_->loads[varying_[i].first].direction.terms)
+        P[dof] += std::abs(factor * f);
 }
 
 double Forcing::power(double t, const double* v) const {

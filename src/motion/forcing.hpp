@@ -31,6 +31,8 @@ class Forcing {
   void expand(double t, double scale, std::size_t count, ForcingSeries& out) const;
   /// P += coefficient k of the load vector.
   void add_load(const ForcingSeries& series, std::size_t k, double* P) const;
+  /// The same, magnitudes of its terms: what loads that balance each other leave uncertain.
+  void add_load_terms(const ForcingSeries& series, std::size_t k, double* P) const;
   /// False: no load acts.
   [[nodiscard]] bool loaded() const { return loaded_; }
   /// P(t) . v
@@ -60,10 +62,11 @@ class Forcing {
   [[nodiscard]] bool lifted(std::size_t k) const { return lifted_[k]; }
 
  private:
-  explicit Forcing(const Model& model) : model_(&model), constant_(Vector::Zero(model.size())) {}
+  explicit Forcing(const Model& model)
+      : model_(&model), constant_(Vector::Zero(model.size())), constant_terms_(constant_) {}
 
   const Model* model_;
-  Vector constant_;                                            // the loads that do not change
+  Vector constant_, constant_terms_;  // the loads that do not change; sum of magnitudes
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
   std::vector<bool> lifted_, moves_, presses_, drives_;

@@ -40,11 +40,15 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
   correct(system, rates, v);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
-    if (is_held(c)) {
-      set_exactly(contact.normal, -contact.gap, u);
-      set_exactly(contact.normal, 0.0, v);
+    const bool held = is_held(c), still = sticks(c);
+    const double surface = still ? forcing.surface(c, t, 1) : 0.0;
+    if (held) set_exactly(contact.normal, -contact.gap, u);
+    if (held && still) {
+      set_exactly(contact.normal, 0.0, contact.tangent, surface, v);
+    } else {
+      if (held) set_exactly(contact.normal, 0.0, v);
+      if (still) set_exactly(contact.tangent, surface, v);
     }
-    if (sticks(c)) set_exactly(contact.tangent, forcing.surface(c, t, 1), v);
   }
 }
 

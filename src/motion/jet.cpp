@@ -9,8 +9,8 @@
 namespace signorini {
 namespace {
 
-// How many times the difference of two roundings still counts as noise: the two are one sample each.
-constexpr double noise_factor = rounding::of_many / rounding::eps;
+// How many times the difference that some roundings make counts as noise: it is one sample.
+constexpr double noise_factor = rounding::of_many / rounding::eps / Disturbance::most;
 
 constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
 
@@ -24,19 +24,23 @@ constexpr std::size_t most_plane_terms = 4;  // of a form on the translations of
 /// What data that are known to a rounding leave uncertain of form . x, in roundings. In the plane that is
 /// |form| |x|, whatever the angle between them and the axes; components that the form does not have do not
 /// count. Forms on other coordinates are sums of unlike terms.
-double size_of(const Model& model, const Combination& form, const double* x) {
+template <class Size>
+double size_by(const Model& model, const Combination& form, const Size& x) {
   double terms = 0.0, form_squared = 0.0, x_squared = 0.0;
   for (const auto& [dof, factor] : form.terms) {
     const bool in_plane =
         form.terms.size() <= most_plane_terms && !model.dofs[static_cast<std::size_t>(dof)].rotation;
     if (!in_plane) {
-      terms += std::abs(factor * x[dof]);
+      terms += std::abs(factor * x(dof));
     } else if (factor != 0.0) {
       form_squared += factor * factor;
-      x_squared += x[dof] * x[dof];
+      x_squared += x(dof) * x(dof);
     }
   }
   return terms + std::sqrt(form_squared * x_squared);
+}
+double size_of(const Model& model, const Combination& form, const double* x) {
+  return size_by(model, form, [x](int dof) { return x[dof]; });
 }
 
 /// From a series of scale 1: derivatives are k! times the coefficients.
@@ -78,17 +82,37 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
     jet.u.col(k) *= factorial;
     if (k <= levels_) jet.forces.col(k) *= factorial;
   }
-  const Disturbance disturbance;
+  const Disturbance disturbance{series_};
   taylor_.expand(system, forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
   motions(*jet.system, result);
   return jet;
+}
+
+/// Of the balance of forces at the degrees of freedom of a contact.
+JetMaker::Balance JetMaker::balance_of(const Contact& contact, double factorial, std::size_t k) const {
+  const auto terms = taylor_.terms().col(static_cast<Eigen::Index>(k));
+  const auto size = [&](const Combination& form) {
+    return size_by(model_, form, [&](int dof) { return terms[dof]; });
+  };
+  const auto moved = [&](const Combination& form) {
+    return size_by(model_, form,
+                   [&](int dof) { return terms[dof] * taylor_.mobility()[static_cast<std::size_t>(dof)]; });
+  };
+  const auto squared = [](const Combination& form) {
+    double sum = 0.0;
+    for (const auto& [dof, factor] : form.terms) sum += factor * factor;
+    return sum > 0.0 ? sum : 1.0;
+  };
+  const Combination &n = contact.normal, &t = contact.tangent;
+  return {factorial * moved(n), factorial * moved(t), factorial * size(n) / squared(n),
+          factorial * size(t) / squared(t)};
 }
 
 void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result) const {
   result.resize(model_.contacts.size());
   // One sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
-    return noise_factor * (std::abs(x - y) + rounding::eps * size);
+    return noise_factor * std::abs(x - y) + rounding::of_many * size;
   };
   Derivatives a, b;
   for (std::size_t c = 0; c < result.size(); ++c) {
@@ -120,10 +144,14 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
       terms.at = a.ut_terms[k + 2];
       terms.pressing = std::abs(m.pressing);
       terms.pressing_rate = std::abs(m.pressing_rate);
-      const double N =
-          rows.normal.magnitude(terms) + (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
-      const double T = rows.tangent.magnitude(terms) + (k == 0 ? std::abs(rows.tangent.constant) : 0.0) +
-                       std::abs(m.T) + std::abs(rows.tangent.N) * N;
+      const Balance balance = balance_of(model_.contacts[c], factorial, k);
+      terms.an += balance.an;
+      terms.at += balance.at;
+      const double N = (rows.normal.an != 0.0 ? balance.N : 0.0) + rows.normal.magnitude(terms) +
+                       (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
+      const double T = (rows.tangent.at != 0.0 ? balance.T : 0.0) + rows.tangent.magnitude(terms) +
+                       (k == 0 ? std::abs(rows.tangent.constant) : 0.0) + std::abs(m.T) +
+                       std::abs(rows.tangent.N) * N;
       d.N = noise(a.N[k], b.N[k], N);
       d.T = noise(a.T[k], b.T[k], T);
       d.gap = noise(a.gap[k], b.gap[k], terms.gap);

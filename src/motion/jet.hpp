@@ -37,6 +37,11 @@ class JetMaker {
                          const Vector& v, std::vector<MotionJet>& motions);
 
  private:
+  /// Sums of the magnitudes of the terms that accelerations and forces of a contact are differences of.
+  struct Balance {
+    double an, at, N, T;
+  };
+  [[nodiscard]] Balance balance_of(const Contact& contact, double factorial, std::size_t k) const;
   void motions(const ModeSystem& system, std::vector<MotionJet>& result) const;
 
   const Model& model_;

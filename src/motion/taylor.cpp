@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/rounding.hpp"
 
 namespace signorini {
 
-double Disturbance::sign(std::size_t i) {
-  return ((i * 2654435761u) >> 7) & 1u ? rounding::eps : -rounding::eps;
+double Disturbance::part(std::size_t i) {
+  std::uint64_t mixed = (static_cast<std::uint64_t>(i) + 1) * 0x9e3779b97f4a7c15u;  // splitmix64
+  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
+  mixed ^= mixed >> 31;
+  const double size = 0.5 + 0.5 * rounding::eps * static_cast<double>(mixed >> 12);  // 52 bits
+  return (mixed & 1u ? most : -most) * rounding::eps * size;
 }
 
 Taylor::Taylor(ModeSystems& systems)
@@ -22,6 +28,10 @@ Taylor::Taylor(ModeSystems& systems)
   work_.resize(unknowns.size());
   known_u_.resize(n);
   known_v_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double mass = model_.mass.coeff(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
+    mobility_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
+  }
 }
 
 /// Friction at the beginning of a series is a coefficient of its matrix.
@@ -38,10 +48,11 @@ void Taylor::start_friction(const Series& series) {
 }
 
 double Taylor::pinned_value(const Pinned& p, int order, const Series& series) const {
-  if (!p.tangent) return 0.0;
+  if (p.tangent == 0.0) return 0.0;
   const ForcingSeries& f = series.forcing;
   const double second = static_cast<double>((order + 1) * (order + 2)) / (series.scale * series.scale);
-  return second * f.surface[p.contact * f.count + static_cast<std::size_t>(order) + 2] / p.factor;
+  return second * f.surface[p.contact * f.count + static_cast<std::size_t>(order) + 2] * p.tangent /
+         p.divisor;
 }
 
 /// What rows of contact c know beforehand of forcing and constants at order k: pressing, surface, gap.
@@ -130,42 +141,87 @@ void Taylor::know_motion(int order, const Series& series) {
   }
 }
 
-/// One rounding of the terms of each equation of motion.
-void Taylor::disturb_forces(int order) {
+/// Magnitudes of the terms of the equations of motion at level k, what lower levels have lost to rounding
+/// among them.
+void Taylor::measure_equations(const Forcing& forcing, int order, const Series& series, double* terms) const {
   const std::size_t n = known_u_.size();
-  std::vector<double> magnitude(n, 0.0);
-  for (std::size_t j = 0; j < n; ++j)
+  const double to_velocity = (order + 1) / series.scale;
+  const double to_acceleration = to_velocity * (order + 2) / series.scale;
+  const double *u = sizes_.col(order).data(), *v = sizes_.col(order + 1).data();
+  const double* a = series.u.col(order + 2).data();
+  forcing.add_load_terms(series.forcing, static_cast<std::size_t>(order), terms);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double uj = u[j], vj = to_velocity * v[j], aj = std::abs(to_acceleration * a[j]);
     for (auto p = static_cast<std::size_t>(structure_.column_start[j]);
          p < static_cast<std::size_t>(structure_.column_start[j + 1]); ++p)
-      magnitude[static_cast<std::size_t>(structure_.row[p])] +=
-          std::abs(structure_.c[p] * known_v_[j]) + std::abs(structure_.k[p] * known_u_[j]);
-  for (std::size_t i = 0; i < n; ++i)
-    x_[i] += Disturbance::sign(i + 31 * static_cast<std::size_t>(order)) * (magnitude[i] + std::abs(x_[i]));
+      terms[structure_.row[p]] +=
+          std::abs(structure_.m[p]) * aj + std::abs(structure_.c[p]) * vj + std::abs(structure_.k[p]) * uj;
+  }
 }
 
-/// One rounding of the terms of a contact's rows, which know r and q. kn g is a difference of great numbers:
-/// its rounding is that of its terms.
-void Taylor::disturb_rows(std::size_t c, int order, const Series& series, double r, double q) {
+/// The forces of a contact, in the equations of motion.
+void Taylor::measure_forces(std::size_t c, int order, const Series& series, double* terms) const {
+  const double* forces =
+      series.forces.data() + static_cast<std::size_t>(order) * (x_.size() - known_u_.size());
+  for (const auto& [dof, factor] : model_.contacts[c].normal.terms)
+    terms[dof] += std::abs(factor * forces[normal_slot(c)]);
+  for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
+    terms[dof] += std::abs(factor * forces[tangent_slot(c)]);
+}
+
+/// Its rows. kn g is a difference of great numbers: its rounding is that of its terms. A row that holds an
+/// acceleration leaves of it the rounding of the forces that it is a difference of.
+void Taylor::measure_rows(std::size_t c, int order, const Series& series, double* terms) const {
   const Contact& contact = model_.contacts[c];
   const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
-  double r_terms = std::abs(r), q_terms = std::abs(q);
+  const ForcingSeries& f = series.forcing;
+  const std::size_t n = known_u_.size(), k = static_cast<std::size_t>(order);
+  const double to_velocity = (order + 1) / series.scale;
+  const double to_acceleration = to_velocity * (order + 2) / series.scale;
+  const double *u = sizes_.col(order).data(), *v = sizes_.col(order + 1).data();
+  const double* forces = series.forces.data() + k * (x_.size() - n);
+  const double N = forces[normal_slot(c)], T = forces[tangent_slot(c)];
+  const double *pressing = f.pressing.data() + c * f.count + k, *surface = f.surface.data() + c * f.count + k;
+  double r = std::abs(normal.N * N) + std::abs(normal.pressing * pressing[0]);
+  double q = std::abs(tangent.N * N) + std::abs(tangent.T * T) + std::abs(tangent.ut * surface[0]) +
+             std::abs(tangent.vt * to_velocity * surface[1]) +
+             std::abs(tangent.at * to_acceleration * surface[2]);
   if (order == 0) {
-    r_terms += std::abs(normal.constant) + std::abs(normal.gap * contact.gap);
-    q_terms +=
-        std::abs(tangent.constant) + std::abs(tangent.ut * series.forcing.surface[c * series.forcing.count]);
+    r += std::abs(normal.constant) + std::abs(normal.gap * contact.gap);
+    q += std::abs(tangent.constant);
   }
-  for (const auto& [dof, factor] : contact.normal.terms) {
-    const auto i = static_cast<std::size_t>(dof);
-    r_terms += std::abs(normal.gap * factor * known_u_[i]) + std::abs(normal.vn * factor * known_v_[i]);
+  const auto sum = [&](const Combination& form, double of_u, double of_v, double of_a) {
+    double result = 0.0;
+    for (const auto& [dof, factor] : form.terms)
+      result += std::abs(factor) * (std::abs(of_u) * u[dof] + std::abs(of_v) * to_velocity * v[dof] +
+                                    std::abs(of_a) * mobility_[static_cast<std::size_t>(dof)] * terms[dof]);
+    return result;
+  };
+  r += sum(contact.normal, normal.gap, normal.vn, normal.an);
+  q += sum(contact.tangent, tangent.ut, tangent.vt, tangent.at);
+  terms[system_->unknowns().normal(c)] = r;
+  terms[system_->unknowns().tangent(c)] = q;
+}
+
+/// Some roundings of the terms of each equation: the backward error of its solution.
+void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& disturbance) {
+  const Series& motion = disturbance.motion;
+  if (order == 0) {
+    terms_.setZero(static_cast<Eigen::Index>(x_.size()), motion.levels + 1);
+    sizes_ = motion.u.cwiseAbs();
   }
-  for (const auto& [dof, factor] : contact.tangent.terms) {
-    const auto i = static_cast<std::size_t>(dof);
-    q_terms += std::abs(tangent.ut * factor * known_u_[i]) + std::abs(tangent.vt * factor * known_v_[i]);
-  }
-  const Unknowns& at = system_->unknowns();
-  const std::size_t k = 17 * static_cast<std::size_t>(order);
-  x_[at.normal(c)] += Disturbance::sign(c + k) * r_terms;
-  x_[at.tangent(c)] += Disturbance::sign(c + k + 3) * q_terms;
+  double* terms = terms_.col(order).data();
+  measure_equations(forcing, order, motion, terms);
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_forces(c, order, motion, terms);
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_rows(c, order, motion, terms);
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    x_[i] += parts_[i + x_.size() * static_cast<std::size_t>(order)] * terms[i];
+  // What this level loses to rounding is not exactly what it is for the levels after the next.
+  const double to_acceleration = (order + 1) * (order + 2) / (motion.scale * motion.scale);
+  double* carried = sizes_.col(order + 2).data();
+  for (std::size_t i = 0; i < known_u_.size(); ++i) carried[i] += mobility_[i] * terms[i] / to_acceleration;
+  for (const Pinned& p : system_->factorised().pinned)
+    carried[p.dof] = std::abs(motion.u(static_cast<Eigen::Index>(p.dof), order + 2));
 }
 
 /// The solution of level k into the series.
@@ -198,7 +254,6 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
     for (auto p = static_cast<std::size_t>(structure_.column_start[j]); p < end; ++p)
       x_[static_cast<std::size_t>(structure_.row[p])] -= structure_.c[p] * vj + structure_.k[p] * uj;
   }
-  if (disturbance != nullptr) disturb_forces(order);
   const Unknowns& at = system_->unknowns();
   for (std::size_t c = 0; c < at.contacts; ++c) {
     const Contact& contact = model_.contacts[c];
@@ -211,10 +266,10 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
     if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_.data());
     x_[at.normal(c)] = -r;
     x_[at.tangent(c)] = -q;
-    if (disturbance != nullptr) disturb_rows(c, order, series, r, q);
   }
   for (FrictionSeries& friction : friction_)
     x_[at.tangent(friction.contact())] -= friction.known(order, series);
+  if (disturbance != nullptr) disturb(forcing, order, *disturbance);
 
   system_->solve(x_.data(), work_.data());
   if (disturbance == nullptr)
@@ -242,11 +297,11 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
   out.u.col(0) = u;
   for (Eigen::Index i = 0; i < u.size(); ++i)
     if (system->kinds()[static_cast<std::size_t>(i)] == DofKind::massive) out.u(i, 1) = scale * v[i];
-  if (disturbance != nullptr)
-    for (Eigen::Index i = 0; i < u.size(); ++i) {
-      out.u(i, 0) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 7);
-      out.u(i, 1) *= 1.0 + Disturbance::sign(static_cast<std::size_t>(i) + 13);
-    }
+  if (disturbance != nullptr) {
+    const std::size_t n = known_u_.size(), data = x_.size() * static_cast<std::size_t>(levels + 1);
+    while (parts_.size() < data + 2 * n) parts_.push_back(Disturbance::part(parts_.size()));
+    for (std::size_t i = 0; i < 2 * n; ++i) out.u.data()[i] *= 1.0 + parts_[data + i];
+  }
   start_friction(out);
 }
 

@@ -16,9 +16,14 @@
 
 namespace signorini {
 
-/// One rounding of all data, with signs that repeat from run to run.
+/// Some roundings of all terms of all equations, irregular, the same from run to run: equal parts would leave
+/// sums that cancel as they are, and make a zero of luck look like one of the equations.
 struct Disturbance {
-  static double sign(std::size_t i);
+  const Series& motion;  ///< undisturbed: what the terms are
+
+  static constexpr double most = 8.0;  ///< roundings: so that a result shows them above its own last digit
+  /// +-(1/2 .. 1) most eps
+  static double part(std::size_t i);
 };
 
 /// Expands one series at a time: what it needs besides the mode's system is its own.
@@ -34,9 +39,14 @@ class Taylor {
              int levels, double scale, Series& out, const Disturbance* disturbance = nullptr);
   void extend(const Forcing& forcing, int levels, Series& out);
 
+  /// 1 over the mass of each degree of freedom alone, 0 where it has none.
+  [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }
   /// The system of the last series: that of its mode, with friction at its slip rates.
   [[nodiscard]] const ModeSystemPtr& system() const { return system_; }
   [[nodiscard]] bool massless() const { return massless_; }
+  /// Column k: sum of the magnitudes of the terms of each equation at level k of the last disturbed series.
+  /// n + 2 contacts rows.
+  [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
   void start_friction(const Series& series);
@@ -47,8 +57,10 @@ class Taylor {
   void level_dense(const Forcing& forcing, int k, Series& series);
   void level_any(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
   void know_motion(int k, const Series& series);
-  void disturb_forces(int k);
-  void disturb_rows(std::size_t contact, int k, const Series& series, double normal, double tangent);
+  void measure_equations(const Forcing& forcing, int k, const Series& series, double* terms) const;
+  void measure_forces(std::size_t contact, int k, const Series& series, double* terms) const;
+  void measure_rows(std::size_t contact, int k, const Series& series, double* terms) const;
+  void disturb(const Forcing& forcing, int k, const Disturbance& disturbance);
   void take(int k, Series& series) const;
 
   ModeSystems& systems_;
@@ -57,7 +69,8 @@ class Taylor {
   const bool massless_;
   ModeSystemPtr system_;
   std::vector<FrictionSeries> friction_;  // of contacts whose friction depends on their slip rates
-  std::vector<double> x_, work_, known_u_, known_v_;
+  std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;
+  Eigen::MatrixXd terms_, sizes_;  // of a disturbed series; sizes_: |u_k| and the rounding carried into it
 };
 
 }  // namespace signorini

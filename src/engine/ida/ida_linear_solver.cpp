@@ -44,7 +44,8 @@ void IdaLinearSolver::solve(const double* b, double* x) {
   const Unknowns at{n, rows_.size()};
   for (std::size_t i = 0; i < held_.size(); ++i) {
     const Pinned& p = pinned_[i];
-    held_[i] = rhs_[p.tangent ? at.tangent(p.contact) : at.normal(p.contact)] / (cj_ * p.factor);
+    held_[i] =
+        (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }
   matrix_.solve(rhs_.data());
   for (std::size_t i = 0; i < held_.size(); ++i) rhs_[pinned_[i].dof] = held_[i];

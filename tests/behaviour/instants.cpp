@@ -31,6 +31,32 @@ bool balanced(const Result& result, double tolerance) {
 
 TEST_SUITE_BEGIN("behaviour/instants");
 
+TEST_CASE(
+    "a belt that turns round at once, as fast as before, drags the block off: a jump though speeds are "
+    "equal") {
+  // m = 1, f N = 0.3: from 1 to -1 at 0.3 a second
+  const std::string scene =
+      matrix_scene("t_end = 8.0\noutput_dt = 1.0\ninitial = { u = [0.0], v = [1.0] }",
+                   "mass = [[1.0]]\nstiffness = [[0.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.3\n"
+                   "surface_velocity = { type = \"step\", offset = 1.0, amplitude = -2.0, start = 1.0 }",
+                   "");
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    const Result result = run_text(scene, engine);
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    std::vector<const Event*> changes;
+    for (const Event& event : result.events)
+      if (event.contact == 0 && event.from != event.to) changes.push_back(&event);
+    REQUIRE(changes.size() == 2);
+    CHECK(changes[0]->to == State::slip_plus);
+    CHECK(changes[0]->t == doctest::Approx(1.0).epsilon(1e-12));
+    CHECK(changes[1]->to == State::stick);
+    CHECK(changes[1]->t == doctest::Approx(1.0 + 2.0 / 0.3).epsilon(1e-9));
+    CHECK(result.rows.back().v[0] == doctest::Approx(-1.0));
+  }
+}
+
 TEST_CASE("a load that jumps on a massless slider acts like the limit of a ramp") {
   for (const std::string& engine : locating_engines) {
     const Result jump = run_text(massless("0.3", "{ type = \"rectangle\", start = 0.5, end = 1.5 }"), engine);

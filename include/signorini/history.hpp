@@ -58,7 +58,7 @@ class History {
   [[nodiscard]] History integrated() const;
   /// c0 f + c1 f' + c2 f'', piece by piece: what f does at a jump has no derivative here.
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
-  /// f(t - dt).
+  /// f(t - dt). Where rounding merges starts: std::invalid_argument, here and in repeated().
   [[nodiscard]] History shifted(double dt) const;
   /// f on [from, from + period), again and again, `rounds` times; before and after as f is.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;

@@ -36,8 +36,19 @@ struct Column {
   bool velocity = false;
 };
 
-/// What a load comes from. strain: of a member, by temperature or as built; support: one that moves.
-enum class LoadKind : unsigned char { force, moment, distributed, weight, base, strain, support };
+/// What a load comes from. temperature, initial_strain: of a member; support: where one that moves is;
+/// support_rate: what its velocity and acceleration add, through dampers and mass.
+enum class LoadKind : unsigned char {
+  force,
+  moment,
+  distributed,
+  weight,
+  base,
+  temperature,
+  initial_strain,
+  support,
+  support_rate
+};
 
 struct Load {
   std::string name;  ///< "gravity", "load 1", ...
@@ -76,8 +87,9 @@ struct StaticStart {
   std::vector<double> reactions;          ///< -N a contact, >= 0
   std::vector<std::string> free_motions;  ///< "horizontal motion held at contact 'first'"
   bool frictional = false;
-  std::vector<StageEvent> events;  ///< frictional
-  std::vector<StageEnd> stages;    ///< frictional
+  std::vector<StageEvent> events;   ///< frictional
+  std::vector<StageEnd> stages;     ///< frictional
+  std::vector<std::string> doubts;  ///< frictional: what the data leave open, one sentence each
 };
 
 // What deformed shapes are drawn from; empty in matrix scenes. dofs (ux, uy, rz): -1 where fixed or absent.

@@ -122,6 +122,7 @@ struct StageSpec {
   std::vector<std::string> loads;  ///< as Model::loads calls them, or "temperature", "supports": all of these
   int steps = 1;                   ///< parts of the stage after which its state is told
   SourcePlace place;
+  std::vector<SourcePlace> load_places = {};  ///< one a load
 };
 
 /// Where a run stood: everything that its motion goes on from.
@@ -213,6 +214,7 @@ struct Support {
   /// What the one held degree of freedom follows; absent: it rests.
   std::optional<HistorySpec> motion = {};
   bool motion_is_acceleration = false;  ///< its second derivative, from rest at zero
+  std::string key = "supports";         ///< in messages, "supports.3": a table may hold many nodes
 };
 
 enum class Law { compliant, rigid, slider };
@@ -254,6 +256,14 @@ struct ContactSpec {
   double restitution = 0.0;                ///< rigid: Newton's coefficient, 0 to 1
   std::optional<double> capture_velocity;  ///< rigid: slower rebounds rest; absent: from the tolerances
   SourcePlace place;
+  std::string table = {};  ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
+  bool of_stop = false;
+
+  /// In messages: "contacts.first.gap", "stops.guide.direction".
+  [[nodiscard]] std::string key(const std::string& of) const {
+    return (table.empty() ? "contacts." + name : table) + "." +
+           (of_stop && of == "normal" ? "direction" : of);
+  }
 };
 
 /// Ground acceleration along a direction; displacements are relative to the base. The load is -M r a(t).

@@ -51,9 +51,13 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
   return best;
 }
 
-std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
+std::string did_you_mean(std::string_view given, const std::vector<std::string>& known) {
   const std::string best = nearest(given, known);
-  if (!best.empty()) return fmt::format("; did you mean \"{}\"?", best);
+  return best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best);
+}
+
+std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
+  if (std::string meant = did_you_mean(given, known); !meant.empty()) return meant;
   if (known.empty()) return {};
   constexpr std::size_t most = 12;
   std::string list;

@@ -51,7 +51,9 @@ named under `[[run.stages]]`; without stages all static loads grow together. Eac
 there. Between two changes of state everything goes along lines, so the changes are exact; `run` prints them, and
 summary.json has them (`model.frictional_start`). Contacts with a gap below zero come apart first, in a stage "fit".
 Refused by name: a structure that nothing holds at some part of a stage, one that could only go on by moving, a contact
-that begins to slip where its kinetic friction is below the static one.
+that begins to slip where its kinetic friction is below the static one, contacts at their limits from which a motion runs
+away. Where contacts at their limits leave a motion that nothing resists, many slips go with the same forces: the least of
+them is taken, and a warning names the contacts; another warns of flutter, an oscillation that would grow while they slip.
 
 `initial = { run = "DIR", t = 3.2 }` goes on from a state that the run in DIR kept in its states.csv: displacements and
 velocities of all degrees of freedom, and the shears of contacts. Its t_end and its `frames` are kept. The structure must
@@ -310,7 +312,7 @@ acceleration = { type = "table", times = [0.0, 0.1, 0.2], values = [0.0, 3.0, 0.
 ```
 
 Along several directions at once: tables under `[[base_motion]]`. An acceleration may be given in g, and as a record of
-PEER:
+PEER, whose heading names its unit, G, CM/S/S, M/S/S, MM/S/S or GAL; velocities and displacements are refused:
 
 ```toml
 [[base_motion]]

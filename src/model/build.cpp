@@ -93,13 +93,6 @@ void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& mo
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
 }
 
-/// Moving supports take part in the Rayleigh damping.
-void damp_supports(const Scene& scene, const DofMap& map, const Assembly& assembly, Model& model) {
-  std::erase_if(model.loads, [](const Load& load) { return load.kind == LoadKind::support; });
-  for (Load& load : support_loads(scene, map, assembly, model.alpha, model.beta))
-    model.loads.push_back(std::move(load));
-}
-
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -126,11 +119,11 @@ Model assembled(const Scene& scene, const Factors& unit) {
   const std::vector<bool> closed = closed_at_start(model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   set_damping(scene.damping, assembly.dampers, model);
-  damp_supports(scene, map, assembly, model);
+  add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   check_rigid_contacts(scene, model);
-  model.warnings = doubts(scene, map, model);
+  for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
   if (scene.reduction) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit

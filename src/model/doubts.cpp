@@ -13,6 +13,7 @@
 #include "model/assembly/loads.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/slip_growth.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -43,13 +44,15 @@ class Doubts {
     drag();
     friction();
     shear();
+    growth();
     return std::move(found_);
   }
 
  private:
   void idle_loads() {
     for (const Load& load : model_.loads) {
-      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support)
+      if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
+          load.kind == LoadKind::support_rate)
         continue;
       const auto& terms = load.direction.terms;
       const bool idle =
@@ -166,6 +169,22 @@ class Doubts {
                     "friction, so that nothing carries it and it is gone with the first "
                     "oscillation; give displacements that hold it",
                     names(model_, loose)));
+  }
+
+  void growth() {
+    if (!model_.statics.frictional || model_.statics.stages.empty()) return;
+    const auto found = slip_growth(model_, model_.statics.stages.back().states);
+    if (!found || !(found->rate * scene_.run.t_end > least_drag)) return;
+    const double rate = found->rate / model_.unit.time;
+    if (found->omega == 0.0)
+      throw SceneError(scene_.initial.place, "run.initial",
+                       fmt::format("no slow start: with {} slipping at the limit a motion runs away as "
+                                   "exp({:.4g} t): that is no equilibrium that could be reached",
+                                   names(model_, found->contacts), rate));
+    found_.push_back(fmt::format(
+        "should {} slip on after the slow start, an oscillation of {:.4g} rad/{} would grow as exp({:.4g} t) "
+        "(flutter); damping may stop it",
+        names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
   }
 
   const Scene& scene_;

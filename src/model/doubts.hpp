@@ -7,6 +7,8 @@
 //   drag                                alpha M acts on motions without stiffness: v ~ exp(-alpha t)
 //   friction above 2                    an angle, a percentage?
 //   initial_shear in a static start     which has no friction: nothing carries it
+//   flutter after a frictional start    contacts slip at their limits (slip_growth.hpp); what runs away
+//                                       there is refused
 #pragma once
 
 #include <string>
@@ -17,8 +19,8 @@
 
 namespace signorini {
 
-/// One sentence each. The model: before its reduction and without shear elements, damping and initial state
-/// set.
+/// One sentence each. Errors: SceneError, as above. The model: before its reduction and without shear
+/// elements, damping and initial state set.
 [[nodiscard]] std::vector<std::string> doubts(const Scene& scene, const DofMap& map, const Model& model);
 
 }  // namespace signorini

@@ -12,35 +12,55 @@
 namespace signorini {
 namespace {
 
-bool is_called(const Load& load, const std::string& name) {
-  if (name == "temperature") return load.kind == LoadKind::strain && load.name.starts_with(name);
-  if (name == "initial strain") return load.kind == LoadKind::strain && load.name.starts_with(name);
-  if (name == "supports") return load.kind == LoadKind::support;
-  return load.name == name;
+/// All loads of a kind have one word in stages.
+std::string word_of(LoadKind kind) {
+  switch (kind) {
+    case LoadKind::temperature:
+      return "temperature";
+    case LoadKind::initial_strain:
+      return "initial strain";
+    case LoadKind::support:
+      return "supports";
+    case LoadKind::force:
+    case LoadKind::moment:
+    case LoadKind::distributed:
+    case LoadKind::weight:
+    case LoadKind::base:
+    case LoadKind::support_rate:
+      break;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_name(const StageSpec& spec, std::size_t index, const std::string& key,
+                              const Model& model) {
+  const std::string& name = spec.loads[index];
+  std::vector<std::string> names;
+  for (const Load& load : model.loads)
+    for (const std::string& known : {word_of(load.kind), load.name})
+      if (!known.empty() && std::find(names.begin(), names.end(), known) == names.end())
+        names.push_back(known);
+  throw SceneError(spec.load_places[index], key,
+                   fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
 }
 
 /// Adds the loads of one stage, and counts how often each was taken.
 Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::vector<int>& taken) {
   const std::string key = fmt::format("run.stages.{}.loads", number);
   Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
-  for (const std::string& name : spec.loads) {
+  for (std::size_t j = 0; j < spec.loads.size(); ++j) {
     bool any = false;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
-      if (!is_called(load, name)) continue;
+      if (spec.loads[j] != load.name && spec.loads[j] != word_of(load.kind)) continue;
       any = true;
       if (++taken[i] > 1)
-        throw SceneError(spec.place, key,
-                         fmt::format("\"{}\" stands in two stages, expected one", load.name));
-      // Of a support only where it is counts, not how fast it got there.
-      if (load.kind != LoadKind::support || load.is_static)
-        load.direction.add_to(stage.load, load.history.value(0.0));
+        throw SceneError(
+            spec.load_places[j], key,
+            fmt::format("found \"{}\", which was loaded before, expected each load once", load.name));
+      load.direction.add_to(stage.load, load.history.value(0.0));
     }
-    if (any) continue;
-    std::vector<std::string> names{"temperature", "supports"};
-    for (const Load& load : model.loads) names.push_back(load.name);
-    throw SceneError(spec.place, key,
-                     fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
+    if (!any) refuse_name(spec, j, key, model);
   }
   return stage;
 }
@@ -59,8 +79,10 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     if (load.is_static && taken[i] == 0 && load.history.value(0.0) != 0.0)
-      throw SceneError(scene.initial.place, "run.stages",
-                       fmt::format("\"{}\" stands in no stage, and acts from the start", load.name));
+      throw SceneError(
+          scene.initial.stages.front().place, "run.stages",
+          fmt::format("\"{}\" stands in no stage, and acts from the start: expected it in the loads of one",
+                      load.name));
   }
   return stages;
 }
@@ -70,7 +92,7 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model) {
 void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].initial_shear != 0.0)
-      throw SceneError(scene.contacts[k].place, "contacts." + model.contacts[k].name + ".initial_shear",
+      throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
                        "has no meaning beside initial = \"frictional\", which finds it");
   FrictionalEquilibrium found = frictional_equilibrium(model.stiffness, model.contacts,
                                                        stages_of(scene, model), map, scene.initial.place);
@@ -78,6 +100,7 @@ void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
   model.statics = std::move(found.start);
+  model.warnings = model.statics.doubts;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;

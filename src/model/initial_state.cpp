@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace signorini {
 namespace {
@@ -19,22 +20,47 @@ Vector given_vector(const std::vector<double>& values, int n, const InitialSpec&
   return Eigen::Map<const Vector>(values.data(), n);
 }
 
+[[noreturn]] void refuse_saved(const InitialSpec& spec, const std::string& why) {
+  throw SceneError(spec.place, "run.initial.run", why + ": expected a run of the same structure");
+}
+
+/// Both have the contacts with friction.
+void check_saved_contacts(const Scene& scene) {
+  std::unordered_set<std::string> contacts, saved;
+  for (const auto& [name, T] : scene.initial.saved->shears) saved.insert(name);
+  for (const ContactSpec& contact : scene.contacts) {
+    contacts.insert(contact.name);
+    if (contact.friction.any() && !saved.contains(contact.name))
+      refuse_saved(scene.initial, fmt::format("the saved state has no shear of contact '{}'", contact.name));
+  }
+  for (const auto& [name, T] : scene.initial.saved->shears)
+    if (!contacts.contains(name))
+      refuse_saved(scene.initial, fmt::format("the saved state has a contact '{}' and the scene none", name));
+}
+
 /// Of a run: the degrees of freedom of the same names.
-InitialState saved_state(const InitialSpec& spec, const DofMap& map) {
+InitialState saved_state(const Scene& scene, const DofMap& map) {
+  const InitialSpec& spec = scene.initial;
   InitialState state{Vector::Zero(map.size()), Vector::Zero(map.size())};
   std::unordered_map<std::string, double> values;
   for (const auto& [name, value] : spec.saved->motions) values.emplace(name, value);
   const auto value_of = [&](const std::string& name) {
     const auto found = values.find(name);
-    if (found == values.end())
-      throw SceneError(spec.place, "run.initial.run",
-                       fmt::format("the saved state has no {}: expected a run of the same structure", name));
-    return found->second;
+    if (found == values.end()) refuse_saved(spec, fmt::format("the saved state has no {}", name));
+    const double value = found->second;
+    values.erase(found);
+    return value;
   };
+  check_saved_contacts(scene);
   for (int i = 0; i < map.size(); ++i) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
+  for (const ContactSpec& contact : scene.contacts)  // sliding points, which the shears stand for
+    for (const char* of : {".slip", ".slip_rate"}) values.erase(contact.name + of);
+  for (const auto& [name, value] : spec.saved->motions)
+    if (values.contains(name))
+      refuse_saved(spec, fmt::format("the saved state has {} and the scene not", name));
   return state;
 }
 
@@ -43,7 +69,7 @@ InitialState saved_state(const InitialSpec& spec, const DofMap& map) {
 InitialState given_state(const Scene& scene, const DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
-  if (spec.saved) return saved_state(spec, map);
+  if (spec.saved) return saved_state(scene, map);
   if (map.matrices())
     return {given_vector(spec.u, n, spec, "run.initial.u"), given_vector(spec.v, n, spec, "run.initial.v")};
   InitialState state{Vector::Zero(n), Vector::Zero(n)};

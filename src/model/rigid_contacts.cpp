@@ -20,7 +20,7 @@ constexpr double dependent = 1e-12;       // what is left of a unit normal when 
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t k, const std::string& key, const std::string& why) {
   const ContactSpec& spec = scene.contacts[k];
-  throw SceneError(spec.place, "contacts." + spec.name + key, why);
+  throw SceneError(spec.place, spec.key(key), why);
 }
 
 void check_mass(const Scene& scene, const Model& model, std::size_t k) {
@@ -30,7 +30,7 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
         refuse(
-            scene, k, ".law",
+            scene, k, "law",
             fmt::format("a rigid contact needs mass where it acts, and {} has none; give it a mass, or the "
                         "contact law = \"compliant\"",
                         d.displacement));
@@ -50,7 +50,7 @@ void close_gap(const Scene& scene, Model& model, std::size_t k) {
       model.u0[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
   } else if (gap < 0.0) {
     refuse(
-        scene, k, ".gap",
+        scene, k, "gap",
         fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
                     "penetrated",
                     gap, model.units.length));
@@ -80,7 +80,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
           if (std::abs(part) > takes_part) names.push_back(other.name);
         }
         if (std::abs(gap) <= closes_together * size)
-          refuse(scene, k, ".law",
+          refuse(scene, k, "law",
                  fmt::format("it closes exactly with {}, so nobody can say which of the rigid contacts "
                              "carries the force; leave it out, or give them law = \"compliant\"",
                              listed(names)));
@@ -107,7 +107,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
       for (const auto& term : contact.tangent.terms)
         if (const Dof& d = model.dofs[static_cast<std::size_t>(term.first)]; d.massless)
           refuse(
-              scene, k, ".friction",
+              scene, k, "friction",
               fmt::format("friction that falls with the slip rate needs mass where it acts, and {} has none",
                           d.displacement));
     if (!contact.takes_impulses()) continue;

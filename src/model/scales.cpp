@@ -100,8 +100,10 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
         if (const double arm = diagonal_of(map); arm > 0.0)
           force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
         break;
-      case LoadKind::strain:
+      case LoadKind::temperature:
+      case LoadKind::initial_strain:
       case LoadKind::support:
+      case LoadKind::support_rate:
         held = std::max(held, greatest_translation(direction, map) * most);
         break;
     }

@@ -32,7 +32,7 @@ void add_shear_elements(const Scene& scene, Model& model) {
     // Below this the element would follow at once, within the rounding of everything else.
     if (ct / kt * model.omega_max < fastest)
       throw SceneError(
-          scene.contacts[k].place, "contacts." + contact.name + ".tangential_damping",
+          scene.contacts[k].place, scene.contacts[k].key("tangential_damping"),
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "
                       "below the shortest period of the structure, {:.3g}; give 0.0 or more",
                       ct / kt, 2.0 * std::numbers::pi / model.omega_max));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/csv_row.hpp"
 #include "base/input_file.hpp"
 #include "base/number.hpp"
 #include "signorini/error.hpp"
@@ -13,7 +14,7 @@ CsvReader::CsvReader(const std::filesystem::path& path) : path_(path) {
     throw FileError(path.string(), why + ", expected a file");
   file_.open(path, std::ios::binary);
   if (!file_) throw FileError(path.string(), "cannot be read");
-  if (!read_row(header_)) throw FileError(path.string(), "is empty; expected a header row");
+  if (!read_csv_row(file_, header_)) throw FileError(path.string(), "is empty; expected a header row");
 }
 
 std::size_t CsvReader::column(const std::string& name) const {
@@ -23,7 +24,7 @@ std::size_t CsvReader::column(const std::string& name) const {
 }
 
 bool CsvReader::next() {
-  if (!read_row(cells_)) return false;
+  if (!read_csv_row(file_, cells_)) return false;
   if (cells_.size() != header_.size()) throw FileError(path_.string(), "has a row of another length");
   return true;
 }
@@ -33,37 +34,6 @@ double CsvReader::number(std::size_t index) const {
   const std::optional<double> value = parse_number(text);
   if (!value) throw FileError(path_.string(), "has '" + text + "' where a number is expected");
   return *value;
-}
-
-bool CsvReader::read_row(std::vector<std::string>& cells) {
-  cells.clear();
-  std::string cell;
-  bool quoted = false;
-  while (std::getline(file_, line_)) {
-    if (file_.eof()) return false;
-    for (std::size_t i = 0; i < line_.size(); ++i) {
-      const char c = line_[i];
-      if (c == '"') {
-        const bool doubled = quoted && i + 1 < line_.size() && line_[i + 1] == '"';
-        if (doubled) {
-          cell += line_[++i];
-        } else {
-          quoted = !quoted;
-        }
-      } else if (c == ',' && !quoted) {
-        cells.push_back(std::move(cell));
-        cell.clear();
-      } else {
-        cell += c;
-      }
-    }
-    if (!quoted) {
-      cells.push_back(std::move(cell));
-      return true;
-    }
-    cell += '\n';
-  }
-  return false;
 }
 
 }  // namespace signorini

@@ -32,12 +32,9 @@ class CsvReader {
   [[nodiscard]] double number(std::size_t index) const;
 
  private:
-  bool read_row(std::vector<std::string>& cells);
-
   std::filesystem::path path_;
   std::ifstream file_;
   std::vector<std::string> header_, cells_;
-  std::string line_;
 };
 
 }  // namespace signorini

@@ -2,13 +2,15 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace signorini {
 namespace {
 
 constexpr double much_energy = 1e-3;   // of what is exchanged, that the balance may miss without a word
-constexpr double least_energy = 1e-9;  // of the scene's scales: at rest nothing is exchanged but rounding
+constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is stored: at rest nothing is
+                                       // exchanged but rounding
 
 }  // namespace
 
@@ -33,9 +35,8 @@ std::string impact_gain(double t, double gain) {
 
 std::optional<std::string> energy_lost(const Audit& audit, const Method& method) {
   const double off = audit.energy.value;
-  if (!(off > much_energy * audit.energy_scale &&
-        off > least_energy * audit.force_scale * audit.length_scale))
-    return std::nullopt;
+  const double scale = std::max(audit.force_scale * audit.length_scale, audit.initial.stored());
+  if (!(off > much_energy * audit.energy_scale && off > least_energy * scale)) return std::nullopt;
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
   return fmt::format(
       "the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use {}, or "

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <sstream>
 
 #include "base/excerpt.hpp"
@@ -36,10 +37,36 @@ bool is_binary(const std::string& line) {
   return false;
 }
 
+std::string upper(const std::string& line) {
+  std::string result;
+  for (const char c : line) result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
 bool says(const std::string& line, const std::string& word) {
-  std::string upper;
-  for (const char c : line) upper += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return upper.find(word) != std::string::npos;
+  return upper(line).find(word) != std::string::npos;
+}
+
+/// "... IN UNITS OF CM/SEC**2" -> "CM/S/S"; empty where the line names no unit.
+std::string unit_in(const std::string& line) {
+  const std::string mark = "UNITS OF", text = upper(line);
+  const std::size_t at = text.find(mark);
+  if (at == std::string::npos) return {};
+  std::string unit;
+  for (const char c : text.substr(at + mark.size()))
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '/') unit += c;
+  if (const std::size_t sec = unit.find("SEC"); sec != std::string::npos)
+    for (std::size_t i = sec; i != std::string::npos; i = unit.find("SEC")) unit.replace(i, 3, "S");
+  if (unit.ends_with("/S2")) unit.replace(unit.size() - 3, 3, "/S/S");
+  return unit.empty() ? mark : unit;
+}
+
+/// m/s^2; nothing for what is no acceleration.
+std::optional<double> acceleration_unit(const std::string& unit) {
+  static const std::map<std::string, double> known{
+      {"G", standard_gravity}, {"CM/S/S", 0.01}, {"GAL", 0.01}, {"MM/S/S", 0.001}, {"M/S/S", 1.0}};
+  const auto found = known.find(unit);
+  return found == known.end() ? std::nullopt : std::optional(found->second);
 }
 
 /// Line after line of one file of numbers.
@@ -101,7 +128,12 @@ class TableReader {
   void read_peer_heading() {
     for (int line = 1; line <= 4; ++line) {
       if (!next()) fail("the file ends, expected the four lines of a PEER file's heading");
-      table_.in_g = table_.in_g || (line < 4 && says(line_, "UNITS OF G"));
+      if (line < 4) read_unit();
+      if (line == 3 && !table_.unit && !layout_.unit_given)
+        fail(
+            fmt::format("found \"{}\", expected the unit in the first three lines of a PEER file, \"IN UNITS "
+                        "OF G\"",
+                        excerpt(line_)));
     }
     std::vector<double> numbers;
     for (char& c : line_)
@@ -115,6 +147,16 @@ class TableReader {
     points_ = static_cast<std::size_t>(numbers[0]);
     layout_.time_step = numbers[1];
     heading_allowed_ = false;
+  }
+
+  void read_unit() {
+    const std::string unit = unit_in(line_);
+    if (unit.empty()) return;
+    table_.unit = acceleration_unit(unit);
+    table_.in_g = unit == "G";
+    if (!table_.unit)
+      fail(fmt::format("found \"{}\", expected an acceleration in units of G, CM/S/S or M/S/S",
+                       excerpt(line_)));
   }
 
   [[nodiscard]] double time_of_next() const {
@@ -173,17 +215,19 @@ bool read_line(std::istream& in, std::string& line) {
   return in || !line.empty();
 }
 
+void refuse_file(const Table& table, std::string_view key, const fs::path& path, const std::string& why) {
+  const SourcePlace place = table.place(key);
+  const std::string where =
+      place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
+  throw FileError(where, fmt::format("{}: {}: {}", table.path(key), path.string(), why));
+}
+
 std::ifstream open_data_file(const Table& table, std::string_view key, const fs::path& path) {
-  const auto refuse_file = [&](const std::string& why) {
-    const SourcePlace place = table.place(key);
-    const std::string where =
-        place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column) : place.file;
-    throw FileError(where, fmt::format("{}: {}: {}", table.path(key), path.string(), why));
-  };
-  if (const std::string why = why_no_input_file(path); !why.empty()) refuse_file(why + ", expected a file");
+  if (const std::string why = why_no_input_file(path); !why.empty())
+    refuse_file(table, key, path, why + ", expected a file");
   errno = 0;
   std::ifstream in(path);
-  if (!in) refuse_file(std::strerror(errno ? errno : EIO));
+  if (!in) refuse_file(table, key, path, std::strerror(errno ? errno : EIO));
   return in;
 }
 

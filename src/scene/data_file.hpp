@@ -7,13 +7,15 @@
 // Times ascend; a time that stands twice is a jump. With a column the file may have more than two. With a
 // time step all numbers are values, however many stand on a line. A file of PEER (.AT2) says its own step:
 //
-//   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, the third with its unit
+//   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, one of them with the unit:
+//   ... ACCELERATION TIME SERIES IN UNITS OF G  G, CM/S/S, M/S/S, MM/S/S, GAL, with blanks, SEC, S**2, S^2
 //   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT
 //   .1E-04  .2E-04 ...                          NPTS values
 #pragma once
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,13 +29,19 @@ inline constexpr std::size_t longest_line = 200;
 /// The next line, at most `longest_line` + 1 bytes of it: a file without line breaks must not fill memory.
 bool read_line(std::istream& in, std::string& line);
 
+/// A FileError with the place of the key.
+[[noreturn]] void refuse_file(const Table& table, std::string_view key, const std::filesystem::path& path,
+                              const std::string& why);
 /// Opens the file that `key` names. Errors: FileError with the place of the key.
 [[nodiscard]] std::ifstream open_data_file(const Table& table, std::string_view key,
                                            const std::filesystem::path& path);
 
+inline constexpr double standard_gravity = 9.80665;  // m/s^2
+
 struct TimeTable {
   std::vector<double> times, values;
   bool in_g = false;  ///< the file says that its values are multiples of the acceleration of gravity
+  std::optional<double> unit = {};  ///< else the file says that its values are multiples of so many m/s^2
 };
 
 /// What the file holds; 0: as it says itself.
@@ -41,6 +49,7 @@ struct TableLayout {
   int column = 0;          ///< of the values, from 2 on; 0: the second of two
   double time_step = 0.0;  ///< > 0: values only
   bool peer = false;
+  bool unit_given = false;  ///< in the scene, so that a PEER file need not say it
 };
 
 /// Errors: SceneError at the line of the file; `key` stands in front of the message.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 namespace signorini {
 namespace {
@@ -129,7 +130,7 @@ History shape(const HistorySpec& spec, const std::string& key) {
 
 }  // namespace
 
-History make_history(const HistorySpec& spec, const std::string& key) {
+History make_history(const HistorySpec& spec, const std::string& key) try {
   History f = shape(spec, key);
   if (spec.period > 0.0) {
     const double start = spec.type == HistoryType::table ? spec.times.front() : spec.start;
@@ -137,6 +138,10 @@ History make_history(const HistorySpec& spec, const std::string& key) {
   }
   if (spec.shift != 0.0) f = f.shifted(spec.shift);
   return f.scaled(spec.amplitude, spec.offset);
+} catch (const std::invalid_argument&) {  // of History: starts that rounding has merged
+  throw SceneError(spec.place, key,
+                   "found times that are one to a double, or beyond all doubles, where the history starts, "
+                   "ends, is shifted or begins anew; expected times that can be told apart");
 }
 
 }  // namespace signorini

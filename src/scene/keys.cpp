@@ -194,12 +194,12 @@ constexpr Key table_of_keys[] = {
     {"history", "times", numbers, "time", "", "", "table: times, ascending; a repeated time is a jump."},
     {"history", "values", numbers, "", "", "", "table: one value a time."},
     {"history", "interpolation", choice, "", "\"linear\"", "linear steffen", "table: straight lines, or smooth without overshoot."},
-    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2)."},
+    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2), whose heading says its unit: G, CM/S/S, M/S/S."},
     {"history", "column", count, "", "", "", "file: column of the values, from 2 on, where there are more than two; the first has the times."},
     {"history", "time_step", positive, "time", "", "", "file: it has values only, any number a line, at this distance in time; the first at 0."},
     {"history", "unit", choice, "", "", "g", "Values of an acceleration are multiples of g = 9.80665 m/s^2; a PEER file says so itself."},
-    {"history", "hold", flag, "", "false", "", "table: the last value holds on, instead of zero."},
-    {"history", "period", positive, "time", "", "", "The shape from its start (a table from its first time) begins anew every so long."},
+    {"history", "hold", flag, "", "false", "", "table: the last value holds on, instead of zero; with a period until the shape begins anew."},
+    {"history", "period", positive, "time", "", "", "The shape from its start (a table from its first time) begins anew every so long; at least as long as the shape lasts."},
     {"history", "shift", number, "time", "0.0", "", "All of the history happens so much later; a number < 0 earlier."},
 };
 // clang-format on

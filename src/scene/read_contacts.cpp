@@ -155,6 +155,8 @@ void read_slider(Table& table, ContactSpec& contact, const Space& space, const S
 ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, const std::string& law) {
   ContactSpec contact;
   contact.place = table.place();
+  contact.table = table.path();
+  contact.of_stop = table.is("stops[]");
   contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
   contact.friction = read_friction(table);
   contact.normal_force = constant_history(0.0);

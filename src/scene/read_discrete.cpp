@@ -108,6 +108,7 @@ void read_supports(Table& top, Scene& scene, RecordedScene& record) {
   for (Table& table : tables_of(top, "supports")) {
     Support support;
     support.place = table.place();
+    support.key = table.path();
     const std::vector<std::string> nodes = read_one_or_more_nodes(table, space);
     table.require("fix", "");
     const std::vector<std::string> held = table.texts("fix");

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 
@@ -65,6 +66,16 @@ void read_harmonic(Table& table, HistorySpec& spec) {
   spec.phase = table.number("phase");
 }
 
+/// One m/s^2 in the scene's units.
+double metric_acceleration(const Units& units) {
+  const double metre = units.length == "mm" ? 1000.0 : units.length == "cm" ? 100.0 : 1.0;
+  const double second = units.time == "ms" ? 1000.0 : 1.0;
+  return metre / (second * second);
+}
+
+/// A load's history has its factor outside; an acceleration may be given in g.
+enum class Role { load, alone, acceleration };
+
 /// Where the values stand in the file. Recorded by the caller, where the file is.
 TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   TableLayout layout;
@@ -89,18 +100,26 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   return layout;
 }
 
-/// True: the file says that its values are in g.
-bool read_table_file(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+/// What the file holds, its values in the scene's units. True: they are still in g.
+bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
   for (const char* other : {"times", "values"}) {
     if (table.has(other)) table.fail(other, "stands beside file, expected one of the two");
   }
   const toml::node* node = table.raw("file");
   if (!node->is_string()) table.wrong("file", "the name of a file");
-  const std::filesystem::path path = directory / node->as_string()->get();
+  const std::filesystem::path path = directory_of(scene) / node->as_string()->get();
   std::ifstream in = open_data_file(table, "file", path);
-  const TableLayout layout = read_layout(table, path);
+  TableLayout layout = read_layout(table, path);
+  layout.unit_given = table.has("unit");
   TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
+  if (rows.unit && role != Role::acceleration)
+    table.fail("file", "found a file of accelerations, expected one of values in the scene's units");
+  if (rows.unit && !rows.in_g) {
+    if (table.has("unit"))
+      table.fail("unit", "found \"g\", expected none: the file says that its values are in another unit");
+    for (double& value : rows.values) value *= *rows.unit * metric_acceleration(scene.units);
+  }
   spec.times = std::move(rows.times);
   spec.values = std::move(rows.values);
   if (spec.times.size() > most_inline_rows) {
@@ -115,10 +134,10 @@ bool read_table_file(Table& table, HistorySpec& spec, const std::filesystem::pat
 }
 
 /// True: a file says that its values are in g.
-bool read_table(Table& table, HistorySpec& spec, const std::filesystem::path& directory) {
+bool read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   spec.steffen = table.choice("interpolation") == "steffen";
   if (table.has("hold")) spec.hold = table.flag("hold");
-  if (table.has("file")) return read_table_file(table, spec, directory);
+  if (table.has("file")) return read_table_file(table, spec, role, scene);
   table.require("times", " (table; or file)");
   table.require("values", " (table)");
   spec.times = *table.numbers("times");
@@ -149,8 +168,13 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   if (!period) return;
   const bool tabulated = spec.type == HistoryType::table;
   if (!tabulated && !spec.start_given) table.fail("period", "needs a start, from which it counts");
+  const double start = tabulated ? spec.times.front() : spec.start;
+  const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
+  if (*period < length * (1.0 - rounding::of_few))
+    table.fail("period", fmt::format("found the number {}, expected at least {}, how long the shape lasts",
+                                     shortest(*period), shortest(length)));
   constexpr double most_pieces = 1e5;
-  const double first = (tabulated ? spec.times.front() : spec.start) + spec.shift;
+  const double first = start + spec.shift;
   const double rounds = std::max(1.0, std::ceil((t_end - first) / *period));
   const double each = tabulated ? static_cast<double>(spec.times.size()) : 3.0;
   if (!(rounds * each <= most_pieces))
@@ -160,16 +184,6 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   spec.rounds = static_cast<int>(rounds);
 }
 
-/// 9.80665 m/s^2 in the scene's units.
-double standard_gravity(const Units& units) {
-  const double metre = units.length == "mm" ? 1000.0 : units.length == "cm" ? 100.0 : 1.0;
-  const double second = units.time == "ms" ? 1000.0 : 1.0;
-  return 9.80665 * metre / (second * second);
-}
-
-/// A load's history has its factor outside; an acceleration may be given in g.
-enum class Role { load, alone, acceleration };
-
 void read_unit(Table& table, HistorySpec& spec, bool in_g, Role role, const Units& units) {
   if (table.has("unit")) {
     if (role != Role::acceleration)
@@ -177,14 +191,12 @@ void read_unit(Table& table, HistorySpec& spec, bool in_g, Role role, const Unit
     static_cast<void>(table.choice("unit"));
   } else if (!in_g) {
     return;
-  } else if (role != Role::acceleration) {
-    table.fail("file",
-               "found a file of accelerations in units of g, expected one of values in the scene's units");
   } else {
     table.record("unit", toml_string("g"));
   }
-  spec.offset *= standard_gravity(units);
-  spec.amplitude *= standard_gravity(units);
+  const double g = standard_gravity * metric_acceleration(units);
+  spec.offset *= g;
+  spec.amplitude *= g;
 }
 
 HistorySpec read_history(Table& parent, std::string_view key, Role role, const Scene& scene) {
@@ -209,7 +221,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
   }
   read_span(table, spec);
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
-  const bool in_g = spec.type == HistoryType::table && read_table(table, spec, directory_of(scene));
+  const bool in_g = spec.type == HistoryType::table && read_table(table, spec, role, scene);
   if (spec.type == HistoryType::polynomial) {
     table.require("coefficients", " (polynomial)");
     spec.coefficients = *table.numbers("coefficients");

@@ -1,7 +1,9 @@
 // run.initial: "static", or the state at t = 0.
 #include <fmt/core.h>
 
+#include "base/listed.hpp"
 #include "base/number.hpp"
+#include "base/suggest.hpp"
 #include "scene/data_file.hpp"
 #include "scene/readers.hpp"
 #include "scene/saved_state.hpp"
@@ -62,6 +64,8 @@ void read_stages(Table& run, InitialSpec& initial) {
                  fmt::format("found \"{}\" twice, expected each stage to have its own name", stage.name));
     table.require("loads", "");
     stage.loads = table.texts("loads");
+    for (const toml::node& load : *table.raw("loads")->as_array())
+      stage.load_places.push_back(place_of(load));
     stage.steps = table.integer("steps");
     constexpr int most_steps = 10'000;
     if (stage.steps > most_steps) table.wrong("steps", fmt::format("an integer from 1 to {}", most_steps));
@@ -74,20 +78,34 @@ void read_stages(Table& run, InitialSpec& initial) {
 
 void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   Table table = run.child("initial");
-  const std::filesystem::path path = directory_of(scene) / table.text("run") / "states.csv";
+  const std::string name = table.text("run");
+  const std::filesystem::path directory = directory_of(scene) / name, path = directory / "states.csv";
+  if (name.empty()) table.wrong("run", "the directory of a run");
+  if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
+    refuse_file(table, "run", directory, "is no directory, expected that of a run");
   std::ifstream in = open_data_file(table, "run", path);
   const std::optional<double> t = table.optional_number("t");
   table.finish("has no meaning beside run");
-  initial.saved = read_saved_state(in, path.string(), table.path("t"), t);
+  SavedStates found = read_saved_states(in, path.string(), table.path("run"), t);
+  if (!found.wanted && !t) table.fail("run", fmt::format("found no state in {}", path.string()));
+  if (!found.wanted)
+    table.fail("t", fmt::format("found the number {}, expected one of the times in {}: {}", shortest(*t),
+                                path.string(), found.times.empty() ? "none" : listed_plainly(found.times)));
+  initial.saved = std::move(*found.wanted);
   Record record;
-  record.set("run", toml_string(std::filesystem::absolute(path.parent_path()).lexically_normal().string()));
+  record.set("run", toml_string(std::filesystem::absolute(directory).lexically_normal().string()));
   if (t) record.set("t", toml_number(*t));
   run.record("initial", record.inline_table());
 }
 
-bool is_of_run(const toml::node* node) {
+/// `run` and `t` are keys unless a node is called so, whose state is a table.
+bool is_of_run(Table& run, const toml::node* node) {
   const toml::table* table = node ? node->as_table() : nullptr;
-  return table && table->get("run") && table->get("run")->is_string();
+  if (!table) return false;
+  if (const toml::node* directory = table->get("run"); directory && !directory->is_table()) return true;
+  if (const toml::node* t = table->get("t"); t && !t->is_table())
+    refuse(place_of(*t), run.path("initial") + ".t", "needs run beside it, the directory of a run");
+  return false;
 }
 
 }  // namespace
@@ -96,20 +114,18 @@ void read_initial(Table& run, Scene& scene) {
   InitialSpec& initial = scene.initial;
   initial.place = run.place("initial");
   const toml::node* node = run.raw("initial");
-  if (node && node->value<std::string>() == "static") {
-    initial.is_static = true;
-    run.record("initial", "\"static\"");
-    return;
-  }
-  if (node && node->value<std::string>() == "frictional") {
-    initial.is_frictional = true;
-    run.record("initial", "\"frictional\"");
-    read_stages(run, initial);
-    return;
+  if (node && !node->is_table()) {
+    const std::string kind = node->value<std::string>().value_or("");
+    initial.is_static = kind == "static";
+    initial.is_frictional = kind == "frictional";
+    if (!initial.is_static && !initial.is_frictional)
+      run.wrong("initial",
+                describe_type(*find_key("run", "initial")) + did_you_mean(kind, {"static", "frictional"}));
+    run.record("initial", toml_string(kind));
   }
   read_stages(run, initial);
-  if (node && !node->is_table()) run.wrong("initial", describe_type(*find_key("run", "initial")));
-  if (is_of_run(node)) {
+  if (node && !node->is_table()) return;
+  if (is_of_run(run, node)) {
     read_from_run(run, initial, scene);
     return;
   }

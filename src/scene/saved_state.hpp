@@ -7,13 +7,19 @@
 #include <istream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "signorini/scene.hpp"
 
 namespace signorini {
 
+struct SavedStates {
+  std::optional<SavedState> wanted;
+  std::vector<std::string> times;  ///< of all of them, as the file has them
+};
+
 /// The state at t, or the last one. Errors: SceneError at the line of the file; `key` stands in front.
-[[nodiscard]] SavedState read_saved_state(std::istream& in, const std::string& file, const std::string& key,
-                                          std::optional<double> t);
+[[nodiscard]] SavedStates read_saved_states(std::istream& in, const std::string& file, const std::string& key,
+                                            std::optional<double> t);
 
 }  // namespace signorini

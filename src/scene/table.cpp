@@ -194,8 +194,7 @@ std::string Table::choice(std::string_view name) {
   }
 
   if (std::find(choices.begin(), choices.end(), result) == choices.end()) {
-    const std::string best = nearest(result, choices);
-    wrong(name, describe_type(key(name)) + (best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best)));
+    wrong(name, describe_type(key(name)) + did_you_mean(result, choices));
   }
   return result;
 }

@@ -38,6 +38,20 @@ TEST_SUITE("behaviour/differential") {
     CHECK(events > 300);
   }
 
+  TEST_CASE("heat, moments, supports that move, stops and stages: engines agree as far as they promise") {
+    int agree = 0, events = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const Judgement j = judged(parse_scene(draw_loaded_scene(seed), "drawn.toml"));
+      CAPTURE(seed);
+      CAPTURE(j.what);
+      CHECK(j.verdict != Verdict::disagree);
+      agree += j.verdict == Verdict::agree ? 1 : 0;
+      events += static_cast<int>(j.events);
+    }
+    CHECK(agree >= 5);
+    CHECK(events > 100);
+  }
+
   TEST_CASE("coupled rigid contacts: each decision is the only motion that goes on") {
     long confirmed = 0, instants = 0, stopped = 0;
     for (std::uint64_t seed = 101; seed <= 500; ++seed) {

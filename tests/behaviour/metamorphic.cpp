@@ -87,6 +87,15 @@ TEST_SUITE("behaviour/metamorphic") {
     CHECK(sums.events > 1000);
   }
 
+  TEST_CASE("heat, moments, supports that move, stops and stages, written in other ways") {
+    Sums sums;
+    for (const std::uint64_t seed : {2, 3, 8})
+      check_ways(parse_scene(draw_loaded_scene(seed), "drawn.toml"), seed, Engine::exact, sums);
+    check_ways(parse_scene(draw_loaded_scene(10), "drawn.toml"), 10, Engine::ida, sums);
+    CHECK(sums.scenes == 4);
+    CHECK(sums.events > 2000);
+  }
+
   TEST_CASE("the judge sees what is not the same") {
     const Scene scene = model("oscillator");
     const Metamorphic judge(scene, {});

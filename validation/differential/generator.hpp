@@ -17,5 +17,8 @@
 namespace signorini::differential {
 
 [[nodiscard]] std::string draw_scene(std::uint64_t seed);
+/// A frame with the loads, motions and parts that the others have not: heat, moments, distributed loads,
+/// supports that move, hinges, stops, stages of a frictional start.
+[[nodiscard]] std::string draw_loaded_scene(std::uint64_t seed);
 
 }  // namespace signorini::differential

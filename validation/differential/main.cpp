@@ -6,6 +6,7 @@
 //   signorini_differential --transformed exact --from 1 --count 1000      (metamorphic.hpp)
 //   signorini_differential --transformed ida --angles 360 --scales 100 --scene models/rigid-frame.toml
 //   signorini_differential --coupled --from 1 --count 10000               (coupled.hpp)
+//   signorini_differential --loaded --transformed exact                   (draw_loaded.cpp)
 //   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
@@ -36,7 +37,7 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false, coupled = false, flows = false;
+  bool shrink = false, print = false, coupled = false, flows = false, loaded = false;
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
   std::uint64_t seed_of_ways = 1;
@@ -290,6 +291,8 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
          "--coupled", asked.coupled,
          "draw rigid contacts that move each other, and hold each decision against all that could follow")
       ->excludes("--transformed");
+  app.add_flag("--loaded", asked.loaded, "draw frames with heat, moments, supports that move, stops, stages")
+      ->excludes("--coupled");
   app.add_flag("--flows", asked.flows,
                "change each scene to what modes follow, and run it with both flows of exact")
       ->excludes("--transformed");
@@ -342,7 +345,9 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   for (long i = 0; i < asked.count; ++i) {
     const std::uint64_t seed = asked.from + static_cast<std::uint64_t>(i);
-    const std::string text = asked.coupled ? draw_coupled_scene(seed) : draw_scene(seed);
+    const std::string text = asked.coupled  ? draw_coupled_scene(seed)
+                             : asked.loaded ? draw_loaded_scene(seed)
+                                            : draw_scene(seed);
     if (asked.print) {
       fmt::print("{}\n", text);
       continue;

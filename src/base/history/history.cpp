@@ -204,10 +204,11 @@ History History::with_rates(double c0, double c1, double c2) const {
 }
 
 History History::shifted(double dt) const {
-  History result = *this;
-  for (double& t : result.starts_) t += dt;
-  for (Piece& p : result.pieces_) p.origin += dt;
-  return result;
+  std::vector<double> starts = starts_;
+  std::vector<Piece> pieces = pieces_;
+  for (double& t : starts) t += dt;
+  for (Piece& p : pieces) p.origin += dt;
+  return {std::move(starts), std::move(pieces)};
 }
 
 History History::repeated(double from, double period, int rounds) const {

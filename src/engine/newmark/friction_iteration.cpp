@@ -42,8 +42,23 @@ void FrictionIteration::start(const Segment& segment) {
   ++counters.restarts;
 }
 
+/// The greatest contact force at a point, and how far off a bound may be that has stopped changing there.
+FrictionIteration::Known FrictionIteration::known_forces(const Point& point) const {
+  Known known;
+  double noise = 0.0;
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    known.greatest = std::max({known.greatest, std::abs(point.N(k)), std::abs(point.T(k))});
+    const double terms = std::abs(contact.gap) + contact.normal.magnitude(point.u);
+    noise = std::max(noise, rounding::of_many * contact.normal_stiffness * terms);
+  }
+  known.error = unchanged * known.greatest + noise;
+  return known;
+}
+
 /// Contacts at the beginning of a step: what a return to stick would hold, and the bounds.
 void FrictionIteration::begin_sides() {
+  bound_error_ = known_forces(begin_).error;
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const ContactMotion m = motion_of(contact, k, *segment_.forcing, t0_, begin_);
@@ -97,7 +112,11 @@ State FrictionIteration::state_of(std::size_t k) const {
   // What slips goes on slipping; what does not is held by static friction.
   const double friction =
       slip_sign(mode_[k].state) != 0 ? kinetic_friction(contact) : static_friction(contact);
-  if (std::abs(m.T) <= friction * side.pressed) return State::stick;
+  const double terms = kt ? *kt * (std::abs(m.ut) + std::abs(side.anchor)) : 0.0;
+  // What rests at its limit goes on resting, whatever rounding makes of both; what comes to it slips.
+  const double loose = bound_error_ + rounding::of_many * terms;
+  const bool rests = std::abs(m.T - begin_.T(k)) <= loose;
+  if (std::abs(m.T) <= friction * side.pressed + (rests ? loose : 0.0)) return State::stick;
   return slip_along(m.T);
 }
 
@@ -124,29 +143,27 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (!step_.take(*segment_.forcing, begin_, t1_, h, kept, end_))
       return "the matrix of a step is singular; another dt may help";
     if (!end_.u.allFinite()) return "the motion overflows";
-    change = force = 0.0;
-    double noise = 0.0;
     switching = new_states();
     if (switching) continue;  // with the bounds as they are
+    change = 0.0;
+    const Known known = known_forces(end_);
+    force = known.greatest;
+    bound_error_ = known.error;
     for (std::size_t k = 0; k < sides_.size(); ++k) {
       const Contact& contact = model_.contacts[k];
       Side& side = sides_[k];
-      const double N = end_.N(k), T = end_.T(k);
-      force = std::max({force, std::abs(N), std::abs(T)});
-      const double by = std::max(0.0, -N) - side.pressed;
+      const double by = std::max(0.0, -end_.N(k)) - side.pressed;
       if (slip_sign(side.state) != 0 && kinetic_friction(contact) * std::abs(by) > change) {
         change = kinetic_friction(contact) * std::abs(by);
         worst = k;
       }
-      const double terms = std::abs(contact.gap) + contact.normal.magnitude(end_.u);
-      noise = std::max(noise, rounding::of_many * contact.normal_stiffness * terms);
       // Only the bound of what slips acts in the next iterate; that of what sticks is what it has to be at
       // once.
       side.pressed += (slip_sign(side.state) != 0 ? relaxation_ : 1.0) * by;
     }
     // The states must hold with the new bounds, too.
     switching = new_states();
-    if (!switching && change <= unchanged * force + noise) return {};
+    if (!switching && change <= bound_error_) return {};
   }
   std::vector<std::string> what;
   for (std::size_t k = 0; k < sides_.size(); ++k)

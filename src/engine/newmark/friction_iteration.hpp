@@ -42,6 +42,10 @@ class FrictionIteration final : public Stepper {
     double anchor = 0.0;        // p at the beginning of the step
     double pressed = 0.0;       // |N| of the last iterate, which bounds |T|
   };
+  struct Known {
+    double greatest = 0.0, error = 0.0;  // forces
+  };
+  [[nodiscard]] Known known_forces(const Point& point) const;
   void begin_sides();
   void put_in_force();
   [[nodiscard]] State state_of(std::size_t k) const;
@@ -59,6 +63,7 @@ class FrictionIteration final : public Stepper {
   NewmarkStep::Key key_, key_in_force_;
   Mode mode_;  // at the end of the last step
   bool changed_ = false;
+  double bound_error_ = 0.0;  // of |T| <= f |N|, force
   Point begin_, end_;
   double t0_ = 0.0, t1_ = 0.0;
 };

@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::string& key) {
+Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   Direction direction;
   if (spec.tangent)
     direction = *spec.tangent;
@@ -19,37 +19,37 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map, const std::
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
   const bool measures_only = has_gap(spec.law) && !spec.friction.any();
-  return combination(map, direction, key + ".tangent", true, measures_only);
+  return combination(map, direction, spec.key("tangent"), true, measures_only);
 }
 
-void check_gap(const ContactSpec& spec, const Contact& contact, const std::string& key) {
+void check_gap(const ContactSpec& spec, const Contact& contact) {
   if (!spec.normal)
-    throw SceneError(spec.place, key + ".normal",
+    throw SceneError(spec.place, spec.key("normal"),
                      fmt::format("a {} contact needs a normal", to_string(spec.law)));
   if (contact.normal.terms.empty())
-    throw SceneError(spec.place, key + ".normal", "a support fixes all motion along the normal");
+    throw SceneError(spec.place, spec.key("normal"), "a support fixes all motion along the normal");
   if (contact.has_friction() && contact.tangent.terms.empty())
-    throw SceneError(spec.place, key + ".tangent",
+    throw SceneError(spec.place, spec.key("tangent"),
                      "a contact with friction needs a tangent that no support fixes");
 }
 
-void check_compliant(const ContactSpec& spec, const Contact& contact, const std::string& key) {
+void check_compliant(const ContactSpec& spec, const Contact& contact) {
   if (!(spec.normal_stiffness > 0.0))
-    throw SceneError(spec.place, key + ".normal_stiffness",
+    throw SceneError(spec.place, spec.key("normal_stiffness"),
                      fmt::format("found {}, expected a number > 0", spec.normal_stiffness));
   if (!contact.has_friction()) return;
   if (!(spec.tangential_stiffness.value_or(0.0) > 0.0))
-    throw SceneError(spec.place, key + ".tangential_stiffness",
+    throw SceneError(spec.place, spec.key("tangential_stiffness"),
                      "a compliant contact with friction needs a tangential stiffness > 0");
 }
 
-void check_slider(const ContactSpec& spec, const Contact& contact, double t_end, const std::string& key) {
+void check_slider(const ContactSpec& spec, const Contact& contact, double t_end) {
   if (!spec.tangent && !spec.normal)
-    throw SceneError(spec.place, key + ".tangent", "a slider needs a tangent");
+    throw SceneError(spec.place, spec.key("tangent"), "a slider needs a tangent");
   if (contact.tangent.terms.empty())
-    throw SceneError(spec.place, key + ".tangent", "a support fixes all motion along the tangent");
+    throw SceneError(spec.place, spec.key("tangent"), "a support fixes all motion along the tangent");
   if (const double t = negative_at(contact.normal_force, t_end); t >= 0.0)
-    throw SceneError(spec.normal_force.place, key + ".normal_force",
+    throw SceneError(spec.normal_force.place, spec.key("normal_force"),
                      fmt::format("found {:.6g} at time {:.6g}, expected a compression >= 0",
                                  contact.normal_force.value(t), t));
 }
@@ -59,7 +59,6 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end,
 std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
   std::vector<Contact> contacts;
   for (const ContactSpec& spec : scene.contacts) {
-    const std::string key = "contacts." + spec.name;
     Contact c;
     c.name = spec.name;
     c.law = spec.law;
@@ -71,16 +70,16 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.initial_shear = spec.initial_shear;
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
-    c.tangent = tangent_form(spec, map, key);
+    c.tangent = tangent_form(spec, map);
     if (has_gap(spec.law)) {
-      if (spec.normal) c.normal = combination(map, *spec.normal, key + ".normal", true);
-      check_gap(spec, c, key);
-      if (has_spring(spec.law)) check_compliant(spec, c, key);
+      if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
+      check_gap(spec, c);
+      if (has_spring(spec.law)) check_compliant(spec, c);
     } else {
-      c.normal_force = make_history(spec.normal_force, key + ".normal_force");
-      check_slider(spec, c, scene.run.t_end, key);
+      c.normal_force = make_history(spec.normal_force, spec.key("normal_force"));
+      check_slider(spec, c, scene.run.t_end);
     }
-    c.surface_motion = make_history(spec.surface_velocity, key + ".surface_velocity").integrated();
+    c.surface_motion = make_history(spec.surface_velocity, spec.key("surface_velocity")).integrated();
     contacts.push_back(std::move(c));
   }
   return contacts;

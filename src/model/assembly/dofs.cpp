@@ -48,11 +48,10 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
       need_end(find_node(mesh, s.against, s.place, fmt::format("springs.{}.against", i + 1)));
   }
   for (const ContactSpec& c : scene.contacts) {
-    const std::string key = fmt::format("contacts.{}", c.name);
     const auto need_all = [&](const Direction& at, const std::array<double, 2>& direction) {
-      need(numbers, find_node(mesh, at.node, c.place, key + ".node"), direction);
+      need(numbers, find_node(mesh, at.node, c.place, c.key("node")), direction);
       for (const auto& [node, weight] : at.against)
-        if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, key + ".against"), direction);
+        if (weight != 0.0) need(numbers, find_node(mesh, node, c.place, c.key("against")), direction);
     };
     if (c.normal && has_gap(c.law)) need_all(*c.normal, clean_direction(c.normal->vector));
     // A contact without friction takes no tangential force, so it needs no tangential motion either.
@@ -75,7 +74,7 @@ void add_columns(DofMap& map) {
 
 /// The one thing that support i holds moves.
 void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool, 3>& fix) {
-  const std::string key = fmt::format("supports.{}.motion", i + 1);
+  const std::string key = s.key + ".motion";
   auto& moving = map.moving[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, key))];
   for (std::size_t c = 0; c < 3; ++c) {
     if (!fix[c]) continue;
@@ -96,7 +95,7 @@ void check_moving(const Scene& scene, const DofMap& map) {
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c] && !s.motion && moving[c] >= 0)
-        throw SceneError(s.place, fmt::format("supports.{}.fix", i + 1),
+        throw SceneError(s.place, s.key + ".fix",
                          fmt::format("the {} of node '{}' follows another support's motion",
                                      displacement_names[c], s.node));
   }
@@ -143,8 +142,8 @@ DofMap number_nodes(const Scene& scene) {
   mark_needed(scene, map.mesh, map.number);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) {
     const Support& s = scene.supports[i];
-    auto& numbers = map.number[static_cast<std::size_t>(
-        find_node(map.mesh, s.node, s.place, fmt::format("supports.{}.node", i + 1)))];
+    auto& numbers =
+        map.number[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, s.key + ".node"))];
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c]) numbers[c] = DofMap::fixed;

@@ -140,18 +140,19 @@ Combination strain_form(const Scene& scene, const DofMap& map, int member) {
 void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const Member& member = scene.members[i];
-    const auto add = [&](const char* what, const char* key, const HistorySpec& spec, double factor) {
+    const auto add = [&](LoadKind kind, const char* what, const char* key, const HistorySpec& spec,
+                         double factor) {
       const History history = make_history(spec, fmt::format("members.{}.{}", i + 1, key)).scaled(factor);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
       Load load{fmt::format("{} of member {}", what, i + 1), strain_form(scene, map, static_cast<int>(i)),
                 history, holds_since_ever(spec, history)};
-      load.kind = LoadKind::strain;
+      load.kind = kind;
       load.of_direction = unit::force;
       load.of_history = unit::plain;
       loads.push_back(std::move(load));
     };
-    add("temperature", "temperature", member.temperature, member.thermal_expansion);
-    add("initial strain", "initial_strain", member.initial_strain, 1.0);
+    add(LoadKind::temperature, "temperature", "temperature", member.temperature, member.thermal_expansion);
+    add(LoadKind::initial_strain, "initial strain", "initial_strain", member.initial_strain, 1.0);
   }
 }
 
@@ -176,50 +177,45 @@ double jump_of(const History& f, double t_end) {
   return -1.0;
 }
 
-}  // namespace
-
-std::vector<Load> support_loads(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
-                                double beta) {
-  std::vector<Load> loads;
-  for (std::size_t i = 0; i < map.supports.size(); ++i) {
-    const std::size_t number = map.supports[i];
-    const Support& support = scene.supports[number];
-    const std::string key =
-        fmt::format("supports.{}.{}", number + 1, support.motion_is_acceleration ? "acceleration" : "motion");
-    History s = make_history(*support.motion, key);
-    if (support.motion_is_acceleration) s = s.integrated().integrated();
-    const SupportColumns& columns = assembly.moving[i];
-    const bool moves_mass = !columns.mass.isZero(0.0);
-    const bool damps = !columns.dampers.isZero(0.0) || beta != 0.0 || (alpha != 0.0 && moves_mass);
-    if (const double t = jump_of(s, scene.run.t_end); t >= 0.0 && (moves_mass || damps))
-      throw SceneError(
-          support.place, key,
-          fmt::format("the motion jumps at time {:.6g}, where mass or damping would answer with an "
-                      "infinite force: give it time",
-                      t));
-    if (const double t = jump_of(s.with_rates(0.0, 1.0, 0.0), scene.run.t_end); t >= 0.0 && moves_mass)
-      throw SceneError(
-          support.place, key,
-          fmt::format("the velocity jumps at time {:.6g}, where mass would answer with an impulse: "
-                      "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
-                      "= \"lumped\" to the members there",
-                      t));
-    const char* component = support.ux ? "ux" : support.uy ? "uy" : "rz";
-    const int length = support.rz ? 0 : 1;
-    const auto add = [&](const char* what, const Vector& column, History f, int time) {
-      Load load{fmt::format("support {}.{}{}", support.node, component, what), form_of(column, -1.0),
-                std::move(f), time == 0};
-      load.kind = LoadKind::support;
-      load.of_direction = {1, -length, time};
-      load.of_history = {0, length, -time};
-      if (!load.direction.terms.empty()) loads.push_back(std::move(load));
-    };
-    add("", columns.stiffness, s.with_rates(1.0, beta, 0.0), 0);
-    add(" (mass)", columns.mass, s.with_rates(0.0, alpha, 1.0), 2);
-    add(" (dampers)", columns.dampers, s.with_rates(0.0, 1.0, 0.0), 1);
-  }
-  return loads;
+/// What a support follows, and how it is called.
+struct SupportMotion {
+  std::string name, key;
+  SourcePlace place;
+  bool turns = false;
+  History s;
+};
+SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t i) {
+  const Support& support = scene.supports[map.supports[i]];
+  const char* component = support.ux ? "ux" : support.uy ? "uy" : "rz";
+  SupportMotion moving{fmt::format("support {}.{}", support.node, component),
+                       support.key + (support.motion_is_acceleration ? ".acceleration" : ".motion"),
+                       support.place,
+                       support.rz,
+                       {}};
+  moving.s = make_history(*support.motion, moving.key);
+  if (support.motion_is_acceleration) moving.s = moving.s.integrated().integrated();
+  return moving;
 }
+
+/// -column f; f: the derivative of `order` of the motion.
+void add_support_load(const SupportMotion& moving, const char* what, const Vector& column, History f,
+                      int order, std::vector<Load>& loads) {
+  const int length = moving.turns ? 0 : 1;
+  Load load{moving.name + what, form_of(column, -1.0), std::move(f), order == 0};
+  load.kind = order == 0 ? LoadKind::support : LoadKind::support_rate;
+  load.of_direction = {1, -length, order};
+  load.of_history = {0, length, -order};
+  if (!load.direction.terms.empty()) loads.push_back(std::move(load));
+}
+
+void add_supports(const Scene& scene, const DofMap& map, const Assembly& assembly, std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < map.supports.size(); ++i) {
+    const SupportMotion moving = support_motion(scene, map, i);
+    add_support_load(moving, "", assembly.moving[i].stiffness, moving.s, 0, loads);
+  }
+}
+
+}  // namespace
 
 std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {
   std::vector<Load> loads;
@@ -232,8 +228,34 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
     loads.push_back(given_load(scene.loads[i], map, i + 1));
   add_strains(scene, map, loads);
   add_base(scene, assembly, loads);
-  for (Load& load : support_loads(scene, map, assembly, 0.0, 0.0)) loads.push_back(std::move(load));
+  add_supports(scene, map, assembly, loads);
   return loads;
+}
+
+void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
+                       double beta, std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < map.supports.size(); ++i) {
+    const SupportMotion moving = support_motion(scene, map, i);
+    const SupportColumns& columns = assembly.moving[i];
+    const Vector damping = columns.dampers + alpha * columns.mass + beta * columns.stiffness;
+    const bool moves_mass = !columns.mass.isZero(0.0);
+    const History velocity = moving.s.with_rates(0.0, 1.0, 0.0);
+    if (const double t = jump_of(moving.s, scene.run.t_end); t >= 0.0 && (moves_mass || !damping.isZero(0.0)))
+      throw SceneError(
+          moving.place, moving.key,
+          fmt::format("the motion jumps at time {:.6g}, where mass or damping would answer with an "
+                      "infinite force: give it time",
+                      t));
+    if (const double t = jump_of(velocity, scene.run.t_end); t >= 0.0 && moves_mass)
+      throw SceneError(
+          moving.place, moving.key,
+          fmt::format("the velocity jumps at time {:.6g}, where mass would answer with an impulse: "
+                      "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
+                      "= \"lumped\" to the members there",
+                      t));
+    add_support_load(moving, " (mass)", columns.mass, moving.s.with_rates(0.0, 0.0, 1.0), 2, loads);
+    add_support_load(moving, " (damping)", damping, velocity, 1, loads);
+  }
 }
 
 Vector static_load(const std::vector<Load>& loads, int n) {

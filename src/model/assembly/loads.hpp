@@ -4,9 +4,9 @@
 //
 //   force, moment    on the node's own degrees of freedom
 //   distributed      q on an element of length L, in its axes:  q_x L/2, q_y L/2, +- q_y L^2/12 at its ends
-//   strain           EA (alpha T + strain) (-e, e), e along the element
+//   temperature T, initial strain    EA alpha T (-e, e), EA strain (-e, e), e along the element
 //   weight, base     M r g, -M r a(t)
-//   support s(t)     -K_fs (s + beta s') - M_fs (s'' + alpha s') - D_fs s',   C = D + alpha M + beta K
+//   support s(t)     -K_fs s;   its rates: -C_fs s' - M_fs s'',   C = D + alpha M + beta K
 #pragma once
 
 #include <vector>
@@ -17,13 +17,13 @@
 namespace signorini {
 
 /// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
-/// the base, supports that move (without Rayleigh damping). Errors: SceneError.
+/// the base, where supports that move are. Errors: SceneError.
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
-/// Those of the supports, with Rayleigh damping. Errors: SceneError for a motion that jumps or has a kink
-/// where dampers or masses would answer with an impulse.
-[[nodiscard]] std::vector<Load> support_loads(const Scene& scene, const DofMap& map, const Assembly& assembly,
-                                              double alpha, double beta);
+/// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:
+/// SceneError for a motion that jumps or has a kink where dampers or masses would answer with an impulse.
+void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
+                       double beta, std::vector<Load>& loads);
 
 /// Sum of the static loads; n.
 [[nodiscard]] Vector static_load(const std::vector<Load>& loads, int n);

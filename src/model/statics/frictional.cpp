@@ -6,10 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/eigen_dense.hpp"
+#include "base/listed.hpp"
 #include "base/rounding.hpp"
 #include "decide/complementarity.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
+#include "model/statics/least_motion.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -19,6 +22,9 @@ namespace {
 // Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
 // sixteen digits. Chosen.
 constexpr double same_force = 1e-11;
+// The same of rates, which one solve has found; where they are one, what is not at its limit hardly leaves
+// it.
+constexpr double same_rate = 1e-9;
 
 /// One contact on its way.
 struct Standing {
@@ -221,10 +227,88 @@ class Path {
         rates += (*z)[j] * size * answers[static_cast<std::size_t>(j)].first;
         forces += (*z)[j] * size * answers[static_cast<std::size_t>(j)].second;
       }
-      take_states(unknowns, *z);
+      take_states(unknowns, share(rows, unknowns, *z * size, forces, rates));
     }
     u_rate_ = std::move(rates);
     take_rates(forces);
+  }
+
+  /// A row along which a contact may move at this moment: how far the rates take it, and which way it may.
+  struct Loose {
+    std::size_t row, contact;
+    double rate;
+    Way way;
+  };
+  static std::vector<Loose> loose_rows(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
+                                       const Eigen::VectorXd& z, const std::vector<bool>& may) {
+    std::vector<Loose> loose;
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      if (!may[j]) continue;
+      const auto row = static_cast<std::size_t>(unknowns[j].row);
+      const double rate = unknowns[j].sign * z[static_cast<Eigen::Index>(j)] / rows[row].stiffness;
+      if (!loose.empty() && loose.back().row == row) {  // the two ways of a slip stand together
+        loose.back().rate += rate;
+        loose.back().way = Way::both;
+      } else {
+        loose.push_back({row, unknowns[j].contact, rate, unknowns[j].sign > 0 ? Way::forth : Way::back});
+      }
+    }
+    return loose;
+  }
+
+  /// Where motions that nothing resists leave open how far each contact goes, the least of all slips and
+  /// openings: adds it to the rates. Forces stay as they are. z: of the unknowns, forces; so is the answer.
+  Eigen::VectorXd share(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
+                        Eigen::VectorXd z, const Vector& forces, Vector& rates) {
+    const double zero = same_rate * std::max(forces.cwiseAbs().maxCoeff(), z.cwiseAbs().maxCoeff());
+    std::vector<bool> may;
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      may.push_back(z[static_cast<Eigen::Index>(j)] > 0.0 || condition(unknowns[j], forces) <= zero);
+    const std::vector<Loose> loose = loose_rows(rows, unknowns, z, may);
+    std::vector<LineSpring> stay;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (std::none_of(loose.begin(), loose.end(), [&](const Loose& l) { return l.row == i; }))
+        stay.push_back({rows[i].form, rows[i].stiffness});
+    const SparseMatrix held = with_springs(stiffness_, stay);
+    if (loose.empty() || !may_have_null_motions(held)) return z;
+    const Eigen::MatrixXd motions = null_motions(held);
+    if (motions.cols() == 0) return z;
+
+    Eigen::MatrixXd b(static_cast<Eigen::Index>(loose.size()), motions.cols());
+    Eigen::VectorXd g(b.rows());
+    std::vector<Way> ways;
+    for (Eigen::Index i = 0; i < b.rows(); ++i) {
+      const Loose& l = loose[static_cast<std::size_t>(i)];
+      for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) = rows[l.row].form.dot(motions.col(j));
+      g[i] = l.rate;
+      ways.push_back(l.way);
+    }
+    Eigen::VectorXd r = least_motion(b, g, ways, Eigen::VectorXd::Zero(b.cols()));
+    rates += motions * least_squares(b, Eigen::VectorXd(r - g));
+    const bool moves = r.cwiseAbs().maxCoeff() > same_rate * greatest_translation(rates, map_);
+    if (moves && is_one_of_many(b, r, ways)) doubt(loose, motions);
+    for (double& rate : r)
+      if (std::abs(rate) <= same_rate * r.cwiseAbs().maxCoeff()) rate = 0.0;
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      for (std::size_t i = 0; i < loose.size() && may[j]; ++i)
+        if (loose[i].row == static_cast<std::size_t>(unknowns[j].row))
+          z[static_cast<Eigen::Index>(j)] = std::max(
+              0.0, unknowns[j].sign * r[static_cast<Eigen::Index>(i)] * rows[loose[i].row].stiffness);
+    return z;
+  }
+
+  void doubt(const std::vector<Loose>& loose, const Eigen::MatrixXd& motions) {
+    std::vector<std::string> names;
+    for (const Loose& l : loose)
+      if (names.empty() || names.back() != contacts_[l.contact].name)
+        names.push_back(contacts_[l.contact].name);
+    const std::string sentence = fmt::format(
+        "stage '{}': nothing resists the {} where {} {} at the limit, so that the data do not say how far "
+        "each "
+        "of them goes; the start takes the least",
+        stage_->name, describe_motion(motions.col(0), map_), listed(names), names.size() == 1 ? "is" : "are");
+    if (std::find(found_.doubts.begin(), found_.doubts.end(), sentence) == found_.doubts.end())
+      found_.doubts.push_back(sentence);
   }
 
   [[nodiscard]] std::string names_of_unknowns(const std::vector<Unknown>& unknowns) const {

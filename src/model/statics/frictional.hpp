@@ -13,6 +13,9 @@
 //
 // one linear complementarity problem of all contacts that touch or are at their limit (Lemke). No solution,
 // or no stiffness left: what would follow is a motion, and the start is refused.
+//
+// Where closed contacts at their limits leave a motion that nothing resists, so that many slips go with the
+// same forces, the least of them is taken (least_motion.hpp) and said in StaticStart::doubts.
 #pragma once
 
 #include <vector>

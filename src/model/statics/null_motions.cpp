@@ -92,6 +92,15 @@ Eigen::MatrixXd of_parts(const SparseMatrix& k) {
 
 }  // namespace
 
+bool may_have_null_motions(const SparseMatrix& k) {
+  // Rounding leaves pivots of some n eps where there is a null motion; where a structure is only slender, no
+  // harm is done but a second look.
+  constexpr double certainly_held = 1e-9;
+  const Vector s = scaling(k);
+  const SymmetricSolver solver(SparseMatrix(s.asDiagonal() * k * s.asDiagonal()));
+  return !solver.ok() || !(solver.smallest_pivot() > certainly_held);
+}
+
 Eigen::MatrixXd null_motions(const SparseMatrix& k) {
   if (k.rows() == 0) return Eigen::MatrixXd(0, 0);
   return k.rows() <= dense_up_to ? of_whole(k) : of_parts(k);

@@ -16,4 +16,7 @@ namespace signorini {
 /// Directions of negative energy count as null: nothing resists them either.
 [[nodiscard]] Eigen::MatrixXd null_motions(const SparseMatrix& k);
 
+/// False: it has none, by the pivots of D^-1/2 K D^-1/2, at the cost of one factorisation.
+[[nodiscard]] bool may_have_null_motions(const SparseMatrix& k);
+
 }  // namespace signorini

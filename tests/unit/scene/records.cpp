@@ -1,6 +1,8 @@
 // Records in files, rows of nodes, stops: what the reader makes of them.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "scene/data_file.hpp"
@@ -91,13 +93,76 @@ TEST_CASE("vectors from files") {
   CHECK(scene.loads.at(0).direction.dofs.at(1).second == -1.0);
 }
 
+TEST_CASE("a record of PEER in other units, and what is no acceleration") {
+  const auto with = [](const std::string& unit) {
+    return "PEER\nmade up\n" + unit + "\nNPTS= 2, DT= .01\n1 2\n";
+  };
+  const auto factor = [&](const std::string& unit) {
+    std::istringstream in(with("ACCELERATION TIME HISTORY IN UNITS OF " + unit));
+    return read_time_table(in, "file", "key", {0, 0.0, true}).unit.value();
+  };
+  CHECK(factor("G") == 9.80665);
+  CHECK(factor("cm/s/s") == 0.01);
+  CHECK(factor("CM/SEC**2") == 0.01);
+  CHECK(factor("CM/SEC/SEC") == 0.01);
+  CHECK(factor("GAL") == 0.01);
+  CHECK(factor("MM / S^2") == 0.001);
+  CHECK(factor("M/S2") == 1.0);
+  for (const char* unit :
+       {"VELOCITY IN UNITS OF CM/S", "DISPLACEMENT IN UNITS OF CM", "IN UNITS OF", "IN UNITS OF GG"})
+    CHECK(refusal(with(unit), {0, 0.0, true}).find("file:3: key: found \"" + std::string(unit) + "\"") == 0);
+  CHECK(refusal(with("no unit"), {0, 0.0, true}).find("file:3:") == 0);
+  CHECK(refusal(with("no unit"), {0, 0.0, true, true}) == "none");  // the scene says it
+}
+
+TEST_CASE("a record in cm/s^2 is one in the scene's units, written out or not") {
+  const auto file = std::filesystem::temp_directory_path() / "signorini-record.at2";
+  std::ofstream(file)
+      << "PEER\nmade up\nACCELERATION TIME SERIES IN UNITS OF CM/SEC/SEC\nNPTS= 3, DT= .01\n0 50 -25\n";
+  const auto text = [&](const std::string& more) {
+    return "schema = 1\nunits = { force = \"N\", mass = \"t\", length = \"mm\", time = \"s\" }\n[run]\nt_end "
+           "= "
+           "1.0\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n[base_motion]\ndirection = "
+           "[1.0, "
+           "0.0]\nacceleration = { type = \"table\", file = \"" +
+           file.string() + "\"" + more + " }\n";
+  };
+  const Scene scene = parse_scene(text(""), "test.toml");
+  CHECK(scene.base_motion.at(0).acceleration.values == std::vector<double>{0.0, 500.0, -250.0});
+  CHECK(scene.base_motion.at(0).acceleration.amplitude == 1.0);
+  CHECK(parse_scene(scene.resolved, "run.toml").base_motion.at(0).acceleration.values ==
+        scene.base_motion.at(0).acceleration.values);
+  CHECK_THROWS_AS((void)parse_scene(text(", unit = \"g\""), "test.toml"), SceneError);
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("hold beside a period: the last value holds until the shape begins anew") {
+  HistorySpec spec;
+  spec.type = HistoryType::table;
+  spec.times = {1.0, 1.2};
+  spec.values = {0.0, 4.0};
+  spec.hold = true;
+  spec.period = 0.5;
+  spec.rounds = 3;
+  const History f = make_history(spec, "f");
+  CHECK(f.value(1.3) == 4.0);
+  CHECK(f.value(1.6) == doctest::Approx(2.0).epsilon(1e-13));
+  CHECK(f.value(1.9) == 4.0);
+  CHECK(f.value(9.0) == 4.0);
+}
+
 TEST_CASE("a saved state: the time asked for, or the last") {
   const std::string file = "t,A.ux,A.vx,c.T\n0.5,1,2,3\n1.5,4,5,6\n";
   std::istringstream first(file), last(file), none(file);
-  CHECK(read_saved_state(first, "file", "key", 0.5).motions.at(1).second == 2.0);
-  CHECK(read_saved_state(last, "file", "key", std::nullopt).shears.at(0).second == 6.0);
-  CHECK_THROWS_WITH_AS((void)read_saved_state(none, "file", "key", 0.7),
-                       "file:3: key: found states at 0.5, 1.5, expected one at 0.7", SceneError);
+  CHECK(read_saved_states(first, "file", "key", 0.5).wanted.value().motions.at(1).second == 2.0);
+  CHECK(read_saved_states(last, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
+  const SavedStates others = read_saved_states(none, "file", "key", 0.7);
+  CHECK_FALSE(others.wanted);
+  CHECK(others.times == std::vector<std::string>{"0.5", "1.5"});
+  std::istringstream cut(file + "2.5,7,8"), wrong(file + "2.5,7,x,9\n");
+  CHECK(read_saved_states(cut, "file", "key", std::nullopt).wanted.value().shears.at(0).second == 6.0);
+  CHECK_THROWS_WITH_AS((void)read_saved_states(wrong, "file", "key", 0.5),
+                       "file:4: key: found \"x\", expected a number", SceneError);
 }
 
 TEST_SUITE_END();

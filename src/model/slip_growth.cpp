@@ -1,0 +1,122 @@
+#include "model/slip_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/springs.hpp"
+#include "model/statics/static_system.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int all_up_to = 100, most = 400;  // degrees of freedom; chosen: a few tenths of a second
+constexpr double of_window = 0.5;           // of the highest frequency: above, modes left out would take part
+constexpr double rigid = 1e4;               // of the structure's own stiffness along a normal
+// Of |lambda| or sigma: where two eigenvalues meet, rounding leaves the root of eps of both, 1.5e-8.
+constexpr double no_growth = 1e-6;
+
+/// A contact that slips: its normal pulls and pushes along `push`.
+struct Drive {
+  Vector normal, push;
+  double stiffness, damping;
+};
+
+struct Slipping {
+  SparseMatrix stiffness;  ///< symmetric part: of the structure and of contacts that do not slip
+  std::vector<Drive> drives;
+  std::vector<std::size_t> contacts;
+};
+
+Slipping slipping(const Model& model, const std::vector<State>& states) {
+  Slipping result;
+  std::vector<LineSpring> springs;
+  const auto spring = [&](const Combination& form, std::optional<double> k) {
+    return LineSpring{form, k ? *k : rigid * own_stiffness(model.stiffness, form)};
+  };
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (is_open(states[k])) continue;
+    const int s = slip_sign(states[k]);
+    if (s == 0 && c.has_friction()) springs.push_back(spring(c.tangent, c.tangential_stiffness));
+    if (!c.has_gap()) continue;
+    const LineSpring normal =
+        spring(c.normal, c.has_spring() ? std::optional(c.normal_stiffness) : std::nullopt);
+    if (s == 0) {
+      springs.push_back(normal);
+      continue;
+    }
+    const Vector n = full(c.normal, model.size());
+    const Vector push = n - s * c.friction.kinetic * full(c.tangent, model.size());
+    result.drives.push_back({n, push, normal.stiffness, c.normal_damping});
+    result.contacts.push_back(k);
+  }
+  result.stiffness = with_springs(model.stiffness, springs);
+  return result;
+}
+
+/// Shapes, n x m, in which motions are looked for, and up to which |lambda| they tell the truth.
+struct Window {
+  Eigen::MatrixXd shapes;
+  double end = std::numeric_limits<double>::infinity();
+};
+
+Window window(const Model& model, const Slipping& slip, double sigma) {
+  const Eigen::Index n = model.size();
+  if (n <= all_up_to) return {Eigen::MatrixXd::Identity(n, n)};
+  Eigen::MatrixXd k = slip.stiffness;
+  for (const Drive& drive : slip.drives) k += drive.stiffness * drive.normal * drive.normal.transpose();
+  // Of the greatest 1 / (omega^2 + sigma^2).
+  const EigenPairs pairs = generalized_eigen(model.mass, k + sigma * sigma * Eigen::MatrixXd(model.mass));
+  if (pairs.values.size() < n) return {Eigen::MatrixXd(n, 0)};
+  const double last = pairs.values[n - all_up_to];
+  const double square = last > 0.0 ? 1.0 / last - sigma * sigma : 0.0;
+  return {pairs.vectors.rightCols(all_up_to), of_window * std::sqrt(std::max(0.0, square))};
+}
+
+/// All lambda of M x'' + C x' + K x = 0 that are not infinite.
+std::vector<std::complex<double>> exponents(const Eigen::MatrixXd& m, const Eigen::MatrixXd& c,
+                                            const Eigen::MatrixXd& k, double sigma) {
+  const Eigen::Index n = m.rows();
+  Eigen::MatrixXd right(n, 2 * n);
+  right << c + 2.0 * sigma * m, m;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRows(n) = -solve_dense(k + sigma * c + sigma * sigma * m, right);
+  a.bottomLeftCorner(n, n).setIdentity();
+  // In units of 1/sigma, in which the halves of z are of one size.
+  a.topRightCorner(n, n) *= sigma;
+  a.bottomLeftCorner(n, n) /= sigma;
+  std::vector<std::complex<double>> found;
+  for (const std::complex<double> nu : general_eigenvalues(sigma * a))
+    if (std::abs(nu) > no_growth) found.push_back(sigma * (1.0 + 1.0 / nu));
+  return found;
+}
+
+}  // namespace
+
+std::optional<SlipGrowth> slip_growth(const Model& model, const std::vector<State>& states) {
+  const Slipping slip = slipping(model, states);
+  if (slip.drives.empty() || !(model.omega_max > 0.0) || model.size() > most) return std::nullopt;
+  const double sigma = model.omega1 > 0.0 ? model.omega1 : 1e-3 * model.omega_max;
+  const auto [q, end] = window(model, slip, sigma);
+  if (q.cols() == 0) return std::nullopt;
+  Eigen::MatrixXd k = q.transpose() * (slip.stiffness * q), c = q.transpose() * (model.damping * q);
+  for (const Drive& drive : slip.drives) {
+    const Eigen::MatrixXd way = (q.transpose() * drive.push) * (drive.normal.transpose() * q);
+    k += drive.stiffness * way;
+    c += drive.damping * way;
+  }
+  SlipGrowth fastest;
+  for (const std::complex<double> lambda : exponents(q.transpose() * (model.mass * q), c, k, sigma)) {
+    const double size = std::abs(lambda);
+    if (size > end || !(lambda.real() > no_growth * std::max(size, sigma))) continue;
+    if (lambda.real() <= fastest.rate) continue;
+    const bool turns = std::abs(lambda.imag()) > no_growth * lambda.real();
+    fastest = {lambda.real(), turns ? std::abs(lambda.imag()) : 0.0, slip.contacts};
+  }
+  return fastest.rate > 0.0 ? std::optional(fastest) : std::nullopt;
+}
+
+}  // namespace signorini

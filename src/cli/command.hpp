@@ -25,6 +25,7 @@ void add_check(Program& program);
 void add_compare(Program& program);
 void add_plot(Program& program);
 void add_report(Program& program);
+void add_paraview(Program& program);
 void add_study(Program& program);
 void add_sweep(Program& program);
 void add_verify(Program& program);

@@ -61,6 +61,7 @@ int main_program(int argc, char** argv) {
   add_study(program);
   add_plot(program);
   add_report(program);
+  add_paraview(program);
   add_new(program);
   add_keys(program);
   add_schema(program);

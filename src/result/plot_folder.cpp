@@ -14,6 +14,8 @@ bool is_picture(const fs::path& file) {
   return type == ".gp" || type == ".svg" || type == ".png" || type == ".pdf";
 }
 
+bool is_paraview(const fs::path& file) { return file.extension() == ".vtu" || file.extension() == ".pvd"; }
+
 void clear_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;

@@ -70,6 +70,7 @@ void remove_run(const fs::path& path, bool summary) {
     fs::remove(path / (std::string(name) + ".part"), error);
   }
   remove_plots(path);
+  clear_plot_folder(path / "paraview", is_paraview);
 }
 
 void check_run_directory(const fs::path& path, bool force) {

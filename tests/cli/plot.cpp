@@ -52,8 +52,7 @@ TEST_CASE("cli plot: size, format and title for a paper") {
                                                                  {"--size", "10x90"},
                                                                  {"--size", "10"},
                                                                  {"--size", "160x9000"},
-                                                                 {"--format", "gif"},
-                                                                 {"--format", ""}}) {
+                                                                 {"--format", "gif"}}) {
     const Ending refused = shell.run({"plot", "belt-run", wrong[0], wrong[1]});
     CHECK(refused.code == 2);
     CHECK(refused.err.find(wrong[0] + ": ") != std::string::npos);

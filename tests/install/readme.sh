@@ -16,12 +16,17 @@ project(own CXX)
 find_package(signorini REQUIRED)
 add_executable(own main.cpp)
 target_link_libraries(own PRIVATE signorini::signorini)
+foreach(example observe in_code go_on)
+  add_executable(${example} ${EXAMPLES}/${example}.cpp)
+  target_link_libraries(${example} PRIVATE signorini::signorini)
+endforeach()
 END
-cmake -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
+cmake -S "$work" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DEXAMPLES="$root/examples" >/dev/null
 cmake --build "$work/build" >/dev/null
 events="$(cd "$root" && "$work/build/own" | wc -l)"
 echo "$events events"
 ((events > 200))
+for example in observe in_code go_on; do (cd "$root" && "$work/build/$example" >/dev/null); done
 
 mv "$work/prefix" "$work/moved"
 pc="$(dirname "$(find "$work/moved" -name signorini.pc)")"

@@ -1,0 +1,202 @@
+#include "report/paraview.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "result/csv.hpp"
+#include "result/frame_data.hpp"
+#include "result/plot_folder.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Pair = std::array<double, 2>;
+
+/// A row of a record, and the part of the way to the next one; after a jump that happens at t.
+struct Place {
+  std::size_t row = 0;
+  double part = 0.0;
+};
+
+Place place_in(const Json& times, double t) {
+  const auto after = std::upper_bound(times.begin(), times.end(), t, [](double value, const Json& time) {
+    return value < time.get<double>();
+  });
+  Place place;
+  place.row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - times.begin() - 1, 0));
+  if (after == times.begin() || after == times.end()) return place;
+  const double from = times[place.row].get<double>();
+  place.part = (t - from) / (times[place.row + 1].get<double>() - from);
+  return place;
+}
+
+/// Numbers that are not finite stand as null.
+double number_of(const Json& value) { return value.is_number() ? value.get<double>() : 0.0; }
+
+double value_at(const Json& values, const Place& place) {
+  if (values.empty()) return 0.0;
+  const double from = number_of(values[place.row]);
+  return place.part > 0.0 ? from + place.part * (number_of(values[place.row + 1]) - from) : from;
+}
+
+/// What a file holds, as it grows.
+class Grid {
+ public:
+  std::size_t point(double x, double y, const Pair& displacement, const Pair& force = {0.0, 0.0}) {
+    points_ += fmt::format("{:.9g} {:.9g} 0\n", x, y);
+    displacements_ += fmt::format("{:.7g} {:.7g} 0\n", displacement[0], displacement[1]);
+    forces_ += fmt::format("{:.7g} {:.7g} 0\n", force[0], force[1]);
+    return count_++;
+  }
+  void cell(int type, const std::vector<std::size_t>& corners, int kind, int state = -1, int item = -1) {
+    for (const std::size_t corner : corners) connectivity_ += fmt::format("{} ", corner);
+    connectivity_ += "\n";
+    end_ += corners.size();
+    offsets_ += fmt::format("{} ", end_);
+    types_ += fmt::format("{} ", type);
+    kinds_ += fmt::format("{} ", kind);
+    states_ += fmt::format("{} ", state);
+    items_ += fmt::format("{} ", item);
+    ++cells_;
+  }
+  [[nodiscard]] std::string text() const {
+    std::string s =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+        "byte_order=\"LittleEndian\">\n"
+        "<UnstructuredGrid>\n";
+    s += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", count_, cells_);
+    s += "<Points>\n" + array("Float64", "points", points_, 3) + "</Points>\n<Cells>\n";
+    s += array("Int64", "connectivity", connectivity_) + array("Int64", "offsets", offsets_) +
+         array("UInt8", "types", types_) + "</Cells>\n";
+    s += "<PointData Vectors=\"displacement\">\n" + array("Float64", "displacement", displacements_, 3) +
+         array("Float64", "force", forces_, 3) + "</PointData>\n";
+    s += "<CellData Scalars=\"state\">\n" + array("Int32", "kind", kinds_) +
+         array("Int32", "state", states_) + array("Int32", "item", items_) + "</CellData>\n";
+    return s + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  }
+
+ private:
+  std::string points_, displacements_, forces_, connectivity_, offsets_, types_, kinds_, states_, items_;
+  std::size_t count_ = 0, cells_ = 0, end_ = 0;
+
+  static std::string array(std::string_view type, std::string_view name, const std::string& values,
+                           int components = 1) {
+    return fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n",
+        type, name, components, values);
+  }
+};
+
+constexpr int vertex = 1, line = 3, polyline = 4;  // VTK's numbers of cells
+
+std::vector<FrameEnd> ends_at(const Json& data, double t) {
+  const Json& times = data["curve"]["t"];
+  const Json& rows = data["curve"]["u"];
+  const Place place = place_in(times, t);
+  std::vector<FrameEnd> ends;
+  for (const Json& node : data["nodes"]) {
+    const auto value = [&](std::size_t k) {
+      const int column = node["u"][k].get<int>();
+      if (column < 0 || times.empty()) return 0.0;
+      const auto c = static_cast<std::size_t>(column);
+      const double from = number_of(rows[place.row][c]);
+      return place.part > 0.0 ? from + place.part * (number_of(rows[place.row + 1][c]) - from) : from;
+    };
+    ends.push_back({number_of(node["x"]), number_of(node["y"]), value(0), value(1), value(2)});
+  }
+  return ends;
+}
+
+void add_structure(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends) {
+  const auto end_of = [&](const Json& index) { return ends[index.get<std::size_t>()]; };
+  for (const Json& piece : data["pieces"]) {
+    const bool bar = piece["bar"].get<bool>();
+    const Frame::Element element{bar ? "bar" : "beam", end_of(piece["a"]), end_of(piece["b"])};
+    constexpr int parts = 10;
+    std::vector<std::size_t> corners;
+    for (int i = 0; i <= parts; ++i) {
+      const FrameEnd p = between(element, static_cast<double>(i) / parts);
+      corners.push_back(grid.point(p.x, p.y, {p.ux, p.uy}));
+    }
+    grid.cell(polyline, corners, bar ? 1 : 0);
+  }
+  for (const Json& spring : data["springs"]) {
+    if (spring["b"].get<int>() < 0) continue;
+    const FrameEnd a = end_of(spring["a"]), b = end_of(spring["b"]);
+    const std::size_t first = grid.point(a.x, a.y, {a.ux, a.uy});
+    grid.cell(line, {first, grid.point(b.x, b.y, {b.ux, b.uy})}, 2);
+  }
+  for (const FrameEnd& p : ends) grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy})}, 3);
+}
+
+void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends, double t) {
+  int item = 0;
+  for (const Json& contact : data["contacts"]) {
+    const Json& motion = contact["motion"];
+    const int index = item++, node = contact["node"].get<int>();
+    if (node < 0 || motion["t"].empty()) continue;
+    const FrameEnd& p = ends[static_cast<std::size_t>(node)];
+    const Place place = place_in(motion["t"], t);
+    const double N = value_at(motion["N"], place), T = value_at(motion["T"], place);
+    const double nx = number_of(contact["nx"]), ny = number_of(contact["ny"]);
+    const Pair force{-N * nx - T * ny, -N * ny + T * nx};  // t = (ny, -nx)
+    grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy}, force)}, 4, motion["state"][place.row].get<int>(),
+              index);
+  }
+  item = 0;
+  for (const Json& load : data["loads"]) {
+    const FrameEnd& p = ends[load["node"].get<std::size_t>()];
+    const double f = value_at(load["f"], place_in(load["t"], t));
+    const Pair force{f * number_of(load["dx"]), f * number_of(load["dy"])};
+    grid.cell(vertex, {grid.point(p.x, p.y, {p.ux, p.uy}, force)}, 5, -1, item++);
+  }
+}
+
+}  // namespace
+
+std::vector<double> frame_times(const Json& data, std::size_t count, std::size_t most) {
+  const Json& record = data["curve"]["t"];
+  if (record.empty()) return {};
+  const double first = record.front().get<double>(), last = record.back().get<double>();
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i)
+    times.push_back(
+        count < 2 ? first : first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
+  std::vector<double> all = times;
+  for (const Json& event : data["events"])
+    if (const double t = event[0].get<double>(); t <= last) all.push_back(t);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all.size() <= most ? all : times;
+}
+
+std::string vtu_frame(const Json& data, double t) {
+  Grid grid;
+  const std::vector<FrameEnd> ends = ends_at(data, t);
+  add_structure(grid, data, ends);
+  add_forces(grid, data, ends, t);
+  return grid.text();
+}
+
+fs::path write_paraview(const fs::path& directory, const Json& data, const std::vector<double>& times) {
+  const fs::path folder = directory / "paraview";
+  begin_plot_folder(folder, is_paraview);
+  std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+  int number = 0;
+  for (const double t : times) {
+    const std::string name = fmt::format("frame-{:04}.vtu", ++number);
+    write_file(folder / name, vtu_frame(data, t));
+    list += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", t, name);
+  }
+  write_file(folder / "run.pvd", list + "</Collection>\n</VTKFile>\n");
+  return folder / "run.pvd";
+}
+
+}  // namespace signorini

@@ -3,6 +3,7 @@
 //   check(text, file, settings)                 -> JSON of `signorini check`
 //   run(text, file, settings, directory)        -> tables as arrays, summary.json as text
 //   compare(reference, other)                   -> differences of two directories of runs
+//   sensitivity(text, file, paths, settings)    -> derivatives of events, columns and figures by keys
 //
 // settings: [(path, value as TOML)]. The interpreter is free while a run is computed; it is asked now and then whether somebody
 // wants to interrupt. Errors of the library are signorini.Error, with the exit code of the program.
@@ -20,6 +21,7 @@
 #include "result/summary.hpp"
 #include "scene/schema.hpp"
 #include "signorini/certify.hpp"
+#include "signorini/sensitivity.hpp"
 #include "study/check/check.hpp"
 #include "study/compare/comparison.hpp"
 
@@ -93,11 +95,15 @@ py::array_t<double> column(const Rows& rows, const Value& value) {
   return array(values);
 }
 
-std::string contact_name(const Model& model, int contact) {
-  return contact < 0 ? "" : model.contacts[static_cast<std::size_t>(contact)].name;
+using Names = std::vector<std::string>;
+
+Names contact_names(const Model& model) {
+  Names names;
+  for (const Contact& contact : model.contacts) names.push_back(contact.name);
+  return names;
 }
 
-py::list event_cells(const Model& model, const std::vector<Event>& events, EventColumn::Field field) {
+py::list event_cells(const Names& contacts, const std::vector<Event>& events, EventColumn::Field field) {
   py::list list;
   for (const Event& event : events)
     list.append(std::visit(
@@ -105,7 +111,7 @@ py::list event_cells(const Model& model, const std::vector<Event>& events, Event
           const auto& value = event.*member;
           using Value = std::decay_t<decltype(value)>;
           if constexpr (std::is_same_v<Value, int>) {
-            return py::str(contact_name(model, value));
+            return py::str(value < 0 ? "" : contacts[static_cast<std::size_t>(value)]);
           } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
             return py::float_(value.value_or(std::numeric_limits<double>::quiet_NaN()));
           } else if constexpr (std::is_same_v<Value, double>) {
@@ -120,9 +126,9 @@ py::list event_cells(const Model& model, const std::vector<Event>& events, Event
   return list;
 }
 
-py::dict event_table(const Model& model, const std::vector<Event>& events) {
+py::dict event_table(const Names& contacts, const std::vector<Event>& events) {
   py::dict table;
-  for (const EventColumn& c : event_columns) table[c.name] = event_cells(model, events, c.field);
+  for (const EventColumn& c : event_columns) table[c.name] = event_cells(contacts, events, c.field);
   return table;
 }
 
@@ -195,7 +201,7 @@ py::dict run(const std::string& text, const std::string& file, const Settings& s
   }
   if (kept->interrupted()) throw py::error_already_set();
   py::dict result;
-  result["events"] = event_table(*model, kept->events);
+  result["events"] = event_table(contact_names(*model), kept->events);
   if (report.certificate) {
     const auto& errors = report.certificate->t_errors;
     result["events"]["t_error"] = array({errors.begin(), errors.end()});
@@ -206,6 +212,51 @@ py::dict run(const std::string& text, const std::string& file, const Settings& s
   result["history_units"] = history_units(*model);
   result["summary"] = summary;
   result["toml"] = scene.resolved;
+  return result;
+}
+
+/// Derivatives of events and columns by one parameter.
+py::dict rates_by(const Sensitivities& s, std::size_t p) {
+  py::dict events, columns, figures, entry;
+  for (const EventRateColumn& c : event_rate_columns)
+    events[c.name] = column(s.event_rates, [&](const auto& rates) { return rates[p].*c.value; });
+  for (std::size_t k = 0; k < s.columns.size(); ++k)
+    columns[s.columns[k].c_str()] = column(s.value_rates[p], [&](const auto& row) { return row[k]; });
+  for (const Response& r : s.responses)
+    figures[py::make_tuple(s.contacts[static_cast<std::size_t>(r.contact)], r.name)] =
+        py::make_tuple(r.value, r.rates[p]);
+  entry["value"] = s.parameters[p].value;
+  entry["until"] = s.parameters[p].until;
+  entry["reason"] = s.parameters[p].reason;
+  entry["events"] = events;
+  entry["columns"] = columns;
+  entry["figures"] = figures;
+  return entry;
+}
+
+py::dict sensitivity(const std::string& text, const std::string& file, const std::vector<std::string>& paths,
+                     const Settings& settings) {
+  const SceneReader read = [&](const std::vector<Override>& changes) {
+    std::vector<Override> all = overrides(settings);
+    all.insert(all.end(), changes.begin(), changes.end());
+    return parse_scene(text, file, all);
+  };
+  Kept kept(nullptr);
+  std::optional<Sensitivities> s;
+  {
+    const py::gil_scoped_release free;
+    s = sensitivities(read, paths, &kept);
+  }
+  if (kept.interrupted()) throw py::error_already_set();
+  py::dict result, parameters, values;
+  for (std::size_t p = 0; p < s->parameters.size(); ++p)
+    parameters[s->parameters[p].path.c_str()] = rates_by(*s, p);
+  for (std::size_t k = 0; k < s->columns.size(); ++k)
+    values[s->columns[k].c_str()] = column(s->values, [&](const auto& row) { return row[k]; });
+  result["events"] = event_table(s->contacts, s->events);
+  result["t"] = array(s->times);
+  result["columns"] = values;
+  result["parameters"] = parameters;
   return result;
 }
 
@@ -264,5 +315,6 @@ PYBIND11_MODULE(_signorini, module) {
   module.def("run", &run);
   module.def("check", &check_scene);
   module.def("compare", &compare);
+  module.def("sensitivity", &sensitivity);
   module.def("schema", &scene_schema);
 }

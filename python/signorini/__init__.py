@@ -25,7 +25,7 @@ from . import _signorini
 from ._signorini import Error
 
 __version__ = _signorini.version
-__all__ = ["Error", "Result", "check", "compare", "run", "schema", "sweep", "to_toml"]
+__all__ = ["Error", "Result", "check", "compare", "run", "schema", "sensitivity", "sweep", "to_toml"]
 
 
 def _quoted(text: str) -> str:
@@ -151,6 +151,22 @@ def sweep(scene, vary, settings=None, *, workers=None) -> list[tuple[dict, Resul
 
     with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
         return list(zip(points, pool.map(one, points)))
+
+
+def sensitivity(scene, parameters, settings=None) -> dict:
+    """Derivatives of a run by keys of its scene, along engine exact (docs/command-line.md). parameters: a path, or several.
+
+    events, t, columns         the run's own: tables of arrays
+    parameters[path]           value, until, reason, and by this parameter
+        events                 dt_dp, dN_dp, ...: an array a column, a value an event
+        columns                derivatives of columns at the times t
+        figures                {(contact, "peak N"): (value, derivative)}
+    """
+    text, file = _text(scene)
+    paths = [parameters] if isinstance(parameters, str) else list(parameters)
+    result = _signorini.sensitivity(text, file, paths, _settings(settings))
+    result["events"] = {name: numpy.asarray(values) for name, values in result["events"].items()}
+    return result
 
 
 def schema() -> dict:

@@ -27,7 +27,7 @@ struct FitOptions : OutputOptions {
 };
 
 const OwnedFolder& fit_folder() {
-  static const OwnedFolder folder = {"fit", "fit.json", {"residuals.csv"}};
+  static const OwnedFolder folder = {"fit", "fit.json", {"residuals.csv", "report.html"}};
   return folder;
 }
 

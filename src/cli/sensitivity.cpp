@@ -35,7 +35,7 @@ const OwnedFolder& sensitivity_folder() {
   static const OwnedFolder folder = [] {
     OwnedFolder f{"sensitivities",
                   "sensitivity.json",
-                  {"events.csv", "sensitivities.csv", "figures.csv", "spread.csv"}};
+                  {"events.csv", "sensitivities.csv", "figures.csv", "spread.csv", "report.html"}};
     constexpr int most_parameters = 1000;
     for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
     return f;

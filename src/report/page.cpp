@@ -30,6 +30,8 @@ constexpr Kind kinds[] = {{"compare.json", "comparison"},
                           {"study.json", "study"},
                           {"sweep.json", "sweep"},
                           {"verify.json", "verification"},
+                          {"sensitivity.json", "sensitivity"},
+                          {"fit.json", "fit"},
                           {"summary.json", "run"}};
 
 std::string whole_file(const fs::path& path) {
@@ -177,9 +179,10 @@ std::string kind_of_results(const fs::path& directory) {
   std::error_code error;
   for (const Kind& kind : kinds)
     if (fs::is_regular_file(directory / kind.marker, error)) return kind.name;
-  throw FileError(directory.string(), fs::is_directory(directory, error)
-                                          ? "holds no run, comparison, study, sweep or verification"
-                                          : "is no directory");
+  throw FileError(directory.string(),
+                  fs::is_directory(directory, error)
+                      ? "holds no run, comparison, study, sweep, verification, sensitivities or fit"
+                      : "is no directory");
 }
 
 std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
@@ -203,8 +206,8 @@ std::string results_page(const fs::path& directory) {
   const Json json = read_json(directory / marker);
   std::string body =
       section("summary", "Summary", json_facts(json) + sentences(whole_file(directory / "study.md")));
-  for (const char* table :
-       {"runs.csv", "differences.csv", "columns.csv", "events.csv", "study.csv", "sweep.csv"})
+  for (const char* table : {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv",
+                            "spread.csv", "residuals.csv", "events.csv", "study.csv", "sweep.csv"})
     body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
   body +=
       section("pictures", "Pictures", pictures(directory, "running the command again with gnuplot on PATH"));

@@ -119,6 +119,16 @@ class Others(unittest.TestCase):
         self.assertAlmostEqual(rows[1][1].history["block.ux"][-1], 0.75, places=9)
         self.assertIsInstance(rows[4][1], signorini.Error)
 
+    def test_sensitivity_by_hand(self):
+        # a = 6 - 10 f for 0.5 s, then -10 f: it stops at 1 + 0.5 (6 - 10 f) / (10 f) = 0.5 + 0.3 / f.
+        by = signorini.sensitivity(push, "contacts.plate.friction")
+        stop = list(by["events"]["event"]).index("stick")
+        rates = by["parameters"]["contacts.plate.friction"]
+        self.assertAlmostEqual(rates["events"]["dt_dp"][stop], -0.3 / 0.3**2, places=6)
+        # x = (6 - 10 f) / 8 + (6 - 10 f)^2 / (80 f) = 0.075 (6 - 10 f) / f
+        self.assertAlmostEqual(rates["columns"]["block.ux"][-1], -0.45 / 0.3**2, places=6)
+        self.assertEqual(rates["value"], 0.3)
+
     def test_schema(self):
         self.assertIn("contacts", signorini.schema()["properties"])
 

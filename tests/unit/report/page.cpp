@@ -93,6 +93,15 @@ TEST_SUITE("unit/report/page") {
     CHECK(page.find("<h2>runs.csv</h2>") != std::string::npos);
     CHECK(page.find("id=\"data\">null</script>") != std::string::npos);
     CHECK_THROWS_AS((void)kind_of_results(folder.path), FileError);
+    struct Known {
+      const char *marker, *kind;
+    };
+    for (const auto& [marker, kind] :
+         {Known{"study.json", "study"}, Known{"sweep.json", "sweep"}, Known{"verify.json", "verification"},
+          Known{"sensitivity.json", "sensitivity"}, Known{"fit.json", "fit"}, Known{"summary.json", "run"}}) {
+      folder.write(std::string(kind) + "/" + marker, "{}");
+      CHECK(kind_of_results(folder.path / kind) == kind);
+    }
     CHECK_THROWS_AS((void)kind_of_results(folder.path / "nowhere"), FileError);
     folder.write("b/study.json", "{ not json");
     CHECK_THROWS_AS((void)results_page(folder.path / "b"), FileError);

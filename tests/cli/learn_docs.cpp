@@ -55,7 +55,7 @@ TEST_CASE("cli tutorial: every command runs, and what the text says comes out") 
   for (const char* event : {"slip", "separation", "contact", "stick"})
     CHECK(has(shell.read("portal-run/events.csv"), std::string(",footing,") + event + ","));
   CHECK(has(shell.read("certified/events.csv"), ",t_error,certain\n"));
-  CHECK(has(shell.read("pipe-sweep/sweep.csv"), "\n0.5,"));
+  CHECK(has(shell.read("pipe-sweep/sweep.csv"), "\n3,0.5,done,"));
   CHECK(exists(shell, "pipeline/paraview/run.pvd"));
 }
 

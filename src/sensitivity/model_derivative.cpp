@@ -101,7 +101,15 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   for (double& v : d.v0) visit(v);
 }
 
-HistoryRates numbers_of(const History& history) { return {history.starts(), history.pieces()}; }
+// Coefficients of a piece at least, so that what is zero at the value has a place beside it: a cubic's integral.
+constexpr std::size_t fewest_coefficients = 5;
+
+HistoryRates numbers_of(const History& history) {
+  HistoryRates numbers{history.starts(), history.pieces()};
+  for (Piece& piece : numbers.pieces)
+    if (piece.coefficients.size() < fewest_coefficients) piece.coefficients.resize(fewest_coefficients, 0.0);
+  return numbers;
+}
 
 ContactRates numbers_of(const Contact& contact) {
   ContactRates c;
@@ -145,7 +153,8 @@ std::vector<long> shape_of(const Model& model) {
     for (const auto& [index, factor] : c.terms) shape.push_back(index);
   };
   const auto history = [&](const History& h) {
-    for (const Piece& piece : h.pieces()) shape.push_back(static_cast<long>(piece.coefficients.size()));
+    for (const Piece& piece : h.pieces())
+      shape.push_back(static_cast<long>(std::max(piece.coefficients.size(), fewest_coefficients)));
     shape.push_back(-1);
   };
   for (const Dof& dof : model.dofs) shape.push_back(dof.massless);
@@ -193,15 +202,15 @@ class Differences {
       take(six_points());
       if (agree(six_points())) return combined(six_points());
       return std::nullopt;
-    } catch (const SceneError& error) {
-      refusal_ = error;
+    } catch (const Error& error) {
+      refusal_ = error.what();
     }
     for (const double side : {1.0, -1.0}) {
       moved_.clear();
       step_ = side * h;
       try {
         take(one_side());
-      } catch (const SceneError&) {
+      } catch (const Error&) {
         continue;
       }
       if (!agree(one_side())) continue;
@@ -213,7 +222,7 @@ class Differences {
   }
 
   /// Why the scene is refused beside the value, if it is.
-  [[nodiscard]] const std::optional<SceneError>& refusal() const { return refusal_; }
+  [[nodiscard]] const std::optional<std::string>& refusal() const { return refusal_; }
 
  private:
   struct Moved {
@@ -349,7 +358,7 @@ class Differences {
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;
-  std::optional<SceneError> refusal_;
+  std::optional<std::string> refusal_;
 };
 
 }  // namespace
@@ -365,7 +374,7 @@ ModelDerivative derivative(const SceneReader& read, const Model& model, const st
       return *d;
     }
   std::string why = "the data of the model do not depend smoothly on it at its value";
-  if (differences.refusal()) why = std::string("it cannot be varied: ") + differences.refusal()->what();
+  if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
   throw UsageError(fmt::format("--parameter {}: {}", path, why));
 }
 

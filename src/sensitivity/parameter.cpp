@@ -102,7 +102,7 @@ double typical_size(const SceneReader& read, const Scene& scene, const Model& mo
         ++i;
       });
       return size;
-    } catch (const SceneError&) {  // it may be of one sign only
+    } catch (const Error&) {  // it may be of one sign only
     }
   }
   return 1.0;

@@ -49,7 +49,7 @@ SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, do
 
 void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
-  const Eigen::Index columns = series.u.cols(), rows = series.forces.cols();
+  const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // of forces; beyond is anything
   Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(columns, columns);
   double power = 1.0;
   for (Eigen::Index j = 0; j < columns; ++j, power *= part) {
@@ -63,7 +63,7 @@ void recentre(const Series& series, const Forcing& forcing, double x, double par
   out.scale = series.scale * part;
   out.levels = series.levels;
   out.u.noalias() = series.u * shift;
-  out.forces.noalias() = series.forces * shift.topLeftCorner(rows, rows);
+  out.forces.noalias() = series.forces.leftCols(known) * shift.topLeftCorner(known, known);
   forcing.expand(out.t, out.scale, static_cast<std::size_t>(columns), out.forcing);
 }
 

@@ -1,0 +1,104 @@
+#include "sensitivity/model_derivative.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "model/rescale.hpp"
+#include "sensitivity/parameter.hpp"
+#include "signorini/error.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// A beam from the ground, a mass at its tip over a contact.
+SceneReader beam_reader(const std::string& more = "") {
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\ngravity = [0.0, "
+      "-10.0]\n"
+      "[run]\nt_end = 1.0\ninitial = \"static\"\n" +
+      more +
+      "[sections.pipe]\nEA = 3e5\nEI = 2e3\nmass_per_length = 2.0\n[nodes]\nA = [0.0, 0.0]\nB = [2.0, 0.0]\n"
+      "[[members]]\nnodes = [\"A\", \"B\"]\nsection = \"pipe\"\nelements = [2]\n"
+      "[[supports]]\nnode = \"A\"\nfix = [\"ux\", \"uy\", \"rz\"]\n"
+      "[[contacts]]\nname = \"c\"\nnode = \"B\"\nnormal = [0.0, 1.0]\nlaw = \"compliant\"\nnormal_stiffness "
+      "= 1e4\n"
+      "tangential_stiffness = 1e4\nfriction = 0.3\n";
+  return [text](const std::vector<Override>& changes) { return parse_scene(text, "beam.toml", changes); };
+}
+
+/// In the units of the machine, those of the scene without changes.
+Model computed(const SceneReader& read, const std::vector<Override>& changes = {}) {
+  return rescaled(build_model(read(changes)), inverse(build_model(read({})).machine));
+}
+
+ModelDerivative of(const SceneReader& read, const std::string& path) {
+  const Scene scene = read({});
+  const double value = value_of(scene, path);
+  return derivative(read, computed(read), path, value, value != 0.0 ? std::abs(value) : 1.0);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/sensitivity/model_derivative");
+
+TEST_CASE("K by EI is K of a beam of EI one; M does not move") {
+  const SceneReader read = beam_reader();
+  const ModelDerivative d = of(read, "sections.pipe.EI");
+  const SparseMatrix more = computed(read, {{"sections.pipe.EI", "3e3"}}).stiffness;
+  const SparseMatrix less = computed(read, {{"sections.pipe.EI", "1e3"}}).stiffness;
+  const SparseMatrix expected = (more - less) / 2e3;  // linear in EI
+  CHECK(SparseMatrix(d.stiffness - expected).norm() <= 1e-12 * expected.norm());
+  CHECK(d.mass.nonZeros() == 0);
+  CHECK_FALSE(d.one_sided);
+}
+
+TEST_CASE("what goes as 1/p^3, and an equilibrium, against differences of a hundredth of the step") {
+  const SceneReader read = beam_reader();
+  const ModelDerivative d = of(read, "nodes.B.1");
+  const auto model = [&](double x) { return computed(read, {set_to("nodes.B.1", x)}); };
+  const double h = 1e-4;
+  const Model a = model(2.0 - h), b = model(2.0 + h);
+  const SparseMatrix expected = (b.stiffness - a.stiffness) / (2.0 * h);
+  CHECK(SparseMatrix(d.stiffness - expected).norm() <= 1e-7 * expected.norm());
+  const Vector start = (b.u0 - a.u0) / (2.0 * h);
+  CHECK((d.u0 - start).norm() <= 1e-6 * start.norm());
+  CHECK(start.norm() > 0.0);
+}
+
+TEST_CASE("rows and guards of a contact by its friction") {
+  const ModelDerivative d = of(beam_reader(), "contacts.c.friction");
+  const ContactRates& c = d.contacts[0];
+  CHECK(c.rows[index_of(State::slip_plus)].tangent.N == doctest::Approx(1.0));
+  CHECK(c.rows[index_of(State::slip_minus)].tangent.N == doctest::Approx(-1.0));
+  CHECK(c.guards[index_of(State::stick)][1].N == doctest::Approx(-1.0));
+  CHECK(c.guards[index_of(State::slip_plus)][1].vn == doctest::Approx(1.0));  // s kn/kt
+  CHECK(c.rows[index_of(State::stick)].tangent.ut == 0.0);
+  CHECK(d.stiffness.nonZeros() + d.mass.nonZeros() + d.damping.nonZeros() == 0);
+  CHECK(d.u0.norm() == 0.0);
+}
+
+TEST_CASE("at the edge of what a key may be the differences go to one side") {
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+      "1.0\n"
+      "initial = { u = [1.0], v = [0.0] }\n[matrices]\nmass = [[1.0]]\nstiffness = "
+      "[[0.0]]\n[[contacts]]\nname = \"c\"\n"
+      "law = \"rigid\"\nnormal = { d0 = 1.0 }\nrestitution = 1.0\n[[loads]]\ndirection = { d0 = 1.0 "
+      "}\namplitude = -1.0\n";
+  const SceneReader ball = [text](const std::vector<Override>& changes) {
+    return parse_scene(text, "ball.toml", changes);
+  };
+  const ModelDerivative d = of(ball, "contacts.c.restitution");
+  CHECK(d.one_sided);
+  CHECK(d.contacts[0].restitution == doctest::Approx(1.0));
+  CHECK_THROWS_AS(of(ball, "contacts.c.friction"), UsageError);  // without friction there is another law
+}
+
+TEST_CASE("shapes of a reduced model that move with the key are refused, friction is not") {
+  const SceneReader reduced = beam_reader("[reduction]\ncutoff_frequency = 20.0\n");
+  CHECK_THROWS_AS(of(reduced, "sections.pipe.EI"), UsageError);
+  CHECK(of(reduced, "contacts.c.friction").contacts[0].rows[index_of(State::slip_plus)].tangent.N ==
+        doctest::Approx(1.0));
+}

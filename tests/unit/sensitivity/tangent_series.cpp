@@ -1,0 +1,73 @@
+#include "sensitivity/tangent_series.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "signorini/sensitivity.hpp"
+
+using namespace signorini;
+
+TEST_SUITE_BEGIN("unit/sensitivity/tangent_series");
+
+TEST_CASE("a polynomial about another place is the same polynomial") {
+  Model model;
+  model.dofs.resize(1);
+  model.u0 = model.v0 = Vector::Zero(1);
+  Series s;
+  s.t = 2.0;
+  s.scale = 0.5;
+  s.levels = 3;
+  s.u.resize(1, 6);
+  s.u << 1.0, -2.0, 0.5, 3.0, -0.25, 0.125;
+  s.forces.resize(2, 6);  // levels 0 to 3, and room that nobody has written to
+  s.forces << 1.0, 2.0, -1.0, 0.5, NAN, NAN, 3.0, 0.0, 0.0, -2.0, NAN, NAN;
+  Series moved;
+  recentre(s, Forcing::none(model), 0.4, 0.5, moved);
+  CHECK(moved.t == doctest::Approx(2.2));
+  CHECK(moved.scale == doctest::Approx(0.25));
+  const auto value = [](const Series& series, double x) {
+    double sum = 0.0;
+    for (Eigen::Index k = series.u.cols(); k-- > 0;) sum = sum * x + series.u(0, k);
+    return sum;
+  };
+  for (const double x : {-1.0, 0.0, 0.3, 1.0})
+    for (Eigen::Index f = 0; f < 2; ++f) {
+      const auto force = [f](const Series& series, double z) {
+        return series.forces(f, 0) +
+               z * (series.forces(f, 1) + z * (series.forces(f, 2) + z * series.forces(f, 3)));
+      };
+      CHECK(force(moved, x) == doctest::Approx(force(s, 0.4 + 0.5 * x)).epsilon(1e-14));
+    }
+  for (const double x : {-1.0, 0.0, 0.3, 1.0})
+    CHECK(value(moved, x) == doctest::Approx(value(s, 0.4 + 0.5 * x)).epsilon(1e-14));
+}
+
+TEST_CASE("ten parameters beside each other are ten parameters one by one") {
+  const SceneReader read = reader_of(std::string(SIGNORINI_MODELS) + "/pipeline.toml",
+                                     {{"run.t_end", "0.01"}, {"run.output_dt", "0.005"}});
+  const std::vector<std::string> paths{"contacts.*.friction",
+                                       "loads.1.amplitude",
+                                       "contacts.first.friction",
+                                       "contacts.second.friction",
+                                       "gravity.2",
+                                       "sections.pipe.EI",
+                                       "contacts.first.normal_stiffness",
+                                       "nodes.D.1",
+                                       "sections.pipe.mass_per_length",
+                                       "contacts.second.tangential_stiffness"};
+  const Sensitivities all = sensitivities(read, paths);
+  for (const std::size_t p : {std::size_t{0}, std::size_t{5}, std::size_t{9}}) {
+    CAPTURE(paths[p]);
+    const Sensitivities one = sensitivities(read, {paths[p]});
+    REQUIRE(one.events.size() == all.events.size());
+    for (std::size_t i = 0; i < one.events.size(); ++i) {
+      const double t = one.event_rates[i][0].t;
+      CHECK(std::abs(all.event_rates[i][p].t - t) <= 1e-10 * std::abs(t));
+    }
+    for (std::size_t c = 0; c < one.columns.size(); ++c) {
+      const double x = one.value_rates[0].back()[c];
+      CHECK(std::abs(all.value_rates[p].back()[c] - x) <= 1e-9 * std::abs(x) + 1e-15);
+    }
+  }
+}

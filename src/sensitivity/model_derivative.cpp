@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/rounding.hpp"
@@ -50,12 +51,6 @@ constexpr double rounding_of_data = 4096.0 * rounding::eps;
 // Chosen; the pipeline's own equilibrium is known to 1e-11.
 constexpr double rounding_of_solves = 1e-8;
 
-/// All numbers of a model but its matrices; of derivatives the same shape holds.
-struct Numbers {
-  std::vector<double> values;
-  std::vector<long> shape;
-};
-
 template <class Visit>
 void visit_form(Form& f, const Visit& visit) {
   for (double* x :
@@ -76,16 +71,40 @@ void visit_rates(HistoryRates& h, const Visit& visit) {
 }
 
 template <class Visit>
-void visit_all(ModelDerivative& d, const Visit& visit) {
-  const auto combination = [&](Combination& c) {
-    for (auto& [index, factor] : c.terms) visit(factor);
-  };
-  for (LoadRates& load : d.loads) {
-    combination(load.direction);
-    visit_rates(load.history, visit);
+void visit_combinations(ModelDerivative& d, const Visit& visit) {
+  for (LoadRates& load : d.loads) visit(load.direction);
+  for (ContactRates& c : d.contacts)
+    for (Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) visit(*form);
+}
+
+/// What is zero here and not there has no term: all get those of each.
+void align(const std::vector<ModelDerivative*>& all) {
+  std::vector<std::map<int, double>> none;
+  for (ModelDerivative* data : all) {
+    std::size_t i = 0;
+    visit_combinations(*data, [&](Combination& c) {
+      if (none.size() == i) none.emplace_back();
+      for (const auto& term : c.terms) none[i][term.first] = 0.0;
+      ++i;
+    });
   }
+  for (ModelDerivative* data : all) {
+    std::size_t i = 0;
+    visit_combinations(*data, [&](Combination& c) {
+      std::map<int, double> factors = none[i++];
+      for (const auto& [index, factor] : c.terms) factors[index] += factor;
+      c.terms.assign(factors.begin(), factors.end());
+    });
+  }
+}
+
+template <class Visit>
+void visit_all(ModelDerivative& d, const Visit& visit) {
+  visit_combinations(d, [&](Combination& c) {
+    for (auto& [index, factor] : c.terms) visit(factor);
+  });
+  for (LoadRates& load : d.loads) visit_rates(load.history, visit);
   for (ContactRates& c : d.contacts) {
-    for (Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) combination(*form);
     for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction})
       visit(*x);
     visit_rates(c.normal_force, visit);
@@ -148,22 +167,14 @@ ModelDerivative data_of(const Model& model) {
 /// What must be the same for differences to mean something.
 std::vector<long> shape_of(const Model& model) {
   std::vector<long> shape{static_cast<long>(model.dofs.size())};
-  const auto combination = [&](const Combination& c) {
-    shape.push_back(static_cast<long>(c.terms.size()));
-    for (const auto& [index, factor] : c.terms) shape.push_back(index);
-  };
   const auto history = [&](const History& h) {
     for (const Piece& piece : h.pieces())
       shape.push_back(static_cast<long>(std::max(piece.coefficients.size(), fewest_coefficients)));
     shape.push_back(-1);
   };
   for (const Dof& dof : model.dofs) shape.push_back(dof.massless);
-  for (const Load& load : model.loads) {
-    combination(load.direction);
-    history(load.history);
-  }
+  for (const Load& load : model.loads) history(load.history);
   for (const Contact& c : model.contacts) {
-    for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()}) combination(*form);
     history(c.normal_force);
     history(c.surface_motion);
     for (const bool has : {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(),
@@ -179,6 +190,18 @@ std::vector<double> values_of(ModelDerivative& data) {
   std::vector<double> values;
   visit_all(data, [&](double& x) { values.push_back(x); });
   return values;
+}
+
+/// What the rounding of each number is relative to: itself, in a form its greatest factor.
+std::vector<double> sizes_of(ModelDerivative data) {
+  visit_combinations(data, [](Combination& c) {
+    double greatest = 0.0;
+    for (const auto& term : c.terms) greatest = std::max(greatest, std::abs(term.second));
+    for (auto& term : c.terms) term.second = greatest;
+  });
+  std::vector<double> sizes = values_of(data);
+  for (double& size : sizes) size = std::abs(size);
+  return sizes;
 }
 
 class Differences {
@@ -240,8 +263,11 @@ class Differences {
       if (shape_of(model) != shape_ || !same_coordinates(model))
         throw SceneError({}, path_, "the structure of the model changes with it near its value");
       moved_.push_back({point, data_of(model), {}});
-      moved_.back().values = values_of(moved_.back().data);
     }
+    std::vector<ModelDerivative*> all{&base_};
+    for (Moved& m : moved_) all.push_back(&m.data);
+    align(all);
+    for (Moved& m : moved_) m.values = values_of(m.data);
   }
 
   /// Amplitudes of shapes that move with the parameter are other unknowns.
@@ -279,10 +305,11 @@ class Differences {
   /// Both stencils say the same of every number, to what rounding makes of it.
   [[nodiscard]] bool agree(const Stencil& stencil) const {
     const std::size_t count = moved_.front().values.size();
+    const std::vector<double> least = sizes_of(base_);
     const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 come last
     const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < count; ++i) {
-      double better = 0.0, check = 0.0, size = 0.0;
+      double better = 0.0, check = 0.0, size = least[i];
       for (std::size_t k = 0; k < stencil.points.size(); ++k) {
         const double x = at_point(stencil.points[k]).values[i];
         better += stencil.weights[k] * x;

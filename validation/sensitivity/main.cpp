@@ -37,6 +37,13 @@ class Deadline : public Result {
   std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
 };
 
+/// "matrices.mass.2.3": alone it would make the matrix unsymmetric.
+bool off_diagonal(const std::string& path) {
+  if (!path.starts_with("matrices.")) return false;
+  const std::size_t last = path.rfind('.'), before = path.rfind('.', last - 1);
+  return path.substr(last) != path.substr(before, last - before);
+}
+
 /// All numbers of a table by path, but those of [run] and what is no datum.
 void collect(const toml::node& node, const std::string& path, std::vector<std::string>& found) {
   if (const auto* table = node.as_table()) {
@@ -51,7 +58,8 @@ void collect(const toml::node& node, const std::string& path, std::vector<std::s
       collect((*array)[i], fmt::format("{}.{}", path, i + 1), found);
   } else if (const auto number = node.value<double>();
              number && !node.is_boolean() && std::isfinite(*number)) {
-    if (path.find("elements") == std::string::npos && path.find("rounds") == std::string::npos)
+    if (path.find("elements") == std::string::npos && path.find("rounds") == std::string::npos &&
+        !off_diagonal(path))
       found.push_back(path);
   }
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "signorini/contact.hpp"
+#include "signorini/output.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
@@ -162,6 +163,10 @@ struct Model {
   std::vector<Load> loads;
   std::vector<Contact> contacts;
   std::vector<Column> columns;
+  std::vector<Output> outputs;
+  /// Along x and y: reactions less what loads and inertia ask for; zero but for the residual of the equation
+  /// of motion. Empty unless a reaction is asked for of a model that is not reduced.
+  std::vector<Output> reaction_sums;
   std::vector<DrawnElement> drawing;
   std::vector<DrawnNode> drawn_nodes;
   std::vector<DrawnContact> drawn_contacts;  ///< one a contact

@@ -81,6 +81,8 @@ class Recorder {
   virtual void motion(int /*contact*/, const std::vector<MotionRow>& /*rows*/) {}
   /// At the end of a run, once: the rest of what a picture needs (run/curve_record.hpp).
   virtual void curves(const Curves& /*curves*/) {}
+  /// The model's outputs, at output times and on both sides of every instant; t ascends, and may repeat.
+  virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
   /// Called often with the time reached; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };
@@ -109,6 +111,8 @@ struct Audit {
   Extreme equilibrium;  ///< residual of the equation of motion, force
   Extreme penetration;  ///< rigid contacts, length
   Extreme energy;       ///< |balance(t) - balance(0)|
+  /// Sum of the reactions less that of loads and inertia, force; where a reaction is asked for.
+  std::optional<Extreme> reactions;
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
   long impulses_on_closed = 0;        ///< impulses that contacts took while they were closed
   double work_of_loads = 0.0;         ///< greatest |W_loads(t)|
@@ -139,6 +143,12 @@ struct Landing {
   double peak_force = 0.0;  ///< greatest -N
 };
 
+/// Extremes of one output over the whole motion, not only its rows, and its last value.
+struct OutputExtremes {
+  double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
+  double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, where several are equal to rounding
+};
+
 /// Which engine computes, and how.
 struct Method {
   Engine engine = Engine::ida;  ///< never automatic
@@ -157,6 +167,7 @@ struct Report {
   Audit audit;
   std::vector<Peak> peaks;                     ///< one a contact
   std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
+  std::vector<OutputExtremes> response;        ///< one an output
   std::map<std::string, long> events_by_type;
   long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
   std::vector<std::string> warnings;  ///< one sentence each
@@ -174,9 +185,17 @@ class Result : public Recorder {
   };
   void event(const Event& event) override { events.push_back(event); }
   void sample(const Sample& s) override { rows.push_back({s.t, *s.u, *s.v, s.contacts, s.energy}); }
+  void response(double t, const std::vector<double>& values) override { responses.push_back({t, values}); }
+
+  /// A row of response.csv.
+  struct Response {
+    double t;
+    std::vector<double> values;
+  };
 
   std::vector<Event> events;
   std::vector<Row> rows;
+  std::vector<Response> responses;
   Report report;
 };
 

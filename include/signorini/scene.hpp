@@ -287,6 +287,56 @@ struct LoadSpec {
   bool member_axes = false;              ///< distributed: direction is (along, to the left) of the piece
 };
 
+/// What an [[output]] is; a row of all_output_kinds each.
+enum class OutputKind : unsigned char {
+  displacement,
+  velocity,
+  acceleration,
+  relative,
+  member_force,
+  reaction,
+  spring,
+  contact,
+  combination
+};
+/// Of a member N, V, M; of a contact the others, and N.
+enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss };
+
+struct OutputKindName {
+  OutputKind kind;
+  const char* name;     ///< as in scene files
+  const char* meaning;  ///< for the documentation
+};
+inline constexpr std::array all_output_kinds = {
+    OutputKindName{OutputKind::displacement, "displacement", "of a node along a direction"},
+    OutputKindName{OutputKind::velocity, "velocity", "of a node along a direction"},
+    OutputKindName{OutputKind::acceleration, "acceleration",
+                   "of a node along a direction, absolute: that of the base is added"},
+    OutputKindName{OutputKind::relative, "relative",
+                   "displacement of the first node less that of the second, along a direction"},
+    OutputKindName{OutputKind::member_force, "member_force",
+                   "N, V or M of the piece of a member between two nodes, at a station"},
+    OutputKindName{OutputKind::reaction, "reaction",
+                   "force (or moment) of the supports of a node on the structure"},
+    OutputKindName{OutputKind::spring, "spring", "force (or moment) in a spring and the damper beside it"},
+    OutputKindName{OutputKind::contact, "contact", "N, T, gap, slip or loss of a contact"},
+    OutputKindName{OutputKind::combination, "combination", "sum of other outputs times factors"},
+};
+
+/// A response quantity: a column of response.csv.
+struct OutputSpec {
+  std::string name;
+  OutputKind kind = OutputKind::displacement;
+  std::vector<std::string> at;  ///< nodes, or a contact
+  Direction direction;          ///< unit vector, or degrees of freedom as given
+  bool rotation = false;        ///< instead of a direction
+  OutputQuantity quantity = OutputQuantity::none;
+  double station = 0.0;                               ///< member_force: from at[0], 0, to at[1], 1
+  std::size_t spring = 0;                             ///< index into Scene::springs
+  std::vector<std::pair<std::string, double>> terms;  ///< combination: outputs that stand before it
+  SourcePlace place;
+};
+
 /// Triplets (row, column, value), symmetric ones written out in full.
 struct MatrixSpec {
   int size = 0;
@@ -320,6 +370,7 @@ struct Scene {
   std::vector<ContactSpec> contacts;
   std::vector<LoadSpec> loads;
   std::vector<BaseMotionSpec> base_motion;
+  std::vector<OutputSpec> outputs;
   std::optional<MatricesSpec> matrices;
   std::optional<ReductionSpec> reduction;
   std::string resolved;  ///< the same scene as TOML with every default filled in (run.toml)

@@ -48,6 +48,9 @@ class Tracker : public Recorder {
   void curves(const Curves& curves) override {
     if (next_ != nullptr) next_->curves(curves);
   }
+  void response(double t, const std::vector<double>& values) override {
+    if (next_ != nullptr) next_->response(t, values);
+  }
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;

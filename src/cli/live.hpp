@@ -32,6 +32,7 @@ class Live : public Recorder {
   [[nodiscard]] bool wants_motion() const override { return next_.wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override { next_.motion(contact, rows); }
   void curves(const Curves& curves) override { next_.curves(curves); }
+  void response(double t, const std::vector<double>& values) override { next_.response(t, values); }
   bool progress(double t) override;
 
   /// At most this many are shown in full; of more, the first and the last ones.

@@ -112,6 +112,7 @@ std::string audit_table(const Model& model, const Audit& a) {
   add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
               energy + "/" + model.units.time);
   add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
+  if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
   add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
               a.energy_scale > moved * a.force_scale * a.length_scale);
   return table.str();
@@ -186,6 +187,22 @@ std::string contact_table(const Model& model, const Report& report) {
   if (model.contacts.size() > most) {
     table.line(fmt::format("... {} more; all are in summary.json", model.contacts.size() - most));
   }
+  return table.str();
+}
+
+std::string response_table(const Model& model, const Report& report) {
+  constexpr std::size_t most = 40;
+  if (report.response.size() != model.outputs.size() || model.outputs.empty()) return "";
+  const std::string at = "at t [" + model.units.time + "]";
+  Table table({"response", "unit", "maximum", at, "minimum", at, "at the end"},
+              {false, false, true, true, true, true, true});
+  for (std::size_t i = 0; i < model.outputs.size() && i < most; ++i) {
+    const OutputExtremes& e = report.response[i];
+    table.row({model.outputs[i].name, unit_text(model.outputs[i].unit, model.units), number(e.maximum),
+               number(e.t_maximum), number(e.minimum), number(e.t_minimum), number(e.last)});
+  }
+  if (model.outputs.size() > most)
+    table.line(fmt::format("... {} more; all are in summary.json", model.outputs.size() - most));
   return table.str();
 }
 

@@ -19,6 +19,9 @@ namespace signorini::cli {
 /// One row a contact: static reaction, greatest motions and forces, friction loss.
 [[nodiscard]] std::string contact_table(const Model& model, const Report& report);
 
+/// One row an output: extremes with their times, and its last value; empty without outputs.
+[[nodiscard]] std::string response_table(const Model& model, const Report& report);
+
 /// Outcome, events by type, audit, energy balance, effort.
 [[nodiscard]] std::string closing(const RunSpec& run, const Model& model, const Report& report);
 

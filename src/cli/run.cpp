@@ -97,10 +97,12 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     print(events + "\n");
     const std::string contacts = contact_table(model, report);
     if (!contacts.empty()) print(contacts + "\n");
+    if (const std::string response = response_table(model, report); !response.empty()) print(response + "\n");
     print(closing(scene.run, model, report) + certification(model, certified));
     const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
-    print("results: " + path.string() + "/ (events.csv, history.csv, contacts.csv, energy.csv, " + frames +
-          "summary.json, run.toml)\n");
+    const std::string response = model.outputs.empty() ? "" : "response.csv, ";
+    print("results: " + path.string() + "/ (events.csv, history.csv, " + response +
+          "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n");
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =

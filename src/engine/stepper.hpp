@@ -47,6 +47,14 @@ class Stepper {
   [[nodiscard]] virtual Step advance() = 0;
   /// The solution at begin <= t <= end of the last step.
   virtual void evaluate(double t, Point& point) = 0;
+  /// Puts accelerations into a point that evaluate() has made at t, where they are missing.
+  virtual void accelerate(double /*t*/, Point& /*point*/) {}
+  /// The same as evaluate and accelerate, but as cheap as the engine has it: of fixed steps between their
+  /// ends.
+  virtual void interpolate(double t, Point& point) {
+    evaluate(t, point);
+    accelerate(t, point);
+  }
   /// Adds the integrals of all powers over the part [from, to] of the last step.
   virtual void integrate(double from, double to, Works& works) = 0;
   /// Greatest entry of the residual of the equation of motion at the end of the last step. Unit: force.

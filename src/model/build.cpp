@@ -1,7 +1,7 @@
 // build_model: the scene as matrices, in the order in which one thing needs the other:
 //
 //   degrees of freedom -> M, K, dampers -> contacts, loads -> initial state -> omega1 -> C -> scales
-//   -> doubts -> reduction, or undamped massless motions apart -> shear elements
+//   -> doubts -> reduction, or undamped massless motions apart -> shear elements -> outputs
 //
 // All of it in the machine's units, and then in the scene's: so a change of units changes no bit of it.
 #include <fmt/core.h>
@@ -17,6 +17,7 @@
 #include "model/machine_units.hpp"
 #include "model/massless.hpp"
 #include "model/modes/modes.hpp"
+#include "model/outputs/make_outputs.hpp"
 #include "model/reduce/reduction.hpp"
 #include "model/rescale.hpp"
 #include "model/rigid_contacts.hpp"
@@ -132,6 +133,7 @@ Model assembled(const Scene& scene, const Factors& unit) {
     separate_undamped(model);
   }
   add_shear_elements(scene, model);
+  make_outputs(scene, map, model);
   return model;
 }
 

@@ -62,6 +62,22 @@ class Rescaling {
     (*this)(load.history, load.of_history);
   }
 
+  /// A form on displacements whose value has this unit.
+  void value_of(Combination& form, const Unit& of) const {
+    const double value = factor_of(of, factors_);
+    for (auto& [i, factor] : form.terms) factor *= value / of_dof(i);
+  }
+  void operator()(Output& o) const {
+    const Unit& of = o.unit;
+    value_of(o.u, of);
+    value_of(o.v, {of.force, of.length, of.time + 1});
+    value_of(o.a, {of.force, of.length, of.time + 2});
+    for (Output::ContactForces& f : o.forces)
+      for (double* x : {&f.N, &f.T}) (*this)(*x, {of.force - 1, of.length, of.time});
+    for (History& history : o.given) (*this)(history, of);
+    (*this)(o.constant, of);
+  }
+
   void operator()(Contact& c) const {
     (*this)(c.normal);
     (*this)(c.tangent);
@@ -125,6 +141,8 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.stiffness, unit::plain);
   for (Load& load : model.loads) rescale(load);
   for (Contact& contact : model.contacts) rescale(contact);
+  for (std::vector<Output>* outputs : {&model.outputs, &model.reaction_sums})
+    for (Output& output : *outputs) rescale(output);
   rescale_drawing(model, rescale);
   rescale(model.u0, unit::plain);
   rescale(model.v0, unit::rate);

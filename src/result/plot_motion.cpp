@@ -85,6 +85,44 @@ std::string displacement_script(const PlottedRun& run) {
   return s + end_script();
 }
 
+std::string response_script(const PlottedRun& run) {
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < run.facts.response.size(); ++i) {
+    const std::string& unit = run.facts.response[i].unit;
+    const auto same =
+        std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.suffix == unit; });
+    Panel& p = same == panels.end() ? panels.emplace_back(Panel{unit, "[" + unit + "]", {}}) : *same;
+    p.columns.push_back(i);
+  }
+  if (panels.empty()) return "";
+  for (Panel& p : panels)
+    if (p.columns.size() == 1) p.label = run.facts.response[p.columns[0]].name + " " + p.label;
+  const int count = static_cast<int>(panels.size());
+  const int height = 120 + (count == 1 ? 480 : 290 * count);
+  std::string s = begin_script(run, {"response", "Response quantities", height});
+  s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
+  s += "unset colorbox\n";
+  const double bottom = 58.0 / height, top = 1.0 - 62.0 / height, space = 22.0 / height;
+  const double panel_height = (top - bottom - space * (count - 1)) / count;
+  for (int i = 0; i < count; ++i) {
+    const Panel& p = panels[static_cast<std::size_t>(i)];
+    const double upper = top - i * (panel_height + space);
+    s += panel(run, upper - panel_height, upper, p.label, i + 1 == count);
+    const std::size_t shown = std::min(p.columns.size(), most_curves);
+    std::vector<std::string> elements;
+    for (std::size_t j = 0; j < shown; ++j)
+      elements.push_back(fmt::format("'../response.csv' using 1:{} with lines linewidth {} {} title {}",
+                                     p.columns[j] + 2, j % 2 == 0 ? "1.9" : "1.2",
+                                     colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
+                                     quoted(run.facts.response[p.columns[j]].name)));
+    if (shown < p.columns.size())
+      elements.push_back("NaN with lines linecolor '#ffffff' title " +
+                         quoted(fmt::format("(first {} of {})", shown, p.columns.size())));
+    s += plot_command(elements);
+  }
+  return s + end_script();
+}
+
 std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start) {
   static const std::array<std::pair<const char*, const char*>, 8> parts = {{
       {"kinetic", "linewidth 1.2 linecolor '#1f77b4'"},

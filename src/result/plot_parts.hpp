@@ -113,6 +113,8 @@ static_assert(event_looks.size() + 1 == all_event_types.size(),
 [[nodiscard]] std::string states_script(const PlottedRun& run);
 /// Loads over time, and the base's acceleration; `columns`: of loads.csv. Empty when there are none.
 [[nodiscard]] std::string loads_script(const PlottedRun& run, const std::vector<std::string>& columns);
+/// The outputs over time, a panel a unit; empty when there are none.
+[[nodiscard]] std::string response_script(const PlottedRun& run);
 /// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
 [[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);
 

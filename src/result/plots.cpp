@@ -197,9 +197,9 @@ void check_window(const PlotWindow& window, const PlottedRun& run) {
 
 bool is_picture_of_run(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named = stem == "displacement" || stem == "energy" || stem == "loads" || stem == "states" ||
-                     stem == "cone" || stem.starts_with("raster") || stem.starts_with("contact-") ||
-                     stem.starts_with("frame-");
+  const bool named = stem == "displacement" || stem == "energy" || stem == "response" || stem == "loads" ||
+                     stem == "states" || stem == "cone" || stem.starts_with("raster") ||
+                     stem.starts_with("contact-") || stem.starts_with("frame-");
   const bool table =
       stem.starts_with("states-") || stem.starts_with("frame-") || stem == "marks" || stem == "marks-events";
   return (is_picture(file) && named) || (file.extension() == ".csv" && table);
@@ -238,6 +238,7 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
     write_file(scripts.back(), text);
   };
   add("displacement", displacement_script(run));
+  if (fs::is_regular_file(directory / "response.csv", missing)) add("response", response_script(run));
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
     write_file(folder / ("states-" + run.slugs[k] + ".csv"), band_table(run.bands[k]));
     add("contact-" + run.slugs[k], contact_script(run, k));

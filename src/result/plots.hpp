@@ -1,6 +1,7 @@
 // plots.hpp: gnuplot scripts that draw a run from its own tables.
 //
 //   DIR/plots/displacement.gp         displacements over time
+//   DIR/plots/response.gp             response quantities over time, a panel a unit
 //   DIR/plots/contact-NAME.gp         N, T against its limits, gap and slip; states as coloured bands
 //   DIR/plots/contact-NAME-events.gp  the same from the first to the last event, where that is a short part
 //   DIR/plots/states.gp               the states of all contacts, one bar a contact

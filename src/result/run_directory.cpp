@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 14> run_files = {
+constexpr std::array<std::string_view, 15> run_files = {
     "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
     "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
-    "summary.json", "run.toml",    "states.csv", "report.html"};
+    "summary.json", "run.toml",    "states.csv", "report.html",  "response.csv"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -99,12 +99,15 @@ struct RunDirectory::Writers {
       : events(path / "events.csv", model),
         history(path / "history.csv", model),
         contacts(path / "contacts.csv", model),
-        energy(path / "energy.csv") {}
+        energy(path / "energy.csv") {
+    if (!model.outputs.empty()) response.emplace(path / "response.csv", model);
+  }
 
   EventWriter events;
   HistoryWriter history;
   ContactWriter contacts;
   EnergyWriter energy;
+  std::optional<ResponseWriter> response;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<StateWriter> states;
   std::unique_ptr<ContactWriter> motion;
@@ -178,6 +181,10 @@ void RunDirectory::curves(const Curves& curves) {
     block.end_row();
   }
   file.write(block);
+}
+
+void RunDirectory::response(double t, const std::vector<double>& values) {
+  writers().response->write(t, values);
 }
 
 bool RunDirectory::progress(double /*t*/) {

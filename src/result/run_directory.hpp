@@ -39,6 +39,7 @@ class RunDirectory : public Recorder {
   [[nodiscard]] bool wants_motion() const override { return true; }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override;
+  void response(double t, const std::vector<double>& values) override;
   bool progress(double t) override;
   /// Writes the final summary.json and returns its text; of a certified run what its certificate says, too.
   std::string finish(const Report& report);

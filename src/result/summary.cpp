@@ -203,16 +203,33 @@ Json extreme_json(const Model& model, const Extreme& extreme, double scale) {
   return json;
 }
 
+Json response_json(const Model& model, const Report& report) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < report.response.size() && i < model.outputs.size(); ++i) {
+    const Output& output = model.outputs[i];
+    const OutputExtremes& e = report.response[i];
+    list.push_back({{"name", output.name},
+                    {"kind", all_output_kinds[static_cast<std::size_t>(output.kind)].name},
+                    {"unit", unit_text(output.unit, model.units)},
+                    {"maximum", {{"value", e.maximum}, {"t", e.t_maximum}}},
+                    {"minimum", {{"value", e.minimum}, {"t", e.t_minimum}}},
+                    {"last", e.last}});
+  }
+  return list;
+}
+
 Json audit_json(const Model& model, const Audit& a) {
-  return {{"gap", extreme_json(model, a.gap, a.length_scale)},
-          {"tension", extreme_json(model, a.tension, a.force_scale)},
-          {"product", extreme_json(model, a.product, a.energy_scale)},
-          {"friction", extreme_json(model, a.friction, a.force_scale)},
-          {"direction", extreme_json(model, a.direction, a.power_scale)},
-          {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
-          {"penetration", extreme_json(model, a.penetration, a.length_scale)},
-          {"impulses_on_closed", a.impulses_on_closed},
-          {"energy", extreme_json(model, a.energy, a.energy_scale)}};
+  Json json = {{"gap", extreme_json(model, a.gap, a.length_scale)},
+               {"tension", extreme_json(model, a.tension, a.force_scale)},
+               {"product", extreme_json(model, a.product, a.energy_scale)},
+               {"friction", extreme_json(model, a.friction, a.force_scale)},
+               {"direction", extreme_json(model, a.direction, a.power_scale)},
+               {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
+               {"penetration", extreme_json(model, a.penetration, a.length_scale)},
+               {"impulses_on_closed", a.impulses_on_closed},
+               {"energy", extreme_json(model, a.energy, a.energy_scale)}};
+  if (a.reactions) json["reactions"] = extreme_json(model, *a.reactions, a.force_scale);
+  return json;
 }
 
 Json energy_json(const Energy& e) {
@@ -274,6 +291,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   json["energy"] = {{"initial", energy_json(report.audit.initial)},
                     {"final", energy_json(report.audit.final)},
                     {"greatest_work_of_loads", report.audit.work_of_loads}};
+  if (!model.outputs.empty()) json["response"] = response_json(model, report);
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     json["contacts"].push_back(contact_json(model, k, tolerance.capture_velocity(), &run));
@@ -329,6 +347,8 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
     if (const auto found = json.find("certified"); found != json.end() && found->is_object())
       if (!found->at("complete").get<bool>()) facts.certain_until = found->at("until").get<double>();
     facts.units = units_from(json.at("units"));
+    if (const auto found = json.find("response"); found != json.end())
+      for (const Json& output : *found) facts.response.push_back({output.at("name"), output.at("unit")});
     std::set<std::string> names;
     for (const Json& contact : json.at("contacts")) {
       facts.contacts.push_back({contact.at("name"), contact.at("law") == "slider",

@@ -37,6 +37,10 @@ struct RunFacts {
   double t_end = 0.0;
   std::optional<double> certain_until;  ///< of a certified run whose sequence is not certain to its end
   std::vector<Contact> contacts;
+  struct Response {
+    std::string name, unit;
+  };
+  std::vector<Response> response;  ///< the columns of response.csv behind t
 };
 
 /// Reads them from DIR/summary.json. Errors: FileError.

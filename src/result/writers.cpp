@@ -74,6 +74,20 @@ void HistoryWriter::write(const Sample& sample) {
   file_.write(block_);
 }
 
+ResponseWriter::ResponseWriter(const std::filesystem::path& path, const Model& model) : file_(path) {
+  block_.text("t");
+  for (const Output& output : model.outputs) block_.text(output.name);
+  block_.end_row();
+  file_.write(block_);
+}
+
+void ResponseWriter::write(double t, const std::vector<double>& values) {
+  block_.number(t);
+  for (const double value : values) block_.number(value);
+  block_.end_row();
+  file_.write(block_);
+}
+
 EnergyWriter::EnergyWriter(const std::filesystem::path& path) : file_(path) {
   block_.text("t");
   for (const EnergyColumn& column : energy_columns) block_.text(column.name);

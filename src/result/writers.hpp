@@ -4,6 +4,7 @@
 //   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
 //   motion.csv    the same, contact by contact
 //   history.csv   t, then the model's columns
+//   response.csv  t, then the model's outputs
 //   energy.csv    t, the columns of signorini/result.hpp, balance
 //
 // Each writer writes its header when it is made and keeps a reference to the model. Errors: FileError.
@@ -55,6 +56,17 @@ class HistoryWriter {
 
  private:
   const Model& model_;
+  CsvBlock block_;
+  CsvFile file_;
+};
+
+/// response.csv
+class ResponseWriter {
+ public:
+  ResponseWriter(const std::filesystem::path& path, const Model& model);
+  void write(double t, const std::vector<double>& values);
+
+ private:
   CsvBlock block_;
   CsvFile file_;
 };

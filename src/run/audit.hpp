@@ -34,6 +34,9 @@ class Auditor {
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
                                      const ContactState& state, const Point& point) const;
 
+  /// Work lost by friction so far, by contact.
+  [[nodiscard]] const std::vector<double>& losses() const { return friction_; }
+
   void finish(Report& report, const Energy& last, double t, const Mode& mode) const;
 
  private:

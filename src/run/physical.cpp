@@ -48,6 +48,7 @@ class ToScene {
     (*this)(unit::force, a.equilibrium);
     (*this)(unit::length, a.penetration);
     (*this)(unit::energy, a.energy);
+    if (a.reactions) (*this)(unit::force, *a.reactions);
     (*this)(unit::length, {&a.length_scale});
     (*this)(unit::force, {&a.force_scale});
     (*this)(unit::power, {&a.power_scale});
@@ -109,6 +110,17 @@ Report physical(Report report, const Factors& of) {
   return report;
 }
 
+Report physical(Report report, const Model& computed) {
+  report = physical(std::move(report), computed.unit);
+  const ToScene convert(computed.unit);
+  for (std::size_t i = 0; i < report.response.size(); ++i) {
+    OutputExtremes& e = report.response[i];
+    convert(computed.outputs[i].unit, {&e.maximum, &e.minimum, &e.last});
+    convert(unit::time, {&e.t_maximum, &e.t_minimum});
+  }
+  return report;
+}
+
 Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of) {
   const double per_time = rate ? 1.0 / of.time : 1.0;
   for (std::size_t i = 0; i < dofs.size(); ++i)
@@ -124,6 +136,13 @@ void PhysicalRecorder::motion(int contact, const std::vector<MotionRow>& rows) {
     convert(row.sample);
   }
   recorder_.motion(contact, result);
+}
+
+void PhysicalRecorder::response(double t, const std::vector<double>& values) {
+  values_ = values;
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    values_[i] *= factor_of(model_.outputs[i].unit, model_.unit);
+  recorder_.response(t * model_.unit.time, values_);
 }
 
 RoundListener physical(const RoundListener& listener, const Model& model) {

@@ -17,6 +17,8 @@ namespace signorini {
 /// Without u and v.
 [[nodiscard]] Sample physical(Sample sample, const Factors& of);
 [[nodiscard]] Report physical(Report report, const Factors& of);
+/// The same, and the extremes of the outputs of the model that was computed.
+[[nodiscard]] Report physical(Report report, const Model& computed);
 /// Displacements, or velocities with `rate`, of these degrees of freedom.
 [[nodiscard]] Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of);
 
@@ -31,6 +33,7 @@ class PhysicalRecorder : public Recorder {
   [[nodiscard]] bool wants_motion() const override { return recorder_.wants_motion(); }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override { recorder_.curves(curves); }  // they are in the scene's units
+  void response(double t, const std::vector<double>& values) override;
   bool progress(double t) override { return recorder_.progress(t * model_.unit.time); }
 
  private:
@@ -39,6 +42,7 @@ class PhysicalRecorder : public Recorder {
   const Model& model_;
   Recorder& recorder_;
   Vector u_, v_;
+  std::vector<double> values_;
 };
 
 /// The same for whoever hears of rounds; nobody where there is no listener. `model` must outlive it.

@@ -19,6 +19,7 @@
 #include "run/motion_record.hpp"
 #include "run/observer.hpp"
 #include "run/physical.hpp"
+#include "run/response.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
 #include "run/warnings.hpp"
@@ -50,6 +51,7 @@ class Loop {
         samples_(model, spec, auditor_, recorder),
         motion_(model, spec.t_end, recorder),
         curves_(model, spec.t_end, recorder),
+        response_(model, spec.t_end, recorder),
         touches_(model.contacts.size()),
         standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),
@@ -142,6 +144,7 @@ class Loop {
       emit(t, point);
     }
     add_works(step.end);
+    response_.inside(*engine_, step.begin, step.end);
     for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
       engine_->evaluate(t, point_);
       if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
@@ -157,6 +160,7 @@ class Loop {
 
   /// Decides the states at t_, applies and records them.
   bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt) {
+    if (response_.any()) engine_->accelerate(t_, point_);  // under the forcing before
     Instant now;
     now.resolution = resolution_;
     now.u = point_.u;
@@ -189,6 +193,7 @@ class Loop {
       observer_->instant(
           {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_});
     touches_.instant(t_, old_mode, next);
+    if (all || next.mode != old_mode || !next.impulses.empty()) response_.before(t_, point_, auditor_);
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
     warn_of_gain();
@@ -218,7 +223,11 @@ class Loop {
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
-    if (const double next = samples_.next(); next <= t_) emit(next, point_);
+    if (const double next = samples_.next(); next <= t_) {
+      samples_.emit(next, forcing_, decision_.mode, point_);
+      residual_due_ = true;
+    }
+    response_.row(t_, Side::after, point_, auditor_);
     motion_.after(t_, auditor_, forcing_, decision_.mode, point_, changed);
     curves_.add(t_, point_.u, last_energy_);
   }
@@ -230,8 +239,13 @@ class Loop {
     curves_.add(t, point_.u, auditor_.energy_before(works_, decision_.mode, point_));
   }
 
-  void emit(double t, const Point& point) {
+  /// A row inside of a step.
+  void emit(double t, Point& point) {
     samples_.emit(t, forcing_, decision_.mode, point);
+    if (response_.any()) {
+      engine_->accelerate(t, point);
+      response_.row(t, Side::before, point, auditor_);
+    }
     residual_due_ = true;
   }
 
@@ -252,7 +266,9 @@ class Loop {
     curves_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
-    report_ = physical(std::move(report_), model_.unit);
+    report_.response = response_.extremes();
+    if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
+    report_ = physical(std::move(report_), model_);
     if (const auto sentence = energy_lost(report_.audit, report_.method))
       report_.warnings.push_back(*sentence);
   }
@@ -272,6 +288,7 @@ class Loop {
   Samples samples_;
   MotionRecord motion_;
   CurveRecord curves_;
+  Response response_;
   LastTouch touches_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;

@@ -34,6 +34,7 @@ constexpr Key table_of_keys[] = {
     {"", "stops", tables, "", "", "", "Contacts on both sides of a node: guides and line stops."},
     {"", "loads", tables, "", "", "", "Loads that vary with time."},
     {"", "base_motion", one_or_many, "", "", "", "Ground acceleration; displacements and velocities are then relative to the base."},
+    {"", "output", tables, "", "", "", "Response quantities: columns of response.csv."},
 
     {"units", "force", choice, "", "required", "N kN MN", "Unit of force; must be mass * length / time^2."},
     {"units", "mass", choice, "", "required", "kg t", "Unit of mass."},
@@ -180,6 +181,17 @@ constexpr Key table_of_keys[] = {
     {"loads[]", "nodes", texts, "", "", "", "Distributed: from each of these nodes to the next there is a piece of a member, which is loaded; \"P0..P9\" as in members."},
     {"loads[]", "axes", choice, "", "\"global\"", "global member", "Distributed: direction is [x, y], or with \"member\" [along the piece from node to node, to its left]."},
     {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "The load's course in time."},
+
+    {"output[]", "name", name, "", "required", "", "Name of its column in response.csv."},
+    {"output[]", "kind", choice, "", "required", "displacement velocity acceleration relative member_force reaction spring contact combination", "What it is: see above."},
+    {"output[]", "at", KeyType::against, "", "", "", "A node; relative and member_force: two nodes [A, B]; contact: the name of a contact."},
+    {"output[]", "direction", direction, "", "", "", "Along which; it is made a unit vector with [nodes], taken as given with [matrices], where it says all and `at` is left out."},
+    {"output[]", "rotation", flag, "", "false", "", "Of the node, counter-clockwise, instead of along a direction; reaction and spring: the moment."},
+    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss", "member_force: N (tension is positive), V or M; contact: N, T, gap, slip or loss (the work of its friction)."},
+    {"output[]", "station", fraction, "", "0.0", "", "member_force: where, from A (0) to B (1); on a node between two finite elements the one towards B."},
+    {"output[]", "spring", count, "", "", "", "spring: its number in the file, from 1 on."},
+    {"output[]", "terms", table, "", "", "", "combination: factors of outputs that stand before it, all of one unit."},
+    {"output[].terms", "*", number, "", "", "", "Factor of the output of this name."},
 
     {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
     {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},

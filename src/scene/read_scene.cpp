@@ -135,6 +135,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   read_stops(top, scene, record);
   read_loads(top, scene, record);
   read_base_motion(top, scene, record);
+  read_outputs(top, scene, record);
   top.finish();
 
   std::vector<std::string> order;

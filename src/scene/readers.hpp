@@ -44,6 +44,8 @@ void read_contacts(Table& top, Scene& scene, RecordedScene& record);
 /// After the contacts: each makes two of them.
 void read_stops(Table& top, Scene& scene, RecordedScene& record);
 void read_loads(Table& top, Scene& scene, RecordedScene& record);
+/// After all that outputs refer to.
+void read_outputs(Table& top, Scene& scene, RecordedScene& record);
 void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 
 /// A vector [x, y] made a unit vector.

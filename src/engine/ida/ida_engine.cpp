@@ -78,6 +78,14 @@ void IdaEngine::evaluate(double t, Point& point) {
     point.a.resize(0);  // what stands there is of another time
 }
 
+/// From the equation of motion at the point's own u and v, which stay as they are.
+void IdaEngine::accelerate(double t, Point& point) {
+  if (point.a.size() > 0) return;
+  Point consistent = point;
+  consistent_.make(segment_.decision->system, *segment_.forcing, t, consistent);
+  point.a = std::move(consistent.a);
+}
+
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
 
 Step IdaEngine::advance() {

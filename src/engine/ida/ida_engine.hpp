@@ -24,6 +24,7 @@ class IdaEngine final : public Stepper {
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
+  void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   void count() override { bdf_.count(); }

@@ -364,6 +364,20 @@ const Point& NewmarkEngine::inside(double t) {
 
 void NewmarkEngine::evaluate(double t, Point& point) { point = inside(t); }
 
+/// Average acceleration from end to end; forces, and what has no mass, along straight lines. Of the curves
+/// through both ends this is the step's own, and costs no factorisation as the step redone does.
+void NewmarkEngine::interpolate(double t, Point& point) {
+  if (t == t1_ || t == t0_ || !(t1_ > t0_)) {
+    point = t == t0_ && t1_ > t0_ ? begin_ : end_;
+    return;
+  }
+  const double h = t1_ - t0_, x = (t - t0_) / h;
+  point = between(begin_, end_, x);
+  for (Eigen::Index i = 0; i < point.u.size(); ++i)
+    if (!model_.dofs[static_cast<std::size_t>(i)].massless)
+      point.u[i] = begin_.u[i] + x * (h * begin_.v[i] + x * (end_.u[i] - begin_.u[i] - h * begin_.v[i]));
+}
+
 void NewmarkEngine::integrate(double from, double to, Works& works) {
   const auto until = [&](double t, double factor) {
     works_.add(*segment_.forcing, segment_.decision->mode, begin_, t0_, inside(t), t, factor, works);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/assembly/pieces.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
 
@@ -36,46 +37,11 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   return form;
 }
 
-/// The one piece of a member between two nodes, and whether it runs the other way.
-std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a, const std::string& b,
-                                                const LoadSpec& spec, const std::string& key) {
-  const int from = find_node(map.mesh, a, spec.place, key), to = find_node(map.mesh, b, spec.place, key);
-  const MeshPiece* found = nullptr;
-  for (const MeshPiece& piece : map.mesh.pieces) {
-    const bool joins = (piece.from == from && piece.to == to) || (piece.from == to && piece.to == from);
-    if (!joins) continue;
-    if (found)
-      throw SceneError(spec.place, key,
-                       fmt::format("two members join nodes '{}' and '{}', expected one", a, b));
-    found = &piece;
-  }
-  if (!found)
-    throw SceneError(spec.place, key, fmt::format("no piece of a member joins nodes '{}' and '{}'", a, b));
-  return {found, found->from != from};
-}
-
-/// Length of an element, cosine and sine of its direction.
-struct Axis {
-  double length, c, s;
-};
-Axis axis_of(const Mesh& mesh, const MeshElement& element) {
-  const MeshNode& a = mesh.nodes[static_cast<std::size_t>(element.a)];
-  const MeshNode& b = mesh.nodes[static_cast<std::size_t>(element.b)];
-  const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  return {length, dx / length, dy / length};
-}
-
 /// Adds what a force per length of one does to one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
   const MeshElement& e = map.mesh.elements[element];
-  const auto [length, c, s] = axis_of(map.mesh, e);
-  const double turn = backwards ? -1.0 : 1.0;
-  auto q = spec.direction.vector;
-  if (spec.member_axes) q = {turn * (q[0] * c - q[1] * s), turn * (q[0] * s + q[1] * c)};
-  const double across = -q[0] * s + q[1] * c;
-  const double moment = e.type == MemberType::bar ? 0.0 : across * length * length / 12.0;
-  const std::array<double, 6> forces{0.5 * q[0] * length, 0.5 * q[1] * length, moment,
-                                     0.5 * q[0] * length, 0.5 * q[1] * length, -moment};
+  const Axis axis = axis_of(map.mesh, e);
+  const std::array<double, 6> forces = uniform_forces(e.type, axis, along_element(spec, axis, backwards));
   const std::array<int, 6> numbers = map.element_numbers(element);
   for (std::size_t i = 0; i < 6; ++i)
     if (numbers[i] >= 0) form[numbers[i]] += forces[i];
@@ -85,7 +51,7 @@ Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::stri
   Vector form = Vector::Zero(map.size());
   for (std::size_t i = 0; i + 1 < spec.pieces.size(); ++i) {
     const auto [piece, backwards] =
-        piece_between(map, spec.pieces[i], spec.pieces[i + 1], spec, key + ".nodes");
+        piece_between(map, spec.pieces[i], spec.pieces[i + 1], spec.place, key + ".nodes");
     for (std::size_t e = piece->first; e < piece->first + piece->count; ++e)
       add_uniform(map, e, spec, backwards, form);
   }

@@ -1,0 +1,34 @@
+// output.hpp: a response quantity as a linear functional of the motion.
+//
+//   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
+//
+// u, v, a are forms on the model's degrees of freedom. What is given (loads within a member, supports that
+// move, the base) stands in the histories h_i, weight in the constant. All in the unit of the output.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "signorini/contact.hpp"
+
+namespace signorini {
+
+struct Output {
+  std::string name;
+  OutputKind kind = OutputKind::displacement;
+  Unit unit;
+  Combination u, v, a;
+  struct ContactForces {
+    std::size_t contact = 0;
+    double N = 0.0, T = 0.0;  ///< factors of both forces
+  };
+  std::vector<ContactForces> forces = {};
+  std::vector<History> given = {};
+  double constant = 0.0;
+  std::optional<std::size_t> loss = {};  ///< of this contact; nothing else counts then
+};
+
+/// "kN m", from the names of the scene's units.
+[[nodiscard]] std::string unit_text(const Unit& unit, const Units& names);
+
+}  // namespace signorini

@@ -1,0 +1,200 @@
+#include "model/outputs/structure_rows.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "model/assembly/bar.hpp"
+#include "scene/history_from_spec.hpp"
+
+namespace signorini {
+namespace {
+
+void add_given(PhysicalRow& row, const History& history, double factor) {
+  if (factor == 0.0) return;
+  History term = history.scaled(factor);
+  if (term.is_constant())
+    row.constant += term.value(0.0);
+  else
+    row.given.push_back(std::move(term));
+}
+
+std::array<double, 2> unit_vector(const std::array<double, 2>& v) {
+  const auto clean = clean_direction(v);
+  const double length = std::hypot(clean[0], clean[1]);
+  return {clean[0] / length, clean[1] / length};
+}
+
+}  // namespace
+
+StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta)
+    : scene_(scene), map_(map), alpha_(alpha), beta_(beta), uniform_(map.mesh.elements.size()) {
+  for (const std::size_t number : map.supports) {
+    const Support& support = scene.supports[number];
+    History s = make_history(*support.motion, fmt::format("supports.{}.motion", number + 1));
+    moving_.push_back(support.motion_is_acceleration ? s.integrated().integrated() : std::move(s));
+  }
+  for (const BaseMotionSpec& motion : scene.base_motion)
+    base_.push_back(make_history(motion.acceleration, "base_motion.acceleration"));
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const LoadSpec& load = scene.loads[i];
+    const std::string key = fmt::format("loads.{}", i + 1);
+    loads_.push_back(make_history(load.history, key + ".history").scaled(load.amplitude));
+    for (std::size_t j = 0; j + 1 < load.pieces.size(); ++j) {
+      const auto [piece, backwards] =
+          piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
+      for (std::size_t e = piece->first; e < piece->first + piece->count; ++e)
+        uniform_[e].push_back({i, along_element(load, axis_of(map.mesh, element(e)), backwards)});
+    }
+  }
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    const Member& member = scene.members[i];
+    const std::string key = fmt::format("members.{}.", i + 1);
+    strains_.push_back(
+        {make_history(member.temperature, key + "temperature").scaled(member.thermal_expansion),
+         make_history(member.initial_strain, key + "initial_strain")});
+  }
+}
+
+void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const {
+  if (number >= 0) {
+    row.u[number] += cu;
+    row.v[number] += cv;
+    row.a[number] += ca;
+  } else if (const int s = DofMap::moving_of_code(number); s >= 0 && (cu != 0.0 || cv != 0.0 || ca != 0.0)) {
+    add_given(row, moving_[static_cast<std::size_t>(s)].with_rates(cu, cv, ca), 1.0);
+  }
+}
+
+void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity) const {
+  if (gravity) row.constant -= x * scene_.gravity[0] + y * scene_.gravity[1];
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    const auto& r = scene_.base_motion[i].direction.vector;
+    add_given(row, base_[i], x * r[0] + y * r[1]);
+  }
+}
+
+void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bool stiff) const {
+  const MeshElement& e = element(i);
+  const Axis axis = axis_of(map_.mesh, e);
+  const double dx = axis.length * axis.c, dy = axis.length * axis.s;
+  const Section& s = section(e);
+  const bool bar = e.type == MemberType::bar;
+  const BeamMatrix m =
+      bar ? bar_mass(dx, dy, s.mass_per_length, e.mass) : beam_mass(dx, dy, s.mass_per_length, e.mass);
+  const Six ca = m * cut.forces + cut.acceleration;
+  Six cu = Six::Zero();
+  if (stiff) cu = (bar ? bar_stiffness(dx, dy, s.EA) : beam_stiffness(dx, dy, s.EA, s.EI)) * cut.forces;
+  const std::array<int, 6> numbers = map_.element_numbers(i);
+  for (std::size_t j = 0; j < 6; ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    add_motion(row, numbers[j], cu[at], beta_ * cu[at] + alpha_ * ca[at], ca[at]);
+  }
+  add_frame(row, ca[0] + ca[3], ca[1] + ca[4]);
+  for (const Uniform& load : uniform_[i]) {
+    const std::array<double, 6> f = uniform_forces(e.type, axis, load.q);
+    double factor = cut.load[0] * load.q[0] + cut.load[1] * load.q[1];
+    for (std::size_t j = 0; j < 6; ++j) factor -= cut.forces[static_cast<Eigen::Index>(j)] * f[j];
+    add_given(row, loads_[load.load], factor);
+  }
+  if (!stiff) return;
+  const double along = axis.c * (cut.forces[3] - cut.forces[0]) + axis.s * (cut.forces[4] - cut.forces[1]);
+  for (const History& strain : strains_[static_cast<std::size_t>(e.member)])
+    add_given(row, strain, -s.EA * along);
+}
+
+void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const Cut& cut) const {
+  add_ends(row, i, cut, true);
+}
+
+std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {
+  const auto d = unit_vector(spring.direction);
+  return {d[0], d[1], 1.0};
+}
+
+void StructureRows::add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const {
+  const double stiffness = factor * (rotation ? spring.rotation_stiffness : spring.stiffness);
+  const double damping = factor * (rotation ? spring.rotation_damping : spring.damping) + beta_ * stiffness;
+  const std::array<double, 3> d = direction_of(spring);
+  const auto add = [&](const std::string& name, double sign) {
+    const auto numbers = map_.numbers_at(map_.mesh.by_name.at(name));
+    for (const std::size_t c : rotation ? std::vector<std::size_t>{2} : std::vector<std::size_t>{0, 1})
+      if (d[c] != 0.0) add_motion(row, numbers[c], sign * stiffness * d[c], sign * damping * d[c], 0.0);
+  };
+  add(spring.node, 1.0);
+  if (!spring.against.empty()) add(spring.against, -1.0);
+}
+
+void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const {
+  const double m = factor * (c == 2 ? mass.inertia : mass.mass);
+  if (m == 0.0) return;
+  add_motion(row, map_.numbers_at(map_.mesh.by_name.at(mass.node))[c], 0.0, alpha_ * m, m);
+  if (c != 2) add_frame(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
+}
+
+/// A force or a moment at a node; -1: at any.
+void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
+  const LoadSpec& load = scene_.loads[i];
+  if (load.type == LoadType::distributed) return;
+  if (node >= 0 && map_.mesh.by_name.at(load.direction.node) != node) return;
+  const bool moment = load.type == LoadType::moment;
+  if (moment != (c == 2)) return;
+  add_given(row, loads_[i], factor * (moment ? 1.0 : load.direction.vector[c]));
+}
+
+/// N n + T t of a contact on a node; -1: on all that it touches, together.
+void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::size_t c,
+                                double factor) const {
+  const ContactSpec& spec = scene_.contacts[k];
+  const Direction* at = spec.normal ? &*spec.normal : spec.tangent ? &*spec.tangent : nullptr;
+  if (c == 2 || at == nullptr) return;
+  double share = 0.0;
+  const auto touches = [&](const std::string& name, double weight) {
+    if (node < 0 || map_.mesh.by_name.at(name) == node) share += weight;
+  };
+  touches(at->node, 1.0);
+  for (const auto& [name, weight] : at->against) touches(name, -weight);
+  if (share == 0.0) return;
+  Output::ContactForces forces{k};
+  if (spec.normal && has_gap(spec.law)) forces.N = factor * share * unit_vector(spec.normal->vector)[c];
+  if (const auto t = sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
+    forces.T = factor * share * unit_vector(t)[c];
+  if (forces.N != 0.0 || forces.T != 0.0) row.forces.push_back(forces);
+}
+
+void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const {
+  for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i)
+    for (const int end : {0, 3}) {
+      if ((end == 0 ? element(i).a : element(i).b) != node) continue;
+      // The rotation of a hinged end is its own, and nothing of it reaches the node.
+      if (c == 2 && (end == 0 ? element(i).hinged_a : element(i).hinged_b)) continue;
+      Cut cut{Six::Zero(), Six::Zero()};
+      cut.forces[end + static_cast<int>(c)] = factor;
+      add_ends(row, i, cut, true);
+    }
+  for (const Spring& spring : scene_.springs) {
+    const double d = direction_of(spring)[c];
+    if (map_.mesh.by_name.at(spring.node) == node) add_spring(row, spring, c == 2, factor * d);
+    if (!spring.against.empty() && map_.mesh.by_name.at(spring.against) == node)
+      add_spring(row, spring, c == 2, -factor * d);
+  }
+  for (const PointMass& mass : scene_.masses)
+    if (map_.mesh.by_name.at(mass.node) == node) add_mass(row, mass, c, factor);
+  for (std::size_t i = 0; i < scene_.loads.size(); ++i) add_force(row, i, node, c, -factor);
+  for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(row, k, node, c, factor);
+}
+
+void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
+  for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
+    Cut cut{Six::Zero(), Six::Zero()};
+    cut.forces[static_cast<int>(c)] = cut.forces[static_cast<int>(c) + 3] = -1.0;
+    add_ends(row, i, cut, false);
+  }
+  for (const PointMass& mass : scene_.masses) add_mass(row, mass, c, -1.0);
+  for (const Spring& spring : scene_.springs)
+    if (spring.against.empty()) add_spring(row, spring, false, -direction_of(spring)[c]);
+  for (std::size_t i = 0; i < scene_.loads.size(); ++i) add_force(row, i, -1, c, 1.0);
+  for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(row, k, -1, c, -1.0);
+}
+
+}  // namespace signorini

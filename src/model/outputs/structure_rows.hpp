@@ -1,0 +1,69 @@
+// structure_rows.hpp: forces within the structure as functionals of its motion.
+//
+//   ends of an element     f = k (u + beta v) + m (a + alpha v + r a_b - r g) - f_q q(t) - f_s strain(t)
+//   reaction of a support  R = sum of f + springs + masses + ( N n + T t ) of contacts - forces at the node
+//   sum over the supports  R = inertia - loads + springs and contacts to the ground
+//
+// a_b: acceleration of the base, g: gravity. In a node scene; degrees of freedom that a support moves follow
+// its history, those that rest are zero.
+#pragma once
+
+#include "model/outputs/cut.hpp"
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// An output on the physical degrees of freedom.
+struct PhysicalRow {
+  explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u) {}
+  Vector u, v, a;
+  std::vector<Output::ContactForces> forces;
+  std::vector<History> given;
+  double constant = 0.0;
+};
+
+class StructureRows {
+ public:
+  /// alpha, beta: the Rayleigh damping in force. All must outlive it.
+  StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta);
+
+  /// row += cu u + cv v + ca a of what stands under a number of DofMap::numbers_at().
+  void add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const;
+  /// The base and gravity as an acceleration of everything: row += x times it along x, y along y.
+  void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
+  /// The cut of an element.
+  void add_cut(PhysicalRow& row, std::size_t element, const Cut& cut) const;
+  /// The force in a spring, times a factor: positive where its node has moved along its direction.
+  void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;
+  /// What holds component c (0 x, 1 y, 2 rotation) of a node.
+  void add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const;
+  /// Loads less inertia, springs and contacts to the ground: along x or y.
+  void add_total(PhysicalRow& row, std::size_t c) const;
+
+ private:
+  using Six = Eigen::Matrix<double, 6, 1>;
+  [[nodiscard]] const MeshElement& element(std::size_t i) const { return map_.mesh.elements[i]; }
+  [[nodiscard]] const Section& section(const MeshElement& e) const {
+    return scene_.sections[static_cast<std::size_t>(e.section)];
+  }
+  /// stiff: with the part of the stiffness.
+  void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
+  void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
+  void add_force(PhysicalRow& row, std::size_t load, int node, std::size_t c, double factor) const;
+  void add_contact(PhysicalRow& row, std::size_t contact, int node, std::size_t c, double factor) const;
+  [[nodiscard]] std::array<double, 3> direction_of(const Spring& spring) const;
+
+  const Scene& scene_;
+  const DofMap& map_;
+  double alpha_, beta_;
+  std::vector<History> moving_, base_;  // of supports that move, accelerations of the base
+  struct Uniform {
+    std::size_t load;
+    std::array<double, 2> q;  // along x and y, of an amplitude of one
+  };
+  std::vector<std::vector<Uniform>> uniform_;  // an element
+  std::vector<History> loads_;                 // with amplitude
+  std::vector<std::vector<History>> strains_;  // a member
+};
+
+}  // namespace signorini

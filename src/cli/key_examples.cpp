@@ -344,6 +344,61 @@ nodes = ["B", "D"]
 direction = [0.0, -1.0]
 distributed = 3.5
 ```)"},
+    {"output[]", "## `[[output]]`",
+     R"(What the run is computed for: each output is a column of `response.csv`, with its greatest and least value over
+the whole motion, not only over rows, in `summary.json` and in what `run` prints. Signs: [output.md](output.md#response-quantities).
+
+```toml
+[[output]]
+name = "M_foot"              # bending moment where the column A-B stands on A
+kind = "member_force"
+at = ["A", "B"]
+quantity = "M"
+station = 0.0
+
+[[output]]
+name = "a_roof"              # absolute: what the ground does is added
+kind = "acceleration"
+at = "C"
+direction = [1.0, 0.0]
+
+[[output]]
+name = "thrust"
+kind = "reaction"
+at = "A"
+direction = [1.0, 0.0]
+
+[[output]]
+name = "drift"
+kind = "relative"            # u of C less u of B
+at = ["C", "B"]
+direction = [1.0, 0.0]
+
+[[output]]
+name = "slip"
+kind = "contact"
+at = "first"
+quantity = "slip"
+
+[[output]]
+name = "half_thrust"
+kind = "combination"
+terms = { thrust = 0.5 }
+```
+
+| kind | what it is |
+|---|---|
+| `displacement`, `velocity` | of the node `at` along `direction`, relative to the base as in history.csv; or its `rotation` |
+| `acceleration` | the same, absolute: that of the base is added |
+| `relative` | displacement of the first node of `at` less that of the second |
+| `member_force` | `quantity` N, V or M of the piece of a member between the two nodes of `at`, at `station` |
+| `reaction` | force of the supports of the node `at` on the structure along `direction`, or their moment (`rotation`) |
+| `spring` | force in the spring of that number and the damper beside it, or their moment (`rotation`) |
+| `contact` | `quantity` N, T, gap, slip (as in contacts.csv) or loss (work of its friction since the start) of the contact `at` |
+| `combination` | sum of other outputs, `terms` = their factors |
+
+With `[matrices]` there are displacements, velocities and accelerations along a `direction` of degrees of freedom, contacts
+and combinations.)"},
     {"history", "## Histories",
      R"(The course of a load, a temperature, the motion of a support, of `normal_force` or of `surface_velocity` in time.
 

@@ -41,6 +41,45 @@ TEST_CASE("cli run: tables on stdout, nothing on stderr, the whole directory") {
   CHECK(shell.read("belt-run/history.csv").rfind("t,block.ux,block.vx\n0,0,0\n", 0) == 0);
 }
 
+TEST_CASE("cli run: response quantities as table, CSV, JSON and picture") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20) +
+                               "\n[[output]]\nname = \"x\"\nkind = \"displacement\"\nat = \"block\"\n"
+                               "direction = [2.0, 0.0]\n[[output]]\nname = \"pull\"\nkind = \"contact\"\n"
+                               "at = \"belt\"\nquantity = \"T\"\n");
+  const Ending ending = shell.run({"run", "belt.toml"});
+  CHECK(ending.code == 0);
+  CHECK(ending.out.find("response") != std::string::npos);
+  CHECK(ending.out.find("response.csv, contacts.csv, motion.csv, energy.csv, curves.csv, ") !=
+        std::string::npos);
+  CHECK(exists(shell, "belt-run/plots/response.gp"));
+  CHECK(shell.read("belt-run/response.csv").rfind("t,x,pull\n0,0,", 0) == 0);
+  const json summary = json::parse(shell.read("belt-run/summary.json"));
+  REQUIRE(summary["response"].size() == 2);
+  const json& x = summary["response"][0];
+  CHECK(x["name"] == "x");
+  CHECK(x["kind"] == "displacement");
+  CHECK(x["unit"] == summary["units"]["length"]);
+  CHECK(summary["response"][1]["unit"] == summary["units"]["force"]);
+  // The block starts at zero: its greatest displacement is the contact's peak.
+  const double greatest = std::max(x["maximum"]["value"].get<double>(), -x["minimum"]["value"].get<double>());
+  CHECK(std::abs(greatest - summary["contacts"][0]["peaks"]["tangential"].get<double>()) < 1e-9 * greatest);
+  const json pull = summary["response"][1];
+  CHECK(std::max(pull["maximum"]["value"].get<double>(), -pull["minimum"]["value"].get<double>()) ==
+        doctest::Approx(summary["contacts"][0]["peaks"]["T"].get<double>()).epsilon(1e-9));
+  const json again = [&] {
+    REQUIRE(shell.run({"run", "belt-run/run.toml", "-o", "again", "--no-plots"}).code == 0);
+    return json::parse(shell.read("again/summary.json"));
+  }();
+  CHECK(again["response"] == summary["response"]);
+  CHECK(shell.read("again/response.csv") == shell.read("belt-run/response.csv"));
+  REQUIRE(
+      shell
+          .run({"run", "belt.toml", "-o", "belt-run", "--force", "--no-plots", "--set", "run.engine=\"ida\""})
+          .code == 0);
+  CHECK_FALSE(exists(shell, "belt-run/plots"));
+}
+
 TEST_CASE("cli run: run.toml gives the same bytes of events.csv") {
   const Shell shell;
   shell.write("belt.toml", belt(30));

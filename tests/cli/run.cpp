@@ -61,9 +61,14 @@ TEST_CASE("cli run: response quantities as table, CSV, JSON and picture") {
   CHECK(x["kind"] == "displacement");
   CHECK(x["unit"] == summary["units"]["length"]);
   CHECK(summary["response"][1]["unit"] == summary["units"]["force"]);
-  // The block starts at zero: its greatest displacement is the contact's peak.
-  const double greatest = std::max(x["maximum"]["value"].get<double>(), -x["minimum"]["value"].get<double>());
-  CHECK(std::abs(greatest - summary["contacts"][0]["peaks"]["tangential"].get<double>()) < 1e-9 * greatest);
+  // Its greatest value is at or a little above that of the rows of history.csv.
+  std::istringstream history(shell.read("belt-run/history.csv"));
+  std::string row;
+  double greatest = 0.0;
+  std::getline(history, row);
+  while (std::getline(history, row)) greatest = std::max(greatest, std::stod(row.substr(row.find(',') + 1)));
+  CHECK(x["maximum"]["value"].get<double>() >= greatest);
+  CHECK(x["maximum"]["value"].get<double>() < 1.001 * greatest);
   const json pull = summary["response"][1];
   CHECK(std::max(pull["maximum"]["value"].get<double>(), -pull["minimum"]["value"].get<double>()) ==
         doctest::Approx(summary["contacts"][0]["peaks"]["T"].get<double>()).epsilon(1e-9));

@@ -1,6 +1,7 @@
 // signorini sweep: one run a value of one or more keys, in one table.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +19,9 @@
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
 #include "result/csv.hpp"
+#include "study/sweep/quantiles.hpp"
+#include "study/sweep/response_query.hpp"
+#include "study/sweep/sample.hpp"
 #include "study/sweep/sweep_plots.hpp"
 
 namespace signorini::cli {
@@ -28,7 +32,10 @@ namespace fs = std::filesystem;
 
 struct SweepOptions : OutputOptions {
   std::string scene;
-  std::vector<std::string> varied, settings, merge;
+  std::vector<std::string> varied, settings, merge, responses, samples;
+  bool together = false;
+  std::optional<long> sample_count, seed;
+  std::string sequence = "random";
   std::optional<std::string> directory;
   std::optional<std::string> share;
   std::optional<long> jobs;
@@ -40,13 +47,51 @@ std::optional<std::string> environment(const char* name) {
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
 }
 
+/// Varied keys, then sampled ones, which run fastest.
+void vary_keys(const SweepOptions& options, SweepSpec& spec) {
+  for (const std::string& text : options.varied) {
+    spec.vary.push_back(parse_vary(text));
+    spec.vary.back().group = options.together ? 1 : 0;
+  }
+  if (options.together && options.varied.size() < 2)
+    throw UsageError("--together: expected two --vary or more, which then vary in step");
+  const auto needs_samples = [&](const char* option) {
+    if (options.samples.empty())
+      throw UsageError(std::string(option) + ": has no meaning without --sample PATH=DISTRIBUTION");
+  };
+  SampleSpec sample;
+  if (options.sample_count) {
+    needs_samples("--samples");
+    if (*options.sample_count < 1)
+      throw UsageError(fmt::format("--samples {}: expected 1 to 1000000", *options.sample_count));
+    sample.count = static_cast<std::size_t>(*options.sample_count);
+  }
+  if (options.seed) {
+    needs_samples("--seed");
+    constexpr long greatest = 4294967295;  // what the generator takes
+    if (*options.seed < 0 || *options.seed > greatest)
+      throw UsageError(fmt::format("--seed {}: expected 0 to {}", *options.seed, greatest));
+    sample.seed = static_cast<unsigned long>(*options.seed);
+  }
+  if (options.sequence != "random" && options.sequence != "sobol")
+    throw UsageError("--sequence " + options.sequence + ": expected random or sobol");
+  if (options.sequence == "sobol") {
+    needs_samples("--sequence");
+    sample.sequence = Sequence::sobol;
+  }
+  if (options.samples.empty()) return;
+  for (Vary& vary : draw_samples(options.samples, sample)) spec.vary.push_back(std::move(vary));
+  spec.sampling =
+      fmt::format("{} {}, seed {}", count_of(sample.count, "sample"), options.sequence, sample.seed);
+}
+
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
 /// a wrong command line, a value that only some rows cannot take is a row.
 SweepSpec specify(const SweepOptions& options) {
   SweepSpec spec;
   spec.scene = options.scene;
   spec.settings = options.settings;
-  for (const std::string& text : options.varied) spec.vary.push_back(parse_vary(text));
+  vary_keys(options, spec);
   if (options.share) spec.share = parse_share(*options.share, environment);
   constexpr std::size_t most_tried = 200;  // of as many, one should have been right
   std::optional<Error> first;
@@ -60,6 +105,15 @@ SweepSpec specify(const SweepOptions& options) {
       spec.fingerprint = fingerprint_of(scene.resolved);
       spec.title = scene.title;
       spec.units = scene.units;
+      if (options.responses.empty()) return spec;
+      const Model model = build_model(scene);
+      for (const std::string& text : options.responses) {
+        const ResponseQuery query = parse_query(text, model);
+        if (std::find(spec.responses.begin(), spec.responses.end(), text) != spec.responses.end())
+          throw UsageError("--response " + text + ": asked for twice");
+        spec.responses.push_back(text);
+        spec.response_units.push_back(unit_of(query, model));
+      }
       return spec;
     } catch (const FileError&) {
       throw;
@@ -125,19 +179,21 @@ std::vector<std::string> values_of(const std::vector<Override>& point) {
 /// Ends with a row for every task, unless interrupted. False: interrupted.
 bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std::vector<std::size_t>& tasks,
               const std::vector<std::string>& command_line) {
+  const std::vector<Override> settings = overrides_of(options.settings);
   const auto work = [&](std::size_t index) {
-    RowTask task{
-        options.scene, overrides_of(options.settings), index, values_of(directory.points()[index]), {},
-        command_line};
+    RowTask task{options.scene, settings, index, values_of(directory.points()[index]), {}, command_line};
     const auto& point = directory.points()[index];
     task.changes.insert(task.changes.end(), point.begin(), point.end());
+    task.responses = options.responses;
     if (options.keep) task.keep = directory.run_directory(index);
-    write_file(directory.row_file(index), row_text(compute_row(task)));
+    std::string text = row_text(compute_row(task));
+    write_file(directory.row_file(index), text);
+    return text;
   };
   int file_error = 0;
   const auto ended = [&](const WorkerEnd& end) {
     if (end.code == 0 && end.signal == 0) {
-      directory.take(end.task);
+      directory.take(end.task, end.report);
       return true;
     }
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
@@ -165,12 +221,18 @@ bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std:
 
 void conclude(const SweepOptions& options, const SweepDirectory& directory) {
   directory.write_results();
+  const std::vector<Sampled> answers = sampled_answers(directory.spec(), directory.rows());
+  if (!answers.empty()) {
+    write_file(directory.path() / "quantiles.csv", quantile_table(directory.spec(), answers));
+    write_file(directory.path() / "exceedance.csv", exceedance_table(directory.spec(), answers));
+  }
   if (options.json) print(sweep_json(directory.spec(), directory.rows()));
   if (options.tables()) {
     if (!directory.spec().title.empty()) print(directory.spec().title + "\n\n");
     print(sweep_text(directory.spec(), directory.rows()));
+    if (!answers.empty()) print("\n" + quantile_text(directory.spec(), answers));
     print("\nresults: " + directory.path().string() + "/ (sweep.csv, results.json" +
-          (options.keep ? ", runs/)\n" : ")\n"));
+          (answers.empty() ? "" : ", quantiles.csv, exceedance.csv") + (options.keep ? ", runs/)\n" : ")\n"));
   }
   const std::string drawn =
       options.no_plots ? ""
@@ -210,9 +272,11 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
 ExitCode merge(const SweepOptions& options) {
   if (!options.directory || options.directory->empty())
     throw UsageError("--merge: expected -o DIR, where the joined sweep goes");
-  if (!options.scene.empty() || !options.varied.empty() || !options.settings.empty() || options.share)
+  if (!options.scene.empty() || !options.varied.empty() || !options.settings.empty() || options.share ||
+      !options.responses.empty() || !options.samples.empty())
     throw UsageError(
-        "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --set, --share");
+        "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --sample, --response, "
+        "--set, --share");
   std::vector<fs::path> from(options.merge.begin(), options.merge.end());
   SweepSpec spec = read_sweep_spec(from.front());
   spec.share = {};
@@ -240,8 +304,10 @@ ExitCode merge(const SweepOptions& options) {
 ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
   if (!options.merge.empty()) return merge(options);
   if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
-  if (options.varied.empty())
-    throw UsageError("sweep: expected --vary, such as --vary 'contacts.*.friction=0:1.3:0.1'");
+  if (options.varied.empty() && options.samples.empty())
+    throw UsageError("sweep: expected --vary, such as --vary 'contacts.*.friction=0:1.3:0.1', or --sample");
+  if (!options.samples.empty() && options.responses.empty())
+    throw UsageError("--sample: expected --response, whose distribution is wanted");
   return sweep(options, command_line);
 }
 
@@ -258,6 +324,24 @@ void add_sweep(Program& program) {
           "start:stop:step, stop included, or value,value,...; several make a product (may be repeated)")
       ->option_text("PATH=VALUES")
       ->allow_extra_args(false);
+  command->add_flag("--together", options->together, "all --vary in step, instead of their product");
+  command
+      ->add_option(
+          "--response", options->responses,
+          "a column: max:, min:, abs:, tmax:, tmin: or end: and an output; residual: or impulse: and a "
+          "contact; count:EVENT or count:EVENT@CONTACT (may be repeated)")
+      ->option_text("QUERY")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--sample", options->samples,
+                   "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
+                   "triangular(least,likely,greatest) (may be repeated)")
+      ->option_text("PATH=DISTRIBUTION")
+      ->allow_extra_args(false);
+  command->add_option("--samples", options->sample_count, "how many draws (default: 1000)")->option_text("N");
+  command->add_option("--seed", options->seed, "of the draws (default: 1)")->option_text("S");
+  command->add_option("--sequence", options->sequence, "of the draws: random (the default) or sobol")
+      ->option_text("NAME");
   command
       ->add_option("-o,--output", options->directory,
                    "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/table.hpp"
 
@@ -10,12 +11,18 @@ namespace signorini::cli {
 
 namespace {
 
-constexpr std::size_t most_contacts = 3, most_rows = 60, first_rows = 40, last_rows = 10;
+constexpr std::size_t most_contacts = 3, most_responses = 6, most_answers = 12, most_rows = 60,
+                      first_rows = 40, last_rows = 10;
 
-std::vector<std::string> cells_of(const SweepRow& row, const std::vector<std::string>& contacts) {
+std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
+                                  const std::vector<std::string>& contacts) {
   std::vector<std::string> cells = row.values;
   cells.push_back(row.outcome);
   cells.push_back(row.ran() ? std::to_string(row.changes()) : "");
+  for (std::size_t i = 0; i < std::min(responses, most_responses); ++i)
+    cells.push_back(i < row.responses.size() && std::isfinite(row.responses[i]) ? number(row.responses[i])
+                                                                                : "");
+  if (responses > 0) return cells;
   for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k) {
     const SweepRow::Contact* contact = contact_of(row, contacts[k]);
     for (const double SweepRow::Contact::*figure :
@@ -32,8 +39,12 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
   std::vector<std::string> header;
   for (const Vary& vary : spec.vary) header.push_back(vary.path);
   header.insert(header.end(), {"outcome", "events"});
+  for (std::size_t i = 0; i < std::min(spec.responses.size(), most_responses); ++i)
+    header.push_back(spec.responses[i] +
+                     (spec.response_units[i].empty() ? "" : " [" + spec.response_units[i] + "]"));
   const std::string length = " [" + spec.units.length + "]";
-  for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k) {
+  const bool figures = spec.responses.empty();
+  for (std::size_t k = 0; figures && k < std::min(contacts.size(), most_contacts); ++k) {
     header.push_back(contacts[k] + ": peak along t" + length);
     header.push_back("along n" + length);
     header.push_back("friction loss [" + spec.units.force + " " + spec.units.length + "]");
@@ -44,13 +55,16 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
   std::size_t i = 0;
   for (const auto& [index, row] : rows) {
     const bool shown = rows.size() <= most_rows || i < first_rows || i + last_rows >= rows.size();
-    if (shown) table.row(cells_of(row, contacts));
+    if (shown) table.row(cells_of(row, spec.responses.size(), contacts));
     if (!shown && i == first_rows)
       table.line(fmt::format("... {} more; all are in sweep.csv", rows.size() - first_rows - last_rows));
     ++i;
   }
   std::string text = table.str();
-  if (contacts.size() > most_contacts)
+  if (spec.responses.size() > most_responses)
+    text += fmt::format("  ... {} more responses; all are in sweep.csv\n",
+                        spec.responses.size() - most_responses);
+  if (figures && contacts.size() > most_contacts)
     text += fmt::format("  ... {} more contacts; all are in sweep.csv\n", contacts.size() - most_contacts);
   constexpr std::size_t most_reasons = 10;
   std::size_t reasons = 0;
@@ -62,6 +76,38 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
   }
   if (reasons > most_reasons)
     text += fmt::format("  ... {} more reasons; all are in sweep.csv\n", reasons - most_reasons);
+  return text;
+}
+
+std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers) {
+  constexpr double shown[] = {0.05, 0.5, 0.95, 0.99};
+  std::vector<std::string> header{fmt::format("quantiles of {}", spec.sampling)};
+  for (const Vary& vary : spec.vary)
+    if (!vary.sampled) header.push_back(vary.path);
+  header.emplace_back("n");
+  for (const double p : shown) header.push_back(fmt::format("{:g} %", 100.0 * p));
+  std::vector<bool> right(header.size(), true);
+  right[0] = false;
+  Table table(std::move(header), std::move(right));
+  for (std::size_t i = 0; i < answers.size() && i < most_answers; ++i) {
+    const Sampled& s = answers[i];
+    if (s.sorted.empty()) continue;
+    const std::string& unit = spec.response_units[s.query];
+    std::vector<std::string> cells{spec.responses[s.query] + (unit.empty() ? "" : " [" + unit + "]")};
+    cells.insert(cells.end(), s.values.begin(), s.values.end());
+    cells.push_back(std::to_string(s.sorted.size()));
+    for (const double p : shown) {
+      const Quantile q = quantile(s.sorted, p, independent(spec));
+      const auto end = [](const std::optional<double>& x) { return x ? number(*x) : std::string("?"); };
+      cells.push_back(number(q.value) +
+                      (independent(spec) ? " (" + end(q.low) + " to " + end(q.high) + ")" : ""));
+    }
+    table.row(std::move(cells));
+  }
+  std::string text = table.str();
+  if (answers.size() > most_answers)
+    text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - most_answers);
+  if (independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";
   return text;
 }
 

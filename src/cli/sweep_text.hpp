@@ -3,11 +3,14 @@
 
 #include <string>
 
-#include "study/sweep/sweep_table.hpp"
+#include "study/sweep/quantiles.hpp"
 
 namespace signorini::cli {
 
 /// Of many rows the first and the last ones, of many contacts the first ones; sweep.csv has all.
 [[nodiscard]] std::string sweep_text(const SweepSpec& spec, const SweepRows& rows);
+
+/// Quantiles of the answers with their intervals; of many combinations of keys the first ones.
+[[nodiscard]] std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers);
 
 }  // namespace signorini::cli

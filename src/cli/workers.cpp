@@ -1,17 +1,24 @@
 #include "cli/workers.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <ctime>
+#include <cstdint>
+#include <cstring>
+#include <deque>
 #include <exception>
-#include <map>
+#include <list>
 #include <new>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"
@@ -20,120 +27,283 @@ namespace signorini::cli {
 
 namespace {
 
-/// SIGINT, SIGTERM and SIGCHLD wait to be asked for: no signal is lost between a look and a sleep.
+constexpr int patience = 200;          // milliseconds between two looks where nothing happens
+constexpr std::size_t most_ahead = 2;  // tasks of a worker: the next one waits in its pipe
+
+/// A file descriptor that is closed with its owner.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+  void reset() { *this = Descriptor(); }
+
+ private:
+  int fd_ = -1;
+};
+
+[[noreturn]] void fail(const char* what) {
+  throw FileError(what, "cannot be made: " + std::generic_category().message(errno));
+}
+
+struct Pipe {
+  Descriptor out, in;  // to read from, to write to
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
+    out = Descriptor(ends[0]);
+    in = Descriptor(ends[1]);
+  }
+};
+
+/// SIGINT and SIGTERM wait to be read: no signal is lost between a look and a sleep.
 class HeldSignals {
  public:
   HeldSignals() {
     sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&held_, signal);
+    for (const int signal : {SIGINT, SIGTERM}) sigaddset(&held_, signal);
     sigprocmask(SIG_BLOCK, &held_, &before_);
+    fd_ = Descriptor(signalfd(-1, &held_, SFD_CLOEXEC | SFD_NONBLOCK));
+    if (fd_.get() < 0) fail("signalfd");
   }
-  ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+  ~HeldSignals() { restore(); }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
-
-  /// The next one, 0 if none comes in a fifth of a second.
-  [[nodiscard]] int next() const {
-    const timespec patience{0, 200'000'000};
-    return std::max(sigtimedwait(&held_, nullptr, &patience), 0);
-  }
+  [[nodiscard]] int fd() const { return fd_.get(); }
   void restore() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
 
  private:
   sigset_t held_{}, before_{};
+  Descriptor fd_;
 };
 
-[[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals,
-                            const std::function<void(std::size_t)>& work, std::size_t task) {
+/// All of it; false where the other end is gone.
+bool send(int fd, const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = write(fd, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool receive(int fd, void* data, std::size_t size) {
+  char* at = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t n = read(fd, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+struct Head {
+  std::uint64_t task = 0, length = 0;
+  std::int64_t code = 0;
+};
+
+using Work = std::function<std::string(std::size_t)>;
+
+/// One task; its exit code and report.
+std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task) {
+  try {
+    return {ExitCode::done, work(task)};
+  } catch (const Error& error) {
+    print_error(error.what());
+    return {error.code(), ""};
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  } catch (const std::exception& error) {
+    print_error(std::string("a bug in Signorini: ") + error.what());
+  }
+  return {ExitCode::bug, ""};
+}
+
+[[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals, const Work& work, int tasks,
+                            int reports) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take the result
   if (getppid() != parent) _exit(static_cast<int>(ExitCode::bug));
   // Ctrl-C reaches the whole group: the parent alone decides, so that no row is taken for a crash.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   signals.restore();
-  ExitCode code = ExitCode::done;
-  try {
-    work(task);
-  } catch (const Error& error) {
-    print_error(error.what());
-    code = error.code();
-  } catch (const std::bad_alloc&) {
-    print_error("out of memory");
-    code = ExitCode::bug;
-  } catch (const std::exception& error) {
-    print_error(std::string("a bug in Signorini: ") + error.what());
-    code = ExitCode::bug;
+  std::uint64_t task = 0;
+  while (receive(tasks, &task, sizeof task)) {
+    const auto [code, report] = carried_out(work, static_cast<std::size_t>(task));
+    const Head head{task, report.size(), static_cast<std::int64_t>(code)};
+    if (!send(reports, &head, sizeof head) || !send(reports, report.data(), report.size())) break;
+    if (code == ExitCode::bug) _exit(0);  // memory may be short or worse: a fresh process takes the next
   }
-  _exit(static_cast<int>(code));
+  _exit(0);
 }
+
+/// A worker as its parent sees it.
+struct Worker {
+  pid_t process = 0;
+  Descriptor tasks, reports;
+  std::deque<std::size_t> given;  // the first is under way
+  std::string heard;              // bytes of a report that is not whole yet
+};
 
 class Pool {
  public:
-  Pool(const HeldSignals& signals, const std::function<void(std::size_t)>& work)
-      : signals_(signals), work_(work), parent_(getpid()) {}
+  Pool(const HeldSignals& signals, const Work& work) : signals_(signals), work_(work), parent_(getpid()) {}
   ~Pool() { end_all(); }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  [[nodiscard]] std::size_t size() const { return running_.size(); }
-
-  void start(std::size_t task) {
-    const pid_t child = fork();
-    if (child == 0) be_worker(parent_, signals_, work_, task);
-    if (child < 0) throw FileError("fork", "no process: " + std::generic_category().message(errno));
-    running_[child] = task;
+  [[nodiscard]] std::size_t size() const { return workers_.size(); }
+  [[nodiscard]] std::size_t under_way() const {
+    std::size_t sum = 0;
+    for (const Worker& w : workers_) sum += w.given.size();
+    return sum;
   }
 
-  /// Those that have ended by now.
-  std::vector<WorkerEnd> ended() {
-    std::vector<WorkerEnd> list;
-    for (auto it = running_.begin(); it != running_.end();) {
-      int status = 0;
-      const pid_t child = waitpid(it->first, &status, WNOHANG);
-      if (child == 0 || (child < 0 && errno == EINTR)) {
-        ++it;
+  void start() {
+    Pipe tasks, reports;
+    const pid_t child = fork();
+    if (child < 0) throw FileError("fork", "no process: " + std::generic_category().message(errno));
+    if (child == 0) {
+      tasks.in.reset();
+      workers_.clear();  // the other workers' pipes are not its own
+      be_worker(parent_, signals_, work_, tasks.out.get(), reports.in.get());
+    }
+    Worker worker;
+    worker.process = child;
+    worker.tasks = std::move(tasks.in);
+    worker.reports = std::move(reports.out);
+    fcntl(worker.reports.get(), F_SETFL, O_NONBLOCK);
+    workers_.push_back(std::move(worker));
+  }
+
+  /// Gives each worker a task, then each one that waits behind it.
+  void hand_out(std::deque<std::size_t>& queue) {
+    for (std::size_t ahead = 1; ahead <= most_ahead; ++ahead)
+      for (Worker& w : workers_) {
+        if (queue.empty()) return;
+        if (w.given.size() >= ahead) continue;
+        const std::uint64_t task = queue.front();
+        w.given.push_back(queue.front());  // a worker that has just died is found out by its reports
+        queue.pop_front();
+        (void)send(w.tasks.get(), &task, sizeof task);
+      }
+  }
+
+  /// Waits for reports or a signal. Tasks that a dead worker has not begun come back into the queue. True: a
+  /// signal that ends all.
+  bool listen(std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
+    std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
+    for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
+    if (poll(watched.data(), watched.size(), patience) <= 0) return false;
+    for (auto worker = workers_.begin(); worker != workers_.end();) {
+      const bool alive = hear(*worker, ends);
+      if (alive) {
+        ++worker;
         continue;
       }
-      const bool exited = child > 0 && WIFEXITED(status);
-      const bool killed = child > 0 && WIFSIGNALED(status);
-      list.push_back({it->second, exited ? WEXITSTATUS(status) : 1, killed ? WTERMSIG(status) : 0});
-      it = running_.erase(it);
+      bury(*worker, queue, ends);
+      worker = workers_.erase(worker);
     }
-    return list;
+    signalfd_siginfo signal{};
+    return (watched[0].revents & POLLIN) != 0 && receive(signals_.fd(), &signal, sizeof signal);
   }
 
   void end_all() {
-    for (const auto& [child, task] : running_) kill(child, SIGKILL);
-    for (const auto& [child, task] : running_)
-      while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-      }
-    running_.clear();
+    for (const Worker& w : workers_) kill(w.process, SIGKILL);
+    for (const Worker& w : workers_) (void)reap(w.process);
+    workers_.clear();
   }
 
  private:
+  static int reap(pid_t process) {
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+
+  /// Takes whole reports; false: the worker has closed its end.
+  static bool hear(Worker& w, std::vector<WorkerEnd>& ends) {
+    char block[65536];
+    bool open = true;
+    for (;;) {
+      const ssize_t n = read(w.reports.get(), block, sizeof block);
+      if (n > 0) {
+        w.heard.append(block, static_cast<std::size_t>(n));
+        continue;
+      }
+      if (n < 0 && errno == EINTR) continue;
+      open = n < 0 && errno == EAGAIN;
+      break;
+    }
+    Head head;
+    std::size_t done = 0;
+    while (w.heard.size() - done >= sizeof head) {
+      std::memcpy(&head, w.heard.data() + done, sizeof head);
+      if (w.heard.size() - done - sizeof head < head.length) break;
+      done += sizeof head;
+      ends.push_back({static_cast<std::size_t>(head.task), static_cast<int>(head.code), 0,
+                      w.heard.substr(done, static_cast<std::size_t>(head.length))});
+      done += static_cast<std::size_t>(head.length);
+      if (!w.given.empty()) w.given.pop_front();
+    }
+    w.heard.erase(0, done);
+    return open;
+  }
+
+  static void bury(Worker& w, std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
+    const int status = reap(w.process);
+    const bool clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;  // it left between two tasks
+    if (!w.given.empty() && !clean) {
+      ends.push_back({w.given.front(), WIFEXITED(status) ? WEXITSTATUS(status) : 1,
+                      WIFSIGNALED(status) ? WTERMSIG(status) : 0, ""});
+      w.given.pop_front();
+    }
+    queue.insert(queue.begin(), w.given.begin(), w.given.end());
+  }
+
   const HeldSignals& signals_;
-  const std::function<void(std::size_t)>& work_;
+  const Work& work_;
   pid_t parent_;
-  std::map<pid_t, std::size_t> running_;
+  std::list<Worker> workers_;
 };
 
 }  // namespace
 
-bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs,
-                 const std::function<void(std::size_t)>& work,
+bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs, const Work& work,
                  const std::function<bool(const WorkerEnd&)>& ended,
                  const std::function<void(std::size_t)>& idle) {
   const HeldSignals signals;
+  const auto pipes = std::signal(SIGPIPE, SIG_IGN);  // of a worker that has died
   Pool pool(signals, work);
-  bool go_on = true;
-  std::size_t next = 0;
-  while ((go_on && next < tasks.size()) || pool.size() > 0) {
-    while (go_on && next < tasks.size() && pool.size() < jobs) pool.start(tasks[next++]);
-    idle(pool.size());
-    const int signal = signals.next();
-    for (const WorkerEnd& end : pool.ended()) go_on = ended(end) && go_on;
-    if (signal == SIGINT || signal == SIGTERM) return false;
+  std::deque<std::size_t> queue(tasks.begin(), tasks.end());
+  bool go_on = true, whole = true;
+  while (whole && ((go_on && !queue.empty()) || pool.under_way() > 0)) {
+    while (go_on && pool.size() < std::min(jobs, queue.size() + pool.under_way())) pool.start();
+    if (go_on) pool.hand_out(queue);
+    idle(pool.under_way());
+    std::vector<WorkerEnd> ends;
+    whole = !pool.listen(queue, ends);
+    for (const WorkerEnd& end : ends) go_on = ended(end) && go_on;
   }
-  return true;
+  pool.end_all();
+  std::signal(SIGPIPE, pipes);
+  return whole;
 }
 
 }  // namespace signorini::cli

@@ -1,9 +1,14 @@
-// workers.hpp: tasks in processes of their own, a few at a time.
+// workers.hpp: tasks in a few processes that stay, one task after the other.
 //
-//   const Ending ending = run_workers(tasks, jobs, work, ended);
+//   const bool whole = run_workers(tasks, jobs, work, ended, idle);
 //
-// Processes, not threads: a run that crashes or fills the memory takes no other with it. SIGINT and SIGTERM
-// end all of them at once; what a task writes must be whole or not there.
+//   parent --- task -->  pipe  --> worker:  for each task: work(task), then
+//   parent <-- report -- pipe <--           { task, exit code, length, what work returned }
+//
+// Processes, not threads: a run that crashes or fills the memory takes no other with it
+// (docs/decisions/sweep-workers.md). A worker that dies costs the task at which it was, and is started anew; the
+// task that waited in its pipe goes to another. SIGINT and SIGTERM end all of them at once; what a task writes
+// must be whole or not there.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +18,20 @@
 
 namespace signorini::cli {
 
-/// How one process ended.
+/// How one task ended.
 struct WorkerEnd {
   std::size_t task = 0;
-  int code = 0;    ///< exit code; that of an Error which `work` threw
-  int signal = 0;  ///< that ended it, or 0
+  int code = 0;        ///< exit code; that of an Error which `work` threw
+  int signal = 0;      ///< that ended its process, or 0
+  std::string report;  ///< what `work` returned
 };
 
-/// `work` runs in the new process, whose exit code is 0, or what its exception says (the message goes to
+/// `work` runs in a worker, and its report comes here; what it throws becomes a code (the message goes to
 /// stderr). `ended` runs here, in the order of the ends, and says whether to go on. `idle` runs here now and
-/// then, with the number of processes. Returns false when interrupted. Errors: FileError where no process can
-/// be started; all others have ended then.
+/// then, with the number of tasks under way. Returns false when interrupted. Errors: FileError where no process
+/// can be started; all others have ended then.
 [[nodiscard]] bool run_workers(const std::vector<std::size_t>& tasks, std::size_t jobs,
-                               const std::function<void(std::size_t)>& work,
+                               const std::function<std::string(std::size_t)>& work,
                                const std::function<bool(const WorkerEnd&)>& ended,
                                const std::function<void(std::size_t)>& idle);
 

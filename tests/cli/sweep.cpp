@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -211,6 +213,24 @@ TEST_CASE("cli sweep: spread by GNU parallel") {
   CHECK(rows(shell, "joined") == rows(shell, "whole"));
 }
 
+TEST_CASE("cli sweep: spread by mpirun") {
+  if (!on_path("mpirun")) {
+    MESSAGE("skipped: no mpirun on PATH (Debian package openmpi-bin)");
+    return;
+  }
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  const std::string quoted =
+      "$SIGNORINI sweep belt.toml --sample 'contacts.belt.friction.static=uniform(1.1,1.9)' --samples 6 "
+      "--response residual:belt --no-plots --quiet ";
+  REQUIRE(line(shell, quoted + "-o whole") == 0);
+  REQUIRE(line(shell, "mpirun --allow-run-as-root --oversubscribe -n 2 " + quoted +
+                          "--share auto 2>/dev/null") == 0);
+  REQUIRE(line(shell, "$SIGNORINI sweep --merge belt-sweep-*-of-2 -o joined --no-plots --quiet") == 0);
+  CHECK(rows(shell, "joined") == rows(shell, "whole"));
+  CHECK(shell.read("joined/quantiles.csv") == shell.read("whole/quantiles.csv"));
+}
+
 TEST_CASE("cli sweep: a rank takes its share from the environment") {
   const Shell shell;
   shell.write("belt.toml", belt(10));
@@ -274,6 +294,234 @@ TEST_CASE("cli sweep: over two keys of numbers it is drawn as maps") {
   CHECK(has(cells, "\n1.35,1.75,"));
   CHECK(has(shell.read("belt-sweep/plots/motion.gp"), "fillcolor palette"));
   if (on_path("gnuplot")) CHECK(shell.read("belt-sweep/plots/forces.png").size() > 2000);
+}
+
+/// A block of 2 kg that slides at v on a floor, pressed by 10 N with friction 0.5: it stops after v^2 / 5.
+const std::string sliding_block = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 4.0
+engine = "exact"
+output_dt = 4.0
+initial = { block = { vx = 1.0 } }
+[nodes]
+block = [0.0, 0.0]
+[[masses]]
+node = "block"
+mass = 2.0
+[[supports]]
+node = "block"
+fix = ["uy"]
+[[contacts]]
+name = "floor"
+node = "block"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 10.0
+friction = 0.5
+[[output]]
+name = "x"
+kind = "displacement"
+at = "block"
+direction = [1.0, 0.0]
+[[output]]
+name = "v"
+kind = "velocity"
+at = "block"
+direction = [1.0, 0.0]
+)";
+
+TEST_CASE("cli sweep: answers are columns; keys vary in step") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const Ending ending = shell.run({"sweep",
+                                   "block.toml",
+                                   "--vary",
+                                   "run.initial.block.vx=1,2,3",
+                                   "--vary",
+                                   "masses.1.mass=2,4,6",
+                                   "--together",
+                                   "--response",
+                                   "residual:floor",
+                                   "--response",
+                                   "max:x",
+                                   "--response",
+                                   "tmax:x",
+                                   "--response",
+                                   "end:v",
+                                   "--response",
+                                   "abs:v",
+                                   "--response",
+                                   "count:stick",
+                                   "--response",
+                                   "count:slip@floor",
+                                   "--json"});
+  CHECK(ending.err.empty());
+  REQUIRE(ending.code == 0);
+  const json report = json::parse(ending.out);
+  REQUIRE(report["rows"].size() == 3);
+  CHECK(report["responses"][0] == json({{"name", "residual:floor"}, {"unit", "m"}}));
+  CHECK(report["responses"][2]["unit"] == "s");
+  CHECK(report["responses"][5]["unit"] == "");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double v = 1.0 + static_cast<double>(i), m = 2.0 * v, way = m * v * v / 10.0;
+    const json& answers = report["rows"][i]["responses"];
+    CAPTURE(i);
+    CHECK(answers[0].get<double>() == doctest::Approx(way).epsilon(1e-12));
+    CHECK(answers[1].get<double>() == doctest::Approx(way).epsilon(1e-12));
+    CHECK(std::abs(answers[2].get<double>() - m * v / 5.0) < 1e-7);
+    CHECK(answers[3].get<double>() == 0.0);
+    CHECK(answers[4].get<double>() == doctest::Approx(v));
+    CHECK(answers[5].get<double>() == 1.0);
+    CHECK(answers[6].get<double>() == 0.0);
+  }
+  CHECK(has(shell.read("block-sweep/sweep.csv"), ",residual:floor,max:x,tmax:x,end:v,abs:v,count:stick,"));
+  CHECK(exists(shell, "block-sweep/plots/responses.gp"));
+  // The sweep is its queries, too.
+  const Ending other = shell.run({"sweep", "block.toml", "--vary", "run.initial.block.vx=1,2,3", "--vary",
+                                  "masses.1.mass=2,4,6", "--together", "--response", "max:x"});
+  CHECK(other.code == 6);
+  CHECK(has(other.err, "--response was residual:floor max:x"));
+}
+
+TEST_CASE("cli sweep: quantiles of samples, against the closed form, whoever computes them") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto sweep = [&](const std::string& directory, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"sweep",      "block.toml",
+                                     "--sample",   "run.initial.block.vx=uniform(1,3)",
+                                     "--sample",   "contacts.floor.friction=normal(0.5,0.05)",
+                                     "--samples",  "200",
+                                     "--seed",     "5",
+                                     "--response", "residual:floor",
+                                     "--response", "max:v",
+                                     "--quiet",    "-o",
+                                     directory};
+    command.insert(command.end(), more.begin(), more.end());
+    return shell.run(command).code;
+  };
+  REQUIRE(sweep("one", {"--jobs", "1"}) == 0);
+  REQUIRE(sweep("two", {"--jobs", "2", "--no-plots"}) == 0);
+  for (const char* share : {"1/3", "2/3", "3/3"})
+    REQUIRE(sweep(std::string("part") + share[0], {"--share", share, "--no-plots"}) == 0);
+  REQUIRE(shell.run({"sweep", "--merge", "part1", "part2", "part3", "-o", "joined", "--quiet", "--no-plots"})
+              .code == 0);
+  for (const char* other : {"two", "joined"}) {
+    CHECK(rows(shell, other) == rows(shell, "one"));
+    for (const char* table : {"/quantiles.csv", "/exceedance.csv"})
+      CHECK(shell.read(std::string(other) + table) == shell.read(std::string("one") + table));
+  }
+  CHECK(exists(shell, "one/plots/exceedance.gp"));
+  if (on_path("gnuplot")) CHECK(shell.read("one/plots/exceedance.png").size() > 2000);
+  for (const json& row : rows(shell, "one")) {
+    const double v = std::stod(row["values"][0].get<std::string>()),
+                 f = std::stod(row["values"][1].get<std::string>());
+    CHECK(row["responses"][0].get<double>() == doctest::Approx(v * v / (10.0 * f)).epsilon(1e-11));
+  }
+  // max:v is uniform on [1, 3]: the quantile of p is 1 + 2 p.
+  std::istringstream table(shell.read("one/quantiles.csv"));
+  std::string row;
+  int checked = 0;
+  std::getline(table, row);
+  CHECK(row == "quantity,unit,n,missing,probability,value,low,high");
+  while (std::getline(table, row)) {
+    std::vector<std::string> cells(1);
+    for (const char c : row)
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    if (cells[0] != "max:v") continue;
+    REQUIRE(cells.size() == 8);
+    CHECK(cells[2] == "200");
+    const double truth = 1.0 + 2.0 * std::stod(cells[4]);
+    if (!cells[6].empty()) CHECK(std::stod(cells[6]) <= truth);
+    if (!cells[7].empty()) CHECK(std::stod(cells[7]) >= truth);
+    CHECK(std::abs(std::stod(cells[5]) - truth) < 0.3);
+    ++checked;
+  }
+  CHECK(checked == 9);
+}
+
+TEST_CASE("cli sweep: a killed sweep goes on with the same samples; a row that crashes costs itself") {
+  const Shell shell;
+  shell.write("belt.toml", belt(2000));
+  const std::vector<std::string> command = {"sweep",      "belt.toml",
+                                            "--sample",   "contacts.belt.friction.static=uniform(1.2,1.8)",
+                                            "--samples",  "6",
+                                            "--response", "residual:belt",
+                                            "--jobs",     "2",
+                                            "--no-plots", "--quiet",
+                                            "--set",      "run.rtol=1e-11"};
+  const auto child_of = [](pid_t process) {
+    std::ifstream children("/proc/" + std::to_string(process) + "/task/" + std::to_string(process) +
+                           "/children");
+    pid_t first = 0;
+    children >> first;
+    return first;
+  };
+  const auto started = [&](const char* file) {
+    const pid_t child = shell.start(command);
+    for (int i = 0; i < 600 && !exists(shell, file); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return child;
+  };
+  const pid_t killed = started("belt-sweep/rows/000001.json");
+  kill(killed, SIGKILL);
+  (void)shell.wait(killed);
+  const pid_t hurt = started("belt-sweep/rows/000003.json");
+  if (const pid_t worker = child_of(hurt); worker > 0) kill(worker, SIGSEGV);
+  CHECK(shell.wait(hurt).code == 0);
+  const json first = rows(shell, "belt-sweep");
+  REQUIRE(first.size() == 6);
+  const auto crashed =
+      std::count_if(first.begin(), first.end(), [](const json& row) { return row["outcome"] == "crashed"; });
+  CHECK(crashed <= 1);
+  if (crashed == 1) {
+    const auto row =
+        *std::find_if(first.begin(), first.end(), [](const json& r) { return r["outcome"] == "crashed"; });
+    CHECK(has(row["reason"].get<std::string>(), "signal 11"));
+  }
+  REQUIRE(shell.run(command).code == 0);
+  std::vector<std::string> whole = command;
+  whole.insert(whole.end(), {"-o", "whole"});
+  REQUIRE(shell.run(whole).code == 0);
+  CHECK(rows(shell, "belt-sweep") == rows(shell, "whole"));
+  CHECK(shell.read("belt-sweep/quantiles.csv") == shell.read("whole/quantiles.csv"));
+}
+
+TEST_CASE("cli sweep: what is wrong with queries and samples is told before anything is written") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto refused = [&](std::vector<std::string> more, const std::string& why) {
+    more.insert(more.begin(), {"sweep", "block.toml"});
+    const Ending ending = shell.run(more);
+    CAPTURE(why);
+    CHECK(ending.code == 2);
+    CHECK_MESSAGE(has(ending.err, why), ending.err);
+    CHECK(shell.list().size() == 1);
+  };
+  const std::string vary_mass = "masses.1.mass=1,2";
+  refused({"--vary", vary_mass, "--response", "maximum:x"}, "expected one of max:, min:");
+  refused({"--vary", vary_mass, "--response", "max:y"}, "unknown output \"y\"");
+  refused({"--vary", vary_mass, "--response", "residual:flor"}, "did you mean \"floor\"");
+  refused({"--vary", vary_mass, "--response", "count:stik"}, "unknown event \"stik\"");
+  refused({"--vary", vary_mass, "--response", "count:stick@x"}, "unknown contact \"x\"");
+  refused({"--vary", vary_mass, "--response", "impulse:floor@0"}, "the number of a landing, from 1");
+  refused({"--vary", vary_mass, "--response", "max:x", "--response", "max:x"}, "asked for twice");
+  refused({"--vary", vary_mass, "--together"}, "expected two --vary or more");
+  refused({"--vary", vary_mass, "--vary", "run.rtol=1e-6,1e-7,1e-8", "--together"}, "expected as many");
+  refused({"--vary", vary_mass, "--samples", "5"}, "has no meaning without --sample");
+  refused({"--vary", vary_mass, "--seed", "5"}, "has no meaning without --sample");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)"}, "expected --response");
+  refused({"--sample", "masses.1.mass=normal(2,0)", "--response", "max:x"}, "standard deviation > 0");
+  refused({"--sample", "masses.1.mas=normal(2,0.1)", "--response", "max:x"}, "masses.1.mas");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--sequence", "halton"},
+          "expected random or sobol");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--samples", "0"},
+          "expected 1 to 1000000");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--vary", vary_mass, "--response", "max:x"},
+          "varied already");
 }
 
 TEST_SUITE_END();

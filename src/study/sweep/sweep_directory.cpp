@@ -29,7 +29,14 @@ Json spec_json(const SweepSpec& spec) {
                {"settings", spec.settings}};
   json["vary"] = Json::array();
   for (const Vary& vary : spec.vary)
-    json["vary"].push_back({{"path", vary.path}, {"text", vary.text}, {"values", vary.values}});
+    json["vary"].push_back({{"path", vary.path},
+                            {"text", vary.text},
+                            {"values", vary.values},
+                            {"group", vary.group},
+                            {"sampled", vary.sampled}});
+  json["responses"] = spec.responses;
+  json["response_units"] = spec.response_units;
+  json["sampling"] = spec.sampling;
   json["share"] = spec.share.text();
   return json;
 }
@@ -118,7 +125,8 @@ void remove_old(const fs::path& path) {
     remove_run(run);
     if (fs::is_empty(run, error)) ours.push_back(run);
   }
-  for (const char* name : {"sweep.csv", "results.json", "report.html"}) ours.push_back(path / name);
+  for (const char* name : {"sweep.csv", "results.json", "quantiles.csv", "exceedance.csv", "report.html"})
+    ours.push_back(path / name);
   for (const fs::path& file : ours) {
     fs::remove(file, error);
     if (error) throw FileError(file.string(), "cannot be removed: " + error.message());
@@ -168,6 +176,8 @@ void SweepDirectory::read_rows() {
 
 void SweepDirectory::take(std::size_t index) { rows_[index] = row_of_sweep(row_file(index), index); }
 
+void SweepDirectory::take(std::size_t index, const std::string& text) { rows_[index] = parse_row(text); }
+
 SweepRow SweepDirectory::row_of_sweep(const fs::path& file, std::size_t index) const {
   SweepRow row = read_row(file);
   const auto& point = points_.at(index);
@@ -202,8 +212,12 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
     spec.units = units_from(json.at("units"));
     spec.settings = json.at("settings").get<std::vector<std::string>>();
     for (const Json& vary : json.at("vary"))
-      spec.vary.push_back(
-          {vary.at("path"), vary.at("text"), vary.at("values").get<std::vector<std::string>>()});
+      spec.vary.push_back({vary.at("path"), vary.at("text"),
+                           vary.at("values").get<std::vector<std::string>>(), vary.at("group"),
+                           vary.at("sampled")});
+    spec.responses = json.at("responses").get<std::vector<std::string>>();
+    spec.response_units = json.at("response_units").get<std::vector<std::string>>();
+    spec.sampling = json.at("sampling");
     spec.share = parse_share(json.at("share").get<std::string>(),
                              [](const char*) -> std::optional<std::string> { return std::nullopt; });
     const std::string by = json.at("signorini");
@@ -221,7 +235,13 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   const auto differ = [](const char* what, const std::string& a, const std::string& b) {
     return fmt::format("{} was {}, is {}", what, a, b);
   };
-  if (was.vary != is.vary) return differ("--vary", text_of(was.vary), text_of(is.vary));
+  if (was.sampling != is.sampling) return differ("--sample", was.sampling, is.sampling);
+  if (was.vary != is.vary) {
+    const std::string a = text_of(was.vary), b = text_of(is.vary);
+    return a == b ? "--together was another" : differ("--vary", a, b);
+  }
+  if (was.responses != is.responses)
+    return differ("--response", text_of(was.responses), text_of(is.responses));
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
     return fmt::format("the scene {} has another content now ({})", is.scene, was.scene);

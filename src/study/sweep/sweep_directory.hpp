@@ -24,7 +24,10 @@ struct SweepSpec {
   std::string scene;                  ///< file, as given
   std::string fingerprint;            ///< of the scene's content with settings and the first values that fit
   std::vector<std::string> settings;  ///< --set, in order
-  std::vector<Vary> vary;
+  std::vector<Vary> vary;             ///< the sampled keys last
+  /// What is asked of every run (response_query.hpp), and the unit of each answer.
+  std::vector<std::string> responses, response_units;
+  std::string sampling;  ///< "1000 random, seed 1"; empty where nothing is sampled
   Share share;
   std::string title;
   Units units;
@@ -52,8 +55,9 @@ class SweepDirectory {
   /// A row from a file, of this sweep or of a share of it. Errors: also where it has been altered or is the
   /// row of another number.
   [[nodiscard]] SweepRow row_of_sweep(const std::filesystem::path& file, std::size_t index) const;
-  /// Takes the row that has been written to row_file(index).
+  /// Takes the row that has been written to row_file(index): from there, or from the same text.
   void take(std::size_t index);
+  void take(std::size_t index, const std::string& text);
   /// Writes a row and takes it.
   void add(const SweepRow& row);
   /// sweep.csv and, at the end, results.json.

@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "base/number.hpp"
@@ -42,6 +45,7 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
   for (std::size_t i = 0; i < spec.vary.size(); ++i) {
     const std::vector<std::string>& values = spec.vary[i].values;
     if (values.size() < 2) continue;
+    if (spec.vary[i].sampled || spec.vary[i].group != 0) return std::nullopt;
     const bool numbers = std::all_of(values.begin(), values.end(),
                                      [](const std::string& text) { return parse_number(text).has_value(); });
     if (!numbers || values.size() < fewest_values) return std::nullopt;
@@ -59,6 +63,7 @@ std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRow
   for (const char* name :
        {"x0", "x1", "y0", "y1", "events", "peak_t", "peak_n", "peak_N", "peak_T", "friction_work"})
     block.text(name);
+  for (const std::string& response : spec.responses) block.text(response);
   block.end_row();
   for (const auto& [index, row] : rows) {
     if (!row.ran()) continue;
@@ -74,13 +79,43 @@ std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRow
     }
     block.number(x0).number(x1).number(y0).number(y1).number(static_cast<double>(row.changes()));
     block.number(greatest.tangential).number(greatest.normal).number(greatest.N).number(greatest.T);
-    block.number(greatest.friction).end_row();
+    block.number(greatest.friction);
+    for (std::size_t i = 0; i < spec.responses.size(); ++i) {
+      const bool known = i < row.responses.size() && std::isfinite(row.responses[i]);
+      block.number(known ? std::optional<double>(row.responses[i]) : std::nullopt);
+    }
+    block.end_row();
   }
   return block.str();
 }
 
+std::string border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
+  const std::vector<double> x = values_of(spec.vary[axes.x]), y = values_of(spec.vary[axes.y]);
+  std::map<std::pair<double, double>, const std::string*> sequences;
+  for (const auto& [index, row] : rows)
+    if (row.ran())
+      sequences[{*parse_number(row.values[axes.x]), *parse_number(row.values[axes.y])}] = &row.sequence;
+  CsvBlock block;
+  for (const char* name : {"x0", "y0", "x1", "y1"}) block.text(name);
+  block.end_row();
+  const auto differ = [&](double xa, double ya, double xb, double yb) {
+    const auto a = sequences.find({xa, ya}), b = sequences.find({xb, yb});
+    return a != sequences.end() && b != sequences.end() && *a->second != *b->second;
+  };
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < y.size(); ++j) {
+      const auto [x0, x1] = cell(x, x[i]);
+      const auto [y0, y1] = cell(y, y[j]);
+      if (i + 1 < x.size() && differ(x[i], y[j], x[i + 1], y[j]))
+        block.number(x1).number(y0).number(x1).number(y1).end_row();
+      if (j + 1 < y.size() && differ(x[i], y[j], x[i], y[j + 1]))
+        block.number(x0).number(y1).number(x1).number(y1).end_row();
+    }
+  return block.str();
+}
+
 std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                       const std::string& subtitle, const std::vector<MapPanel>& panels) {
+                       const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders) {
   PlottedRun run;
   run.facts.title = spec.title;
   run.facts.outcome = "done";
@@ -101,10 +136,15 @@ std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::st
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen 0.018, screen {:.4f}\n",
         panel_right + 0.02, upper - each, each);
     s += "set cblabel " + quoted(shown.label) + "\n";
-    s += plot_command(
-        {fmt::format("'map.csv' skip 1 using (0.5*($1+$2)):(0.5*($3+$4)):1:2:3:4:{} with boxxyerror "
-                     "fillstyle solid 1.0 noborder fillcolor palette notitle",
-                     shown.column)});
+    std::vector<std::string> elements{
+        fmt::format("'map.csv' skip 1 using (0.5*($1+$2)):(0.5*($3+$4)):1:2:3:4:{} with boxxyerror "
+                    "fillstyle solid 1.0 noborder fillcolor palette notitle",
+                    shown.column)};
+    if (borders)
+      elements.emplace_back(
+          "'borders.csv' skip 1 using 1:2:($3-$1):($4-$2) with vectors nohead linewidth 1.6 linecolor "
+          "'#d95f02' notitle");
+    s += plot_command(elements);
   }
   return s + end_script();
 }

@@ -1,6 +1,7 @@
 // sweep_map.hpp: a sweep over two keys as maps: the colour of a cell is the figure of its run.
 //
-//   map.csv  x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work
+//   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
+//   borders.csv  x0,y0,x1,y1: sides between cells whose events come in another sequence
 //
 // Greatest of all contacts; a cell reaches halfway to its neighbours.
 #pragma once
@@ -25,12 +26,16 @@ struct MapAxes {
 /// Cells without a run have no row.
 [[nodiscard]] std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
+/// The sides that part regions of equal sequences of events; of cells without a run none.
+[[nodiscard]] std::string border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
+
 /// A figure and its column in map.csv, from 1.
 struct MapPanel {
   std::string label;
   int column = 0;
 };
 [[nodiscard]] std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                                     const std::string& subtitle, const std::vector<MapPanel>& panels);
+                                     const std::string& subtitle, const std::vector<MapPanel>& panels,
+                                     bool borders);
 
 }  // namespace signorini

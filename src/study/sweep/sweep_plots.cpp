@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 #include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "study/sweep/quantiles.hpp"
 #include "study/sweep/sweep_map.hpp"
 
 namespace signorini {
@@ -21,6 +23,7 @@ namespace {
 
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
+constexpr std::size_t most_panels = 6;
 constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
 
 /// Rows that have all values in common but that on the axis.
@@ -52,18 +55,24 @@ Axis axis_of(const SweepSpec& spec) {
   return axis;
 }
 
+/// The key of the axis, or one in step with it.
+bool moves_with(const SweepSpec& spec, const Axis& axis, std::size_t key) {
+  return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
+}
+
 std::vector<Curve> group(const SweepSpec& spec, const SweepRows& rows, const Axis& axis) {
   std::vector<Curve> list;
   std::map<std::vector<std::string>, std::size_t> known;
   for (const auto& [index, row] : rows) {
     if (!row.ran()) continue;
     std::vector<std::string> others = row.values;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis.key));
+    for (std::size_t i = spec.vary.size(); i-- > 0;)
+      if (moves_with(spec, axis, i)) others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const auto [found, fresh] = known.emplace(others, list.size());
     if (fresh) {
       std::string name;
       for (std::size_t i = 0; i < row.values.size(); ++i) {
-        if (i == axis.key || spec.vary[i].values.size() < 2) continue;
+        if (moves_with(spec, axis, i) || spec.vary[i].values.size() < 2) continue;
         name += (name.empty() ? "" : ", ") + row.values[i];
       }
       list.push_back({name, {}});
@@ -77,17 +86,19 @@ std::vector<Curve> group(const SweepSpec& spec, const SweepRows& rows, const Axi
 std::string other_keys(const SweepSpec& spec, const Axis& axis) {
   std::string text;
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
-    if (i != axis.key && spec.vary[i].values.size() > 1)
+    if (!moves_with(spec, axis, i) && spec.vary[i].values.size() > 1)
       text += (text.empty() ? "; curves: " : ", ") + spec.vary[i].path;
   return text;
 }
 
-std::string curve_table(const Curve& curve, const Axis& axis, const std::vector<std::string>& contacts) {
+std::string curve_table(const SweepSpec& spec, const Curve& curve, const Axis& axis,
+                        const std::vector<std::string>& contacts) {
   CsvBlock block;
   block.text("x").text("events");
   for (const std::string& name : contacts)
     for (const char* figure : {".peak_t", ".peak_n", ".peak_N", ".peak_T", ".friction_work"})
       block.text(name + figure);
+  for (const std::string& response : spec.responses) block.text(response);
   block.end_row();
   // A range may fall, a list has any order; lines run from left to right.
   std::vector<const SweepRow*> rows = curve.rows;
@@ -103,6 +114,8 @@ std::string curve_table(const Curve& curve, const Axis& axis, const std::vector<
       for (const double value : {from.tangential, from.normal, from.N, from.T, from.friction})
         block.number(figure(value));
     }
+    for (const double value : row->responses)
+      block.number(std::isfinite(value) ? std::optional<double>(value) : std::nullopt);
     block.end_row();
   }
   return block.str();
@@ -110,7 +123,7 @@ std::string curve_table(const Curve& curve, const Axis& axis, const std::vector<
 
 struct Panel {
   std::string label;
-  int figure;  ///< 0: events; 1 to 5: of each contact
+  int figure;  ///< 0: events; 1 to 5: of each contact; below 0: the answer -figure, counted from 1
 };
 
 class Script {
@@ -134,7 +147,7 @@ class Script {
     for (int i = 0; i < count; ++i) {
       const double upper = top - i * (each + space);
       s += panel(run_, upper - each, upper, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
-      s += "set yrange [0:*]\n";
+      s += panels[static_cast<std::size_t>(i)].figure < 0 ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) s += ticks(i + 1 == count);
       if (i + 1 == count) s += "set xlabel " + quoted(axis_.vary->path) + "\n";
       s += plot_command(elements(panels[static_cast<std::size_t>(i)]));
@@ -166,11 +179,13 @@ class Script {
 
   [[nodiscard]] std::vector<std::string> elements(const Panel& panel) const {
     std::vector<std::string> list;
-    const std::size_t curves = panel.figure == 0 ? 1 : contacts_.size();
+    const std::size_t curves = panel.figure <= 0 ? 1 : contacts_.size();
     for (std::size_t k = 0; k < curves; ++k) {
       for (std::size_t c = 0; c < curves_.size() && list.size() < most_curves; ++c) {
-        const int column = panel.figure == 0 ? 2 : 2 + static_cast<int>(5 * k) + panel.figure;
-        const bool alone = panel.figure == 0 || (contacts_.size() == 1 && curves_.size() > 1);
+        const int column = panel.figure == 0  ? 2
+                           : panel.figure < 0 ? 2 + static_cast<int>(5 * contacts_.size()) - panel.figure
+                                              : 2 + static_cast<int>(5 * k) + panel.figure;
+        const bool alone = panel.figure <= 0 || (contacts_.size() == 1 && curves_.size() > 1);
         std::string title = panel.figure == 0 ? (curves_.size() == 1 ? "events" : "")
                             : alone           ? ""
                                               : contacts_[k];
@@ -198,15 +213,72 @@ class Script {
 
 bool is_picture_of_sweep(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named = stem == "motion" || stem == "forces" || stem == "losses";
+  const bool named =
+      stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" || stem == "exceedance";
   return (is_picture(file) && named) ||
-         (file.extension() == ".csv" && (stem.starts_with("curve-") || stem == "map"));
+         (file.extension() == ".csv" && (stem.starts_with("curve-") || stem.starts_with("exceedance-") ||
+                                         stem == "map" || stem == "borders"));
+}
+
+std::string labelled(const SweepSpec& spec, std::size_t query) {
+  const std::string& unit = spec.response_units[query];
+  return spec.responses[query] + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+/// Probability that an answer is greater, over it, with its interval; a panel a query.
+std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepSpec& spec,
+                                         const SweepRows& rows) {
+  const std::vector<Sampled> answers = sampled_answers(spec, rows);
+  const auto drawn = [](const Sampled& s) { return s.sorted.size() > 1; };
+  if (std::none_of(answers.begin(), answers.end(), drawn)) return {};
+  const fs::path folder = directory / "plots";
+  begin_plot_folder(folder, is_picture_of_sweep);
+  PlottedRun run;
+  run.facts.title = spec.title;
+  run.facts.outcome = "done";
+  run.facts.units = spec.units;
+  const std::size_t panels = std::min(spec.responses.size(), most_panels);
+  const int count = static_cast<int>(panels), height = 140 + 340 * count;
+  std::string s = begin_script(run, {"exceedance", "Probability of more; " + spec.sampling, height, false});
+  const double bottom = 62.0 / height, top = 1.0 - 62.0 / height, space = 74.0 / height;
+  const double each = (top - bottom - space * (count - 1)) / count;
+  s += "set logscale y\n";
+  for (int i = 0; i < count; ++i) {
+    const double upper = top - i * (each + space);
+    s += panel(run, upper - each, upper, "P(greater)", true);
+    s += "set xlabel " + quoted(labelled(spec, static_cast<std::size_t>(i))) + "\nset yrange [*:1]\n";
+    std::vector<std::string> elements;
+    for (std::size_t k = 0; k < answers.size() && elements.size() < most_curves; ++k) {
+      if (answers[k].query != static_cast<std::size_t>(i) || !drawn(answers[k])) continue;
+      CsvBlock block;
+      block.text("value").text("probability").text("low").text("high").end_row();
+      for (const Exceedance& e : exceedance(answers[k].sorted, independent(spec)))
+        block.number(e.value).number(e.probability).number(e.low).number(e.high).end_row();
+      const std::string name = fmt::format("exceedance-{}.csv", k + 1);
+      write_file(folder / name, block.str());
+      std::string title;
+      for (const std::string& value : answers[k].values) title += (title.empty() ? "" : ", ") + value;
+      const char* colour = colours[elements.size() % colours.size()];
+      if (independent(spec) && answers.size() == spec.responses.size())
+        elements.push_back(
+            fmt::format("'{}' skip 1 using 1:3:4 with filledcurves fillstyle solid 0.2 noborder "
+                        "linecolor '{}' title '95 % confidence'",
+                        name, colour));
+      elements.push_back(fmt::format("'{}' skip 1 using 1:2 with steps linewidth 1.8 linecolor '{}' title {}",
+                                     name, colour, signorini::quoted(title)));
+    }
+    s += plot_command(elements);
+  }
+  const fs::path script = folder / "exceedance.gp";
+  write_file(script, s + end_script());
+  return {script};
 }
 
 }  // namespace
 
 std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
                                         const SweepRows& rows) {
+  if (!spec.sampling.empty()) return write_sample_plots(directory, spec, rows);
   const Axis axis = axis_of(spec);
   const std::vector<Curve> list = group(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);
@@ -214,10 +286,16 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_sweep);
   for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
-    write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(list[i], axis, contacts));
+    write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(spec, list[i], axis, contacts));
 
   const std::optional<MapAxes> axes = map_axes(spec);
-  if (axes) write_file(folder / "map.csv", map_table(spec, *axes, rows));
+  bool borders = false;
+  if (axes) {
+    write_file(folder / "map.csv", map_table(spec, *axes, rows));
+    const std::string sides = border_table(spec, *axes, rows);
+    borders = std::count(sides.begin(), sides.end(), '\n') > 1;
+    if (borders) write_file(folder / "borders.csv", sides);
+  }
   const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   const Script script(spec, axis, list, contacts);
@@ -231,10 +309,17 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
       return;
     }
     std::vector<MapPanel> maps;
-    for (const Panel& p : panels) maps.push_back({p.label, 5 + p.figure});
-    const char* of = contacts.size() > 1 ? ", greatest of all contacts" : "";
-    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of, maps));
+    for (const Panel& p : panels) maps.push_back({p.label, p.figure < 0 ? 10 - p.figure : 5 + p.figure});
+    const char* parts = borders ? "; lines part sequences of events" : "";
+    const char* of = contacts.size() > 1 && panels.front().figure >= 0 ? ", greatest of all contacts" : "";
+    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders));
   };
+  if (!spec.responses.empty()) {
+    std::vector<Panel> panels;
+    for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
+      panels.push_back({labelled(spec, i), -static_cast<int>(i) - 1});
+    add("responses", "What was asked for", panels);
+  }
   if (!contacts.empty()) {
     add("motion", "Greatest motion of the contacts from the start",
         {{"along the tangent" + length, 1}, {"along the normal" + length, 2}});

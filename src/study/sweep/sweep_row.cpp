@@ -1,5 +1,6 @@
 #include "study/sweep/sweep_row.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -9,16 +10,11 @@
 #include "base/input_file.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
+#include "study/sweep/response_query.hpp"
 
 namespace signorini {
 
 namespace {
-
-/// Only the Report counts.
-class NoRecorder : public Recorder {
-  void event(const Event& /*event*/) override {}
-  void sample(const Sample& /*sample*/) override {}
-};
 
 void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.outcome = report.outcome.kind == Outcome::Kind::done ? "done" : "stopped";
@@ -44,20 +40,30 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.warnings = report.warnings.size();
 }
 
-Report run(const RowTask& task, const Scene& scene, const Model& model) {
-  NoRecorder nothing;
-  if (task.keep.empty()) return simulate(model, scene.run, nothing);
+Report run(const RowTask& task, const Scene& scene, const Model& model, Answers& answers) {
+  if (task.keep.empty()) return simulate(model, scene.run, answers);
   remove_run(task.keep);  // what an interrupted sweep left
   RunDirectory directory(task.keep, scene, model, {false, task.command_line});
-  Report report = simulate(model, scene.run, directory);
+  answers.pass_on(directory);
+  Report report = simulate(model, scene.run, answers);
   directory.finish(report);
   return report;
 }
 
-double number(const Json& json, const char* key) {  // what is no number was written as null
-  const Json& value = json.at(key);
+/// Outputs that no query asks for cost and tell nothing; a kept run has them all the same.
+void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries, Model& model) {
+  if (!task.keep.empty() ||
+      std::any_of(queries.begin(), queries.end(), [](const ResponseQuery& q) { return q.of_output(); }))
+    return;
+  model.outputs.clear();
+  model.reaction_sums.clear();
+}
+
+double number_or_none(const Json& value) {  // what is no number was written as null
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
+
+double number(const Json& json, const char* key) { return number_or_none(json.at(key)); }
 
 }  // namespace
 
@@ -69,8 +75,15 @@ SweepRow compute_row(const RowTask& task) {
   row.values = task.values;
   try {
     const Scene scene = read_scene(task.scene, task.changes);
-    const Model model = build_model(scene);
-    take_report(row, model, run(task, scene, model));
+    Model model = build_model(scene);
+    std::vector<ResponseQuery> queries;
+    for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));
+    drop_outputs(task, queries, model);
+    Answers answers(queries, model);
+    const Report report = run(task, scene, model, answers);
+    take_report(row, model, report);
+    row.responses = answers.values(report);
+    row.sequence = answers.sequence();
   } catch (const FileError&) {
     throw;
   } catch (const Error& error) {
@@ -80,11 +93,15 @@ SweepRow compute_row(const RowTask& task) {
   return row;
 }
 
-std::string row_json(const SweepRow& row) {
+namespace {
+
+Json json_of(const SweepRow& row) {
   Json json = {{"row", row.index + 1},       {"values", row.values}, {"outcome", row.outcome},
                {"reason", row.reason},       {"t", row.t},           {"events", row.events},
                {"wall_time", row.wall_time}, {"steps", row.steps},   {"energy_balance", row.balance},
                {"warnings", row.warnings}};
+  json["sequence"] = row.sequence;
+  if (!row.responses.empty()) json["responses"] = row.responses;
   json["contacts"] = Json::array();
   for (const auto& contact : row.contacts)
     json["contacts"].push_back({{"name", contact.name},
@@ -93,14 +110,41 @@ std::string row_json(const SweepRow& row) {
                                 {"N", contact.N},
                                 {"T", contact.T},
                                 {"friction_work", contact.friction}});
-  return json_text(json);
+  return json;
 }
 
+SweepRow row_of(const Json& json) {
+  SweepRow row;
+  row.index = json.at("row").get<std::size_t>() - 1;
+  row.values = json.at("values").get<std::vector<std::string>>();
+  row.outcome = json.at("outcome");
+  row.reason = json.at("reason");
+  row.t = number(json, "t");
+  row.events = json.at("events").get<std::map<std::string, long>>();
+  row.wall_time = number(json, "wall_time");
+  row.steps = json.at("steps");
+  row.balance = number(json, "energy_balance");
+  row.warnings = json.at("warnings");
+  row.sequence = json.at("sequence");
+  if (const auto found = json.find("responses"); found != json.end())
+    for (const Json& value : *found) row.responses.push_back(number_or_none(value));
+  for (const Json& contact : json.at("contacts"))
+    row.contacts.push_back({contact.at("name"), number(contact, "tangential"), number(contact, "normal"),
+                            number(contact, "N"), number(contact, "T"), number(contact, "friction_work")});
+  return row;
+}
+
+}  // namespace
+
+std::string row_json(const SweepRow& row) { return json_text(json_of(row)); }
+
 std::string row_text(const SweepRow& row) {
-  Json json = parse_json(row_json(row));
+  Json json = json_of(row);
   json["checksum"] = fingerprint_of(json_line(json));
   return json_text(json);
 }
+
+SweepRow parse_row(const std::string& text) { return row_of(parse_json(text)); }
 
 bool same_result(const SweepRow& a, const SweepRow& b) {
   SweepRow other = b;
@@ -119,21 +163,7 @@ SweepRow read_row(const std::filesystem::path& file) {
     json.erase("checksum");
     if (checksum != fingerprint_of(json_line(json)))
       throw FileError(file.string(), "has been altered since it was written");
-    SweepRow row;
-    row.index = json.at("row").get<std::size_t>() - 1;
-    row.values = json.at("values").get<std::vector<std::string>>();
-    row.outcome = json.at("outcome");
-    row.reason = json.at("reason");
-    row.t = number(json, "t");
-    row.events = json.at("events").get<std::map<std::string, long>>();
-    row.wall_time = number(json, "wall_time");
-    row.steps = json.at("steps");
-    row.balance = number(json, "energy_balance");
-    row.warnings = json.at("warnings");
-    for (const Json& contact : json.at("contacts"))
-      row.contacts.push_back({contact.at("name"), number(contact, "tangential"), number(contact, "normal"),
-                              number(contact, "N"), number(contact, "T"), number(contact, "friction_work")});
-    return row;
+    return row_of(json);
   } catch (const Json::exception& error) {
     throw FileError(file.string(), std::string("is not a row of a sweep: ") + error.what());
   }

@@ -28,7 +28,9 @@ struct SweepRow {
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  double wall_time = 0.0;  ///< s
+  std::vector<double> responses;  ///< one a query of the sweep; NaN: none. Empty where no run began
+  std::string sequence;           ///< of its events: equal for equal ones (response_query.hpp)
+  double wall_time = 0.0;         ///< s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
   std::size_t warnings = 0;
@@ -45,6 +47,7 @@ struct RowTask {
   std::vector<std::string> values;
   std::filesystem::path keep;  ///< directory of the run; empty: only the row is kept
   std::vector<std::string> command_line;
+  std::vector<std::string> responses = {};  ///< queries, as given
 };
 
 /// Errors: FileError where files cannot be written.
@@ -53,6 +56,8 @@ struct RowTask {
 [[nodiscard]] std::string row_json(const SweepRow& row);
 /// The same as a file: with a checksum, so that what somebody has altered is not taken for a result.
 [[nodiscard]] std::string row_text(const SweepRow& row);
+/// From row_text(), unseen by anybody since.
+[[nodiscard]] SweepRow parse_row(const std::string& text);
 /// Alike but for the time that they took.
 [[nodiscard]] bool same_result(const SweepRow& a, const SweepRow& b);
 /// Errors: FileError, also where the checksum does not fit.

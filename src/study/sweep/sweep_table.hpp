@@ -1,7 +1,7 @@
 // sweep_table.hpp: the rows of a sweep as one table.
 //
 //   sweep.csv  row,PATH,...,outcome,t,reason,events,slip,stick,reversal,separation,contact,impact,time,
-//              NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
+//              QUERY,...,NAME.peak_t,NAME.peak_n,NAME.peak_N,NAME.peak_T,NAME.friction_work,...,
 //              wall_time,steps,energy_balance,warnings
 //
 // One group of columns a contact, in the order of the scene; empty where no run began.

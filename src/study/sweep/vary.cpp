@@ -111,24 +111,47 @@ Vary parse_vary(const std::string& text) {
   return vary;
 }
 
+namespace {
+
+/// Indices of the keys that vary in step with key i, itself first; empty where an earlier key has its group.
+std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i) {
+  std::vector<std::size_t> members{i};
+  if (varied[i].group == 0) return members;
+  for (std::size_t j = 0; j < varied.size(); ++j) {
+    if (j == i || varied[j].group != varied[i].group) continue;
+    if (j < i) return {};
+    members.push_back(j);
+    if (varied[j].values.size() != varied[i].values.size())
+      throw UsageError(fmt::format("--together: {} has {} and {} has {}, expected as many", varied[i].path,
+                                   count_of(varied[i].values.size(), "value"), varied[j].path,
+                                   varied[j].values.size()));
+  }
+  return members;
+}
+
+}  // namespace
+
 std::vector<std::vector<Override>> points(const std::vector<Vary>& varied) {
   double count = 1.0;
   for (std::size_t i = 0; i < varied.size(); ++i) {
-    count *= static_cast<double>(varied[i].values.size());
+    if (!in_step(varied, i).empty()) count *= static_cast<double>(varied[i].values.size());
     for (std::size_t j = 0; j < i; ++j)
       if (varied[j].path == varied[i].path)
-        throw UsageError("--vary " + varied[i].path + "=" + varied[i].text + ": this key is varied already");
+        throw UsageError(fmt::format("--{} {}={}: this key is varied already",
+                                     varied[i].sampled ? "sample" : "vary", varied[i].path, varied[i].text));
   }
   if (count > most_points)
     throw UsageError(fmt::format("--vary: the ranges make {:.0f} runs, expected at most 1e6", count));
-  std::vector<std::vector<Override>> list(1);
-  for (const Vary& vary : varied) {
+  std::vector<std::vector<Override>> list(1, std::vector<Override>(varied.size()));
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    const std::vector<std::size_t> members = in_step(varied, i);
+    if (members.empty()) continue;
     std::vector<std::vector<Override>> longer;
-    longer.reserve(list.size() * vary.values.size());
+    longer.reserve(list.size() * varied[i].values.size());
     for (const auto& point : list) {
-      for (const std::string& value : vary.values) {
+      for (std::size_t k = 0; k < varied[i].values.size(); ++k) {
         longer.push_back(point);
-        longer.back().push_back({vary.path, value});
+        for (const std::size_t j : members) longer.back()[j] = {varied[j].path, varied[j].values[k]};
       }
     }
     list = std::move(longer);

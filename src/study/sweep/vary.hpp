@@ -3,7 +3,8 @@
 //   0:1.3:0.1     start:stop:step, the stop included where it is a step; 0.3 is 0.3, not 0.30000000000000004
 //   ida,exact     a list of TOML values; commas inside of quotes, brackets and braces do not part it
 //
-// Several ranges make a product; the last one runs fastest.
+// Several ranges make a product; the last one runs fastest. Keys of one group vary in step, and count as one
+// range, where the first of them stands.
 #pragma once
 
 #include <string>
@@ -18,14 +19,16 @@ struct Vary {
   std::string path;
   std::string text;                 ///< as given
   std::vector<std::string> values;  ///< each as `--set` takes it
+  int group = 0;                    ///< keys of the same group, above 0, vary in step
+  bool sampled = false;             ///< the values are draws from the distribution `text`
 
   friend bool operator==(const Vary&, const Vary&) = default;
 };
 
 /// Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] Vary parse_vary(const std::string& text);
-/// The product: entry i holds one value a Vary, in their order. Errors: UsageError for more than 1e6 points,
-/// and for a path that stands twice.
+/// The product: entry i holds one value a Vary, in their order. Errors: UsageError for more than 1e6 points, for
+/// a path that stands twice, and for keys in step with different numbers of values.
 [[nodiscard]] std::vector<std::vector<Override>> points(const std::vector<Vary>& varied);
 
 }  // namespace signorini

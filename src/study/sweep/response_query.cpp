@@ -1,0 +1,184 @@
+#include "study/sweep/response_query.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/excerpt.hpp"
+#include "base/number.hpp"
+#include "base/suggest.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+using Kind = ResponseQuery::Kind;
+
+struct Word {
+  const char* word;
+  Kind kind;
+};
+constexpr std::array words{
+    Word{"max", Kind::max},     Word{"min", Kind::min},           Word{"abs", Kind::abs},
+    Word{"tmax", Kind::tmax},   Word{"tmin", Kind::tmin},         Word{"end", Kind::end},
+    Word{"count", Kind::count}, Word{"residual", Kind::residual}, Word{"impulse", Kind::impulse}};
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+void check_known(const std::string& option, const char* what, const std::string& name,
+                 const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw UsageError(fmt::format("{}: unknown {} \"{}\"{}", option, what, name, suggestion(name, known)));
+}
+
+std::size_t index_of(const std::string& name, const Model& model) {
+  std::size_t k = 0;
+  while (model.contacts[k].name != name) ++k;
+  return k;
+}
+
+}  // namespace
+
+ResponseQuery parse_query(const std::string& text, const Model& model) {
+  const std::string option = "--response " + text;
+  if (!is_plain_text(text)) throw UsageError(excerpt(option) + ": found bytes that are no plain UTF-8 text");
+  const std::size_t colon = text.find(':');
+  const auto row = std::find_if(words.begin(), words.end(),
+                                [&](const Word& w) { return text.substr(0, colon) == w.word; });
+  if (colon == std::string::npos || row == words.end()) {
+    std::string list;
+    for (const Word& w : words) list += fmt::format("{}{}:", list.empty() ? "" : ", ", w.word);
+    throw UsageError(fmt::format("{}: expected one of {} and a name behind it", option, list));
+  }
+  ResponseQuery query;
+  query.kind = row->kind;
+  query.text = text;
+  const std::string rest = text.substr(colon + 1);
+  const std::size_t at = rest.find('@');
+  query.name = rest.substr(0, at);
+  const std::string behind = at == std::string::npos ? "" : rest.substr(at + 1);
+  if (query.of_output()) {
+    check_known(option, "output", rest, names_of(model.outputs));
+    query.name = rest;
+    return query;
+  }
+  const std::vector<std::string> contacts = names_of(model.contacts);
+  if (query.kind == Kind::count) {
+    check_known(option, "event", query.name, names_of(all_event_types));
+    for (const EventTypeName& type : all_event_types)
+      if (query.name == type.name) query.event = type.type;
+    query.name = behind;
+    if (at != std::string::npos) check_known(option, "contact", behind, contacts);
+    return query;
+  }
+  check_known(option, "contact", query.name, contacts);
+  if (at == std::string::npos) return query;
+  const auto number = query.kind == Kind::impulse ? parse_integer(behind) : std::nullopt;
+  if (!number || *number < 1)
+    throw UsageError(fmt::format(
+        "{}: found \"@{}\", expected {}", option, behind,
+        query.kind == Kind::impulse ? "the number of a landing, from 1" : "nothing behind the contact"));
+  query.number = static_cast<std::size_t>(*number);
+  return query;
+}
+
+Answers::Answers(const std::vector<ResponseQuery>& queries, const Model& model)
+    : queries_(queries), model_(model), counts_(queries.size(), 0.0) {}
+
+void Answers::event(const Event& event) {
+  for (std::size_t i = 0; i < queries_.size(); ++i) {
+    const ResponseQuery& query = queries_[i];
+    if (query.kind != Kind::count || query.event != event.type) continue;
+    const bool here =
+        query.name.empty() ||
+        (event.contact >= 0 && model_.contacts[static_cast<std::size_t>(event.contact)].name == query.name);
+    counts_[i] += here ? 1.0 : 0.0;
+  }
+  for (const int part : {event.contact, static_cast<int>(event.type), static_cast<int>(event.to)})
+    sequence_ = (sequence_ ^ static_cast<std::uint64_t>(part + 1)) * 1099511628211U;
+  if (next_ != nullptr) next_->event(event);
+}
+
+std::string Answers::sequence() const { return fmt::format("{:016x}", sequence_); }
+
+void Answers::sample(const Sample& sample) {
+  last_slip_.clear();
+  for (const ContactSample& contact : sample.contacts) last_slip_.push_back(contact.slip);
+  if (first_slip_.empty()) first_slip_ = last_slip_;
+  if (next_ != nullptr) next_->sample(sample);
+}
+
+void Answers::frame(const Sample& sample) {
+  if (next_ != nullptr) next_->frame(sample);
+}
+void Answers::motion(int contact, const std::vector<MotionRow>& rows) {
+  if (next_ != nullptr) next_->motion(contact, rows);
+}
+void Answers::curves(const Curves& curves) {
+  if (next_ != nullptr) next_->curves(curves);
+}
+void Answers::response(double t, const std::vector<double>& values) {
+  if (next_ != nullptr) next_->response(t, values);
+}
+
+double Answers::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const bool done = report.outcome.kind == Outcome::Kind::done;
+  if (query.kind == Kind::count) return counts_[i];
+  if (query.kind == Kind::residual) {
+    if (!done || last_slip_.empty()) return none;
+    const std::size_t k = index_of(query.name, model_);
+    return last_slip_[k] - first_slip_[k];
+  }
+  if (query.kind == Kind::impulse) {
+    const std::vector<Landing>& landings = report.landings[index_of(query.name, model_)];
+    if (query.number > 0) return query.number <= landings.size() ? landings[query.number - 1].impulse : none;
+    double greatest = 0.0;
+    for (const Landing& landing : landings) greatest = std::max(greatest, landing.impulse);
+    return greatest;
+  }
+  std::size_t o = 0;
+  while (model_.outputs[o].name != query.name) ++o;
+  const OutputExtremes& e = report.response[o];
+  switch (query.kind) {
+    case Kind::max:
+      return e.maximum;
+    case Kind::min:
+      return e.minimum;
+    case Kind::abs:
+      return std::max(std::abs(e.maximum), std::abs(e.minimum));
+    case Kind::tmax:
+      return e.t_maximum;
+    case Kind::tmin:
+      return e.t_minimum;
+    default:
+      return done ? e.last : none;
+  }
+}
+
+std::vector<double> Answers::values(const Report& report) const {
+  std::vector<double> list;
+  for (std::size_t i = 0; i < queries_.size(); ++i) list.push_back(value(queries_[i], i, report));
+  return list;
+}
+
+std::string unit_of(const ResponseQuery& query, const Model& model) {
+  const Units& u = model.units;
+  if (query.kind == Kind::count) return "";
+  if (query.kind == Kind::residual) return u.length;
+  if (query.kind == Kind::impulse) return u.force + " " + u.time;
+  if (query.kind == Kind::tmax || query.kind == Kind::tmin) return u.time;
+  for (const Output& output : model.outputs)
+    if (output.name == query.name) return unit_text(output.unit, u);
+  return "";
+}
+
+}  // namespace signorini

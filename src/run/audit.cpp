@@ -146,6 +146,14 @@ Energy Auditor::energy(double t, const Mode& mode, const Point& point) {
   e.kinetic = now.kinetic;
   e.elastic = now.elastic;
   e.contact = now.contact;
+  return audited(t, e);
+}
+
+Energy Auditor::energy(double t, const Works& ahead, const Mode& mode, const Point& point) {
+  return audited(t, energy_before(ahead, mode, point));
+}
+
+Energy Auditor::audited(double t, const Energy& e) {
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
   const double exchanged =
       std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});

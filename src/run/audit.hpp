@@ -27,8 +27,9 @@ class Auditor {
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
   void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
                bool load_jumps);
-  /// Energies now; also audits the balance.
+  /// Energies now; also audits the balance. ahead: works that have been added and come after t.
   Energy energy(double t, const Mode& mode, const Point& point);
+  Energy energy(double t, const Works& ahead, const Mode& mode, const Point& point);
   /// Energies at a point before these works, which have been added; audits nothing.
   [[nodiscard]] Energy energy_before(const Works& works, const Mode& mode, const Point& point) const;
   [[nodiscard]] ContactSample sample(std::size_t contact, const Forcing& forcing, double t,
@@ -45,6 +46,8 @@ class Auditor {
     return motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
+  /// Audits the balance of these.
+  Energy audited(double t, const Energy& e);
   /// Kinetic, elastic and contact energy.
   [[nodiscard]] Energy stored(const Mode& mode, const Point& point) const;
 

@@ -117,15 +117,15 @@ void Response::write(double t, const std::vector<double>& values) {
   recorder_.response(t, values);
 }
 
-void Response::before(double t, const Point& point, const Auditor& auditor) {
+void Response::before(double t, const Point& point, const std::vector<double>& losses) {
   if (!any()) return;
-  evaluate(t, Side::before, point, auditor.losses(), before_);
+  evaluate(t, Side::before, point, losses, before_);
   before_t_ = t;
 }
 
-void Response::row(double t, Side side, const Point& point, const Auditor& auditor) {
+void Response::row(double t, Side side, const Point& point, const std::vector<double>& losses) {
   if (!any()) return;
-  evaluate(t, side, point, auditor.losses(), values_);
+  evaluate(t, side, point, losses, values_);
   if (before_t_ == t) write(t, before_);
   before_t_ = -1.0;
   write(t, values_);

@@ -28,10 +28,10 @@ class Response {
   Response(const Model& model, double t_end, Recorder& recorder);
 
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
-  /// A row; a = M^-1 (...) must be in the point where any output needs it.
-  void row(double t, Side side, const Point& point, const Auditor& auditor);
+  /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.
+  void row(double t, Side side, const Point& point, const std::vector<double>& losses);
   /// Keeps the side before an instant at which something happens; `row` after it writes both.
-  void before(double t, const Point& point, const Auditor& auditor);
+  void before(double t, const Point& point, const std::vector<double>& losses);
   /// The inside of a step.
   void inside(Stepper& engine, double begin, double end);
   /// Greatest |sum of reactions - loads + inertia| of the rows.

@@ -11,8 +11,9 @@ double Samples::next() const {
                   next_frame_ < frames_.size() ? frames_[next_frame_] : never);
 }
 
-void Samples::emit(double t, const Forcing& forcing, const Mode& mode, const Point& point) {
-  const Sample now = sample(t, forcing, mode, point);
+void Samples::emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
+                   const Point& point) {
+  const Sample now = sample(t, ahead, forcing, mode, point);
   if (next_row_ < grid_.size() && grid_[next_row_] == t) {
     recorder_.sample(now);
     ++next_row_;
@@ -23,7 +24,8 @@ void Samples::emit(double t, const Forcing& forcing, const Mode& mode, const Poi
   }
 }
 
-Sample Samples::sample(double t, const Forcing& forcing, const Mode& mode, const Point& point) {
+Sample Samples::sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
+                       const Point& point) {
   Sample result;
   result.t = t;
   result.u = &point.u;
@@ -36,7 +38,7 @@ Sample Samples::sample(double t, const Forcing& forcing, const Mode& mode, const
   }
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     result.contacts.push_back(auditor_.sample(k, forcing, t, mode[k], point));
-  result.energy = auditor_.energy(t, mode, point);
+  result.energy = auditor_.energy(t, ahead, mode, point);
   return result;
 }
 

@@ -17,11 +17,12 @@ class Samples {
 
   /// The next time of the grid or of a frame; infinity after the last.
   [[nodiscard]] double next() const;
-  /// Records the time t = next().
-  void emit(double t, const Forcing& forcing, const Mode& mode, const Point& point);
+  /// Records the time t = next(). ahead: works that the auditor has and that come after t.
+  void emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode, const Point& point);
 
  private:
-  [[nodiscard]] Sample sample(double t, const Forcing& forcing, const Mode& mode, const Point& point);
+  [[nodiscard]] Sample sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
+                              const Point& point);
 
   const Model& model_;
   const std::vector<double>& frames_;

@@ -128,22 +128,19 @@ class Loop {
     }
   }
 
-  /// What lies inside a step: rows, works, extremes, and times for pictures; then its end.
+  /// What lies inside a step: its works, whole, so that rows change no digit of what is told at the end; rows,
+  /// extremes, and times for pictures; then its end.
   void pass(const Step& step) {
-    double from = step.begin;
-    const auto add_works = [&](double to) {
-      works_.clear();
-      engine_->integrate(from, to, works_);
-      auditor_.add(works_);
-      from = to;
-    };
+    works_.clear();
+    engine_->integrate(step.begin, step.end, works_);
+    auditor_.add(works_);
     for (double t = samples_.next(); t < step.end; t = samples_.next()) {
       Point point;
       engine_->evaluate(t, point);
-      add_works(t);
+      works_.clear();
+      engine_->integrate(t, step.end, works_);
       emit(t, point);
     }
-    add_works(step.end);
     response_.inside(*engine_, step.begin, step.end);
     for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
       engine_->evaluate(t, point_);
@@ -193,7 +190,8 @@ class Loop {
       observer_->instant(
           {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_});
     touches_.instant(t_, old_mode, next);
-    if (all || next.mode != old_mode || !next.impulses.empty()) response_.before(t_, point_, auditor_);
+    if (all || next.mode != old_mode || !next.impulses.empty())
+      response_.before(t_, point_, auditor_.losses());
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
     warn_of_gain();
@@ -224,10 +222,11 @@ class Loop {
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     if (const double next = samples_.next(); next <= t_) {
-      samples_.emit(next, forcing_, decision_.mode, point_);
+      works_.clear();
+      samples_.emit(next, works_, forcing_, decision_.mode, point_);
       residual_due_ = true;
     }
-    response_.row(t_, Side::after, point_, auditor_);
+    response_.row(t_, Side::after, point_, auditor_.losses());
     motion_.after(t_, auditor_, forcing_, decision_.mode, point_, changed);
     curves_.add(t_, point_.u, last_energy_);
   }
@@ -239,12 +238,14 @@ class Loop {
     curves_.add(t, point_.u, auditor_.energy_before(works_, decision_.mode, point_));
   }
 
-  /// A row inside of a step.
+  /// A row inside of a step; works_: from there to its end.
   void emit(double t, Point& point) {
-    samples_.emit(t, forcing_, decision_.mode, point);
+    samples_.emit(t, works_, forcing_, decision_.mode, point);
     if (response_.any()) {
       engine_->accelerate(t, point);
-      response_.row(t, Side::before, point, auditor_);
+      std::vector<double> losses = auditor_.losses();
+      for (std::size_t k = 0; k < losses.size(); ++k) losses[k] -= works_.friction[k];
+      response_.row(t, Side::before, point, losses);
     }
     residual_due_ = true;
   }

@@ -104,7 +104,6 @@ void Answers::event(const Event& event) {
   }
   for (const int part : {event.contact, static_cast<int>(event.type), static_cast<int>(event.to)})
     sequence_ = (sequence_ ^ static_cast<std::uint64_t>(part + 1)) * 1099511628211U;
-  if (next_ != nullptr) next_->event(event);
 }
 
 std::string Answers::sequence() const { return fmt::format("{:016x}", sequence_); }
@@ -113,20 +112,6 @@ void Answers::sample(const Sample& sample) {
   last_slip_.clear();
   for (const ContactSample& contact : sample.contacts) last_slip_.push_back(contact.slip);
   if (first_slip_.empty()) first_slip_ = last_slip_;
-  if (next_ != nullptr) next_->sample(sample);
-}
-
-void Answers::frame(const Sample& sample) {
-  if (next_ != nullptr) next_->frame(sample);
-}
-void Answers::motion(int contact, const std::vector<MotionRow>& rows) {
-  if (next_ != nullptr) next_->motion(contact, rows);
-}
-void Answers::curves(const Curves& curves) {
-  if (next_ != nullptr) next_->curves(curves);
-}
-void Answers::response(double t, const std::vector<double>& values) {
-  if (next_ != nullptr) next_->response(t, values);
 }
 
 double Answers::value(const ResponseQuery& query, std::size_t i, const Report& report) const {

@@ -36,17 +36,9 @@ class Answers : public Recorder {
  public:
   /// Both must outlive it.
   Answers(const std::vector<ResponseQuery>& queries, const Model& model);
-  /// Another one that hears all of it, too.
-  void pass_on(Recorder& next) { next_ = &next; }
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
-  void frame(const Sample& sample) override;
-  [[nodiscard]] bool wants_motion() const override { return next_ != nullptr && next_->wants_motion(); }
-  void motion(int contact, const std::vector<MotionRow>& rows) override;
-  void curves(const Curves& curves) override;
-  void response(double t, const std::vector<double>& values) override;
-  bool progress(double t) override { return next_ == nullptr || next_->progress(t); }
 
   /// One a query; NaN where there is none.
   [[nodiscard]] std::vector<double> values(const Report& report) const;
@@ -58,7 +50,6 @@ class Answers : public Recorder {
 
   const std::vector<ResponseQuery>& queries_;
   const Model& model_;
-  Recorder* next_ = nullptr;
   std::vector<double> counts_;                      // a query
   std::uint64_t sequence_ = 14695981039346656037U;  // FNV-1a
   std::vector<double> first_slip_, last_slip_;      // a contact

@@ -49,7 +49,7 @@ TEST_CASE("samples: rows and frames come in the order of time, both at once wher
   std::vector<double> asked;
   while (samples.next() < std::numeric_limits<double>::infinity()) {
     asked.push_back(samples.next());
-    samples.emit(asked.back(), forcing, {}, point);
+    samples.emit(asked.back(), Works(), forcing, {}, point);
   }
   CHECK(asked == std::vector<double>{0.0, 0.25, 0.3, 0.5, 0.75, 1.0});
   CHECK(times.rows == std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0});

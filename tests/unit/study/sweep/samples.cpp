@@ -14,9 +14,9 @@ namespace {
 
 std::vector<double> draw(const std::string& distribution, std::size_t count, unsigned long seed = 1,
                          Sequence sequence = Sequence::random) {
+  const std::vector<Vary> drawn = draw_samples({"a.b=" + distribution}, {count, seed, sequence});
   std::vector<double> values;
-  for (const std::string& text : draw_samples({"a.b=" + distribution}, {count, seed, sequence})[0].values)
-    values.push_back(*parse_number(text));
+  for (const std::string& text : drawn[0].values) values.push_back(*parse_number(text));
   return values;
 }
 

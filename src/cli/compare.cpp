@@ -30,6 +30,7 @@ struct CompareOptions : OutputOptions {
   std::vector<std::string> sources, engines, settings, limits;
   std::optional<std::string> directory;
   double instant = 0.0;
+  std::string table;
 };
 
 /// "newmark:dt=1e-4": an engine, and keys of [run] for this run of it.
@@ -208,6 +209,9 @@ fs::path output_directory(const CompareOptions& options) {
 
 ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
   const std::vector<Limit> limits = parse_limits(options.limits);
+  const TableStyle style = table_style(options.table);
+  if (style != TableStyle::plain && options.json)
+    throw UsageError("--table: stands beside --json, expected one of the two");
   check_sources(options);
   const fs::path path = output_directory(options);
   check_folder(path, compare_folder(), options.force, by_engine(options) ? options.sources.front() : "");
@@ -235,13 +239,15 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
       report.exceeded.push_back(name + ": refused the scene, so no limit is kept");
   write_comparison(path, report);
   if (options.json) print(comparison_json(report));
-  if (options.tables()) {
+  if (style != TableStyle::plain) {
+    print(compare_tables(report, style));
+  } else if (options.tables()) {
     print(compare_text(report));
     print("\nresults: " + path.string() +
           "/ (compare.json, runs.csv, differences.csv, columns.csv, events.csv)\n");
   }
   const std::string drawn = options.no_plots ? "" : draw_pictures(path, write_comparison_plots(path, report));
-  if (options.tables()) print(drawn);
+  if (options.tables() && style == TableStyle::plain) print(drawn);
   for (const std::string& sentence : report.exceeded) print_error("limit exceeded: " + sentence);
   if (!report.exceeded.empty()) return ExitCode::limit;
   if (!outcomes.stopped) return ExitCode::done;
@@ -278,6 +284,7 @@ void add_compare(Program& program) {
       ->add_option("--instant", options->instant,
                    "events of different contacts that lie no further apart have no order")
       ->option_text("T");
+  add_table_option(*command, options->table);
   add_output_options(*command, *options, "replace an earlier comparison in the directory", "compare.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return compare(*options, line); };

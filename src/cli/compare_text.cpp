@@ -18,7 +18,7 @@ std::string relative(const RunFigures& run, const char* name) {
   return found == run.audit.end() ? "" : fmt::format("{:.1e}", found->second);
 }
 
-std::string run_table(const ComparisonReport& report) {
+std::string run_table(const ComparisonReport& report, TableStyle style = TableStyle::plain) {
   const RunFacts& facts = report.runs.front().figures.facts;
   const std::string energy = " [" + facts.units.force + " " + facts.units.length + "]";
   Table table({"run", "outcome", "events", "wall [s]", "steps", "factorisations", "friction loss" + energy,
@@ -33,7 +33,8 @@ std::string run_table(const ComparisonReport& report) {
   }
   for (const auto& [name, reason] : report.refused)
     table.row({name, "refused", "", "", "", "", "", "", "", ""});
-  std::string text = table.str();
+  std::string text = table.str(style);
+  if (style != TableStyle::plain) return text;
   for (const ComparedRun& compared : report.runs)
     if (!compared.figures.reason.empty())
       text += fmt::format("  {}: {} at t = {:.9g}: {}\n", compared.figures.name,
@@ -70,7 +71,8 @@ std::string place(const Greatest& greatest, std::vector<std::string>& cells) {
   return greatest.where;
 }
 
-std::string difference_table(const ComparisonReport& report, std::size_t i) {
+std::string difference_table(const ComparisonReport& report, std::size_t i,
+                             TableStyle style = TableStyle::plain) {
   const Comparison& c = report.comparisons[i];
   const Units& units = report.runs.front().figures.facts.units;
   const bool split = c.alignment.split.has_value();
@@ -94,10 +96,17 @@ std::string difference_table(const ComparisonReport& report, std::size_t i) {
     if (split) place(q.deviation->until_split, cells);
     table.row(std::move(cells));
   }
-  return table.str();
+  return table.str(style);
 }
 
 }  // namespace
+
+std::string compare_tables(const ComparisonReport& report, TableStyle style) {
+  std::string text = run_table(report, style);
+  for (std::size_t i = 0; i < report.comparisons.size(); ++i)
+    text += "\n" + difference_table(report, i, style);
+  return text;
+}
 
 std::string compare_text(const ComparisonReport& report) {
   const RunFigures& reference = report.runs.front().figures;

@@ -41,6 +41,11 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings) {
       ->allow_extra_args(false);
 }
 
+void add_table_option(CLI::App& command, std::string& style) {
+  command.add_option("--table", style, "print nothing but the tables, as markdown or latex")
+      ->option_text("markdown|latex");
+}
+
 std::vector<Override> overrides_of(const std::vector<std::string>& settings) {
   std::vector<Override> list;
   for (const std::string& setting : settings) {

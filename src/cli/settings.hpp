@@ -20,6 +20,9 @@ struct OutputOptions {
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,
                         const std::string& json);
 
+/// Adds --table markdown|latex: what is printed, for papers. `style` must outlive parsing.
+void add_table_option(CLI::App& command, std::string& style);
+
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
 

@@ -35,7 +35,7 @@ struct SweepOptions : OutputOptions {
   std::vector<std::string> varied, settings, merge, responses, samples;
   bool together = false;
   std::optional<long> sample_count, seed;
-  std::string sequence = "random";
+  std::string sequence = "random", table;
   std::optional<std::string> directory;
   std::optional<std::string> share;
   std::optional<long> jobs;
@@ -227,7 +227,11 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
     write_file(directory.path() / "exceedance.csv", exceedance_table(directory.spec(), answers));
   }
   if (options.json) print(sweep_json(directory.spec(), directory.rows()));
-  if (options.tables()) {
+  const TableStyle style = table_style(options.table);
+  if (style != TableStyle::plain) {
+    print(sweep_text(directory.spec(), directory.rows(), style));
+    if (!answers.empty()) print("\n" + quantile_text(directory.spec(), answers, style));
+  } else if (options.tables()) {
     if (!directory.spec().title.empty()) print(directory.spec().title + "\n\n");
     print(sweep_text(directory.spec(), directory.rows()));
     if (!answers.empty()) print("\n" + quantile_text(directory.spec(), answers));
@@ -238,7 +242,7 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
       options.no_plots ? ""
                        : draw_pictures(directory.path(), write_sweep_plots(directory.path(), directory.spec(),
                                                                            directory.rows()));
-  if (options.tables()) print(drawn);
+  if (options.tables() && style == TableStyle::plain) print(drawn);
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;
   if (failed > 0 && !options.quiet)
@@ -302,6 +306,8 @@ ExitCode merge(const SweepOptions& options) {
 }
 
 ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
+  if (table_style(options.table) != TableStyle::plain && options.json)
+    throw UsageError("--table: stands beside --json, expected one of the two");
   if (!options.merge.empty()) return merge(options);
   if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
   if (options.varied.empty() && options.samples.empty())
@@ -355,6 +361,7 @@ void add_sweep(Program& program) {
       ->option_text("K/N|auto");
   command->add_option("--merge", options->merge, "join the shares in these directories into the one of -o")
       ->option_text("DIR...");
+  add_table_option(*command, options->table);
   command->add_flag("--keep", options->keep, "keep the directory of every run, in DIR/runs");
   add_output_options(*command, *options, "begin anew where there is an earlier sweep", "results.json");
   command->callback([&program, options] {

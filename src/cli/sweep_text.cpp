@@ -34,7 +34,7 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
 
 }  // namespace
 
-std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
+std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle style) {
   const std::vector<std::string> contacts = contact_names(rows);
   std::vector<std::string> header;
   for (const Vary& vary : spec.vary) header.push_back(vary.path);
@@ -54,13 +54,15 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
   Table table(std::move(header), std::move(right));
   std::size_t i = 0;
   for (const auto& [index, row] : rows) {
-    const bool shown = rows.size() <= most_rows || i < first_rows || i + last_rows >= rows.size();
+    const bool shown = style != TableStyle::plain || rows.size() <= most_rows || i < first_rows ||
+                       i + last_rows >= rows.size();
     if (shown) table.row(cells_of(row, spec.responses.size(), contacts));
     if (!shown && i == first_rows)
       table.line(fmt::format("... {} more; all are in sweep.csv", rows.size() - first_rows - last_rows));
     ++i;
   }
-  std::string text = table.str();
+  std::string text = table.str(style);
+  if (style != TableStyle::plain) return text;
   if (spec.responses.size() > most_responses)
     text += fmt::format("  ... {} more responses; all are in sweep.csv\n",
                         spec.responses.size() - most_responses);
@@ -79,7 +81,7 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows) {
   return text;
 }
 
-std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers) {
+std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& answers, TableStyle style) {
   constexpr double shown[] = {0.05, 0.5, 0.95, 0.99};
   std::vector<std::string> header{fmt::format("quantiles of {}", spec.sampling)};
   for (const Vary& vary : spec.vary)
@@ -104,7 +106,8 @@ std::string quantile_text(const SweepSpec& spec, const std::vector<Sampled>& ans
     }
     table.row(std::move(cells));
   }
-  std::string text = table.str();
+  std::string text = table.str(style);
+  if (style != TableStyle::plain) return text;
   if (answers.size() > most_answers)
     text += fmt::format("  ... {} more; all are in quantiles.csv\n", answers.size() - most_answers);
   if (independent(spec)) text += "  in brackets: 95 % confidence, whatever the distribution\n";

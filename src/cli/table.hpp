@@ -1,6 +1,8 @@
 // table.hpp: text in columns for the terminal; `right` columns are aligned to the right.
 //
 //   Table table({"t [s]", "contact"}, {true, false});  table.row({"0.5", "first"});  table.str()
+//
+// The same for papers: in Markdown, and as a LaTeX tabular that needs no package.
 #pragma once
 
 #include <string>
@@ -11,6 +13,10 @@ namespace signorini::cli {
 /// Six digits.
 [[nodiscard]] std::string number(double value);
 
+enum class TableStyle { plain, markdown, latex };
+/// Of --table; plain where it is empty. Errors: UsageError.
+[[nodiscard]] TableStyle table_style(const std::string& name);
+
 class Table {
  public:
   Table(std::vector<std::string> header, std::vector<bool> right);
@@ -19,6 +25,8 @@ class Table {
   void line(std::string text);
   /// Two blanks in front and between.
   [[nodiscard]] std::string str() const;
+  /// Lines stand behind the table in Markdown, and as comments in LaTeX.
+  [[nodiscard]] std::string str(TableStyle style) const;
 
  private:
   std::vector<bool> right_;

@@ -14,6 +14,42 @@ using signorini::cli_test::Shell;
 
 TEST_SUITE_BEGIN("cli/compare");
 
+TEST_CASE("cli compare: response quantities have differences and limits; tables for papers") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20) +
+                               "\n[[output]]\nname = \"x_block\"\nkind = \"displacement\"\nat = \"block\"\n"
+                               "direction = [2.0, 0.0]\n");
+  const Ending good = shell.run({"compare", "belt.toml", "--engines", "ida,exact", "--no-plots", "--limit",
+                                 "response:x_block=1e-5", "--table", "markdown"});
+  CHECK(good.err.empty());
+  CHECK(good.code == 0);
+  CHECK(good.out.rfind("| run | outcome | events |", 0) == 0);
+  CHECK(has(good.out, "|---|---|---:|"));
+  CHECK(has(good.out, "| response:x block | m | "));
+  CHECK(has(good.out, "| \\|T\\| > T_U |"));
+  const json report = json::parse(shell.read("belt-compare/compare.json"));
+  const json& difference = report["comparisons"][0]["differences"]["response:x_block"];
+  CHECK(difference["unit"] == "m");
+  // The same as that of the column of history.csv; but rows at events may be a little worse.
+  const double column = report["comparisons"][0]["columns"]["block.ux"]["value"].get<double>();
+  CHECK(column > 0.0);
+  CHECK(difference["value"].get<double>() >= 0.999 * column);
+  CHECK(difference["value"].get<double>() < 1e-5);
+  const Ending tex = shell.run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "again",
+                                "--no-plots", "--table", "latex", "--limit", "response:x_block=1e-30"});
+  CHECK(tex.code == 5);
+  CHECK(has(tex.err, "response:x_block"));
+  CHECK(tex.out.rfind("\\begin{tabular}{llrrr", 0) == 0);
+  CHECK(has(tex.out, "response:x block & m & "));
+  CHECK(has(tex.out, "$|$T$|$ $>$ T\\_U"));
+  CHECK(shell
+            .run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "third", "--no-plots", "--quiet",
+                  "--limit", "response:y=1"})
+            .code == 5);
+  CHECK(shell.run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "fourth", "--table", "html"})
+            .code == 2);
+}
+
 TEST_CASE("cli compare: two engines agree, in tables, CSV and JSON") {
   const Shell shell;
   shell.write("belt.toml", belt(20));

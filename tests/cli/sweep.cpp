@@ -377,6 +377,12 @@ TEST_CASE("cli sweep: answers are columns; keys vary in step") {
   }
   CHECK(has(shell.read("block-sweep/sweep.csv"), ",residual:floor,max:x,tmax:x,end:v,abs:v,count:stick,"));
   CHECK(exists(shell, "block-sweep/plots/responses.gp"));
+  const Ending paper = shell.run({"sweep", "block.toml", "--vary", "masses.1.mass=2,4", "--response", "max:x",
+                                  "-o", "paper", "--table", "latex", "--no-plots"});
+  CHECK(paper.code == 0);
+  CHECK(paper.out ==
+        "\\begin{tabular}{rlrr}\n\\hline\nmasses.1.mass & outcome & events & max:x [m] \\\\\n\\hline\n"
+        "2 & done & 1 & 0.2 \\\\\n4 & done & 1 & 0.4 \\\\\n\\hline\n\\end{tabular}\n");
   // The sweep is its queries, too.
   const Ending other = shell.run({"sweep", "block.toml", "--vary", "run.initial.block.vx=1,2,3", "--vary",
                                   "masses.1.mass=2,4,6", "--together", "--response", "max:x"});

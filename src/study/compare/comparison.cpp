@@ -107,6 +107,27 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
   series.close();
 }
 
+void compare_response(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
+                      double split, Comparison& c) {
+  if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
+  TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv");
+  Comparison ignored;  // its columns have no other quantity
+  const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
+  c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
+  for (const CommonColumn& column : columns)
+    for (const auto& output : a.figures.facts.response)
+      if (output.name == column.name) c.response.push_back({output.name, output.unit, {}});
+  if (c.response.size() != columns.size()) {
+    c.response.clear();
+    c.notes.emplace_back("response.csv: its columns are not those of summary.json, and are not compared");
+    return;
+  }
+  while (join.next() && join.t() <= settings.t_end)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      c.response[i].deviation.take(std::abs(join.a().number(columns[i].a) - join.b().number(columns[i].b)),
+                                   join.t(), columns[i].name, split);
+}
+
 void compare_energy(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
                     double split, Comparison& c) {
   TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv");
@@ -237,6 +258,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   compare_motion(reference, other, settings, split, c);
   compare_forces(reference, other, settings, split, c);
   compare_energy(reference, other, settings, split, c);
+  compare_response(reference, other, settings, split, c);
   if (c.common_times < 2 && c.t_end > 0.0) {
     c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
                                   c.common_times, c.common_times == 1 ? "time is" : "times are"));

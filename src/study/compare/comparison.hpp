@@ -47,6 +47,12 @@ struct Comparison {
   Deviation force_away;  ///< the same, at output times with no event of either run up to their neighbours
   Deviation energy;      ///< stored, lost and done, each by itself
   std::vector<std::pair<std::string, Deviation>> columns;  ///< of history.csv; then NAME.N and NAME.T
+  /// The response quantities that both have, at the rows that both have.
+  struct Response {
+    std::string name, unit;
+    Deviation deviation;
+  };
+  std::vector<Response> response;
   std::size_t common_times = 0;
   std::vector<std::string> notes;  ///< what could not be compared, one sentence each
 };

@@ -13,6 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr const char* sequence = "sequence";
+const std::string response = "response:";  // and the name of an [[output]]
 
 std::vector<std::string> limit_names() {
   std::vector<std::string> names = quantity_names();
@@ -36,7 +37,8 @@ std::vector<Limit> parse_limits(const std::vector<std::string>& texts) {
     if (equals == std::string::npos)
       throw UsageError("--limit " + text + ": expected NAME=NUMBER, such as event_time=1e-4");
     const std::string name = text.substr(0, equals);
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    const bool of_output = name.starts_with(response) && name != response;
+    if (!of_output && std::find(names.begin(), names.end(), name) == names.end())
       throw UsageError(fmt::format("--limit {}: no quantity \"{}\"{}", text, name, suggestion(name, names)));
     const std::optional<double> value = parse_number(text.substr(equals + 1));
     if (!value || !(*value >= 0.0))
@@ -51,14 +53,16 @@ std::vector<Limit> parse_limits(const std::vector<std::string>& texts) {
 
 std::vector<Quantity> quantities(const Comparison& c, const Units& units) {
   const std::string &length = units.length, &time = units.time, &force = units.force;
-  return {{"event_time", time, &c.event_time},
-          {"displacement", length, &c.displacement},
-          {"rotation", "rad", &c.rotation},
-          {"velocity", length + "/" + time, &c.velocity},
-          {"angular_velocity", "rad/" + time, &c.angular_velocity},
-          {"force", force, &c.force},
-          {"force_away", force, &c.force_away},
-          {"energy", force + " " + length, &c.energy}};
+  std::vector<Quantity> list = {{"event_time", time, &c.event_time},
+                                {"displacement", length, &c.displacement},
+                                {"rotation", "rad", &c.rotation},
+                                {"velocity", length + "/" + time, &c.velocity},
+                                {"angular_velocity", "rad/" + time, &c.angular_velocity},
+                                {"force", force, &c.force},
+                                {"force_away", force, &c.force_away},
+                                {"energy", force + " " + length, &c.energy}};
+  for (const Comparison::Response& r : c.response) list.push_back({response + r.name, r.unit, &r.deviation});
+  return list;
 }
 
 std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFigures& reference,
@@ -85,7 +89,11 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
                                  split->t, count_of(unaligned, "event"), shortest(limit.value)));
       continue;
     }
-    for (const Quantity& quantity : quantities(comparison, reference.facts.units)) {
+    const std::vector<Quantity> known = quantities(comparison, reference.facts.units);
+    if (std::none_of(known.begin(), known.end(), [&](const Quantity& q) { return q.name == limit.name; }))
+      list.push_back(
+          fmt::format("{}: {} has a limit, and not both runs have such an output", other.name, limit.name));
+    for (const Quantity& quantity : known) {
       if (quantity.name != limit.name) continue;
       const Greatest& greatest = quantity.deviation->whole;
       // No events, or no such columns, is no failure; no common output time is.

@@ -15,7 +15,7 @@ struct Limit {
   double value = 0.0;
 };
 
-/// event_time, displacement, rotation, velocity, angular_velocity, force, force_away, energy, sequence; units
+/// event_time, displacement, rotation, velocity, angular_velocity, force, force_away, energy, sequence, response:NAME; units
 /// of the scene. Errors: UsageError for another name, twice the same, or what is no number >= 0.
 [[nodiscard]] std::vector<Limit> parse_limits(const std::vector<std::string>& texts);
 

@@ -27,10 +27,23 @@ std::string unit_of(const WorkReport& report, const std::string& quantity) {
   return "";
 }
 
+/// "response:NAME" of the outputs that were compared, in the order of the scene.
+std::vector<std::string> response_names(const WorkReport& report) {
+  std::vector<std::string> list;
+  for (const WorkRow& row : report.rows)
+    for (const WorkError& error : row.errors)
+      if (error.quantity.starts_with("response:") &&
+          std::find(list.begin(), list.end(), error.quantity) == list.end())
+        list.push_back(error.quantity);
+  return list;
+}
+
 std::vector<std::string> shown_quantities(const WorkReport& report) {
   std::vector<std::string> list;
   for (const char* name : shown)
     if (!unit_of(report, name).empty()) list.emplace_back(name);
+  const std::vector<std::string> outputs = response_names(report);
+  list.insert(list.end(), outputs.begin(), outputs.end());
   return list;
 }
 
@@ -60,7 +73,9 @@ std::string study_csv(const WorkReport& report) {
   for (const char* name : {"run", "engine", "setting", "line", "reference", "outcome", "reason", "t",
                            "events", "events_of_reference", "alike", "complete", "t_split", "split"})
     block.text(name);
-  for (const std::string& name : quantity_names()) block.text(name);
+  std::vector<std::string> names = quantity_names();
+  for (std::string& name : response_names(report)) names.push_back(std::move(name));
+  for (const std::string& name : names) block.text(name);
   for (const char* name : {"displacement_whole_run", "wall_time", "wall_time_max", "repeats", "steps",
                            "factorisations", "solves", "restarts", "energy_balance"})
     block.text(name);
@@ -72,7 +87,7 @@ std::string study_csv(const WorkReport& report) {
     block.number(number_of(row.events)).number(number_of(row.events_of_reference));
     block.number(ran ? std::optional(static_cast<double>(row.alike)) : std::nullopt);
     block.text(row.complete() ? "true" : "false").number(row.t_split).text(row.split);
-    for (const std::string& name : quantity_names()) {
+    for (const std::string& name : names) {
       const WorkError* error = row.error(name);
       block.number(error ? std::optional(error->value) : std::nullopt);
     }

@@ -88,7 +88,7 @@ std::string difference_table(const ComparisonReport& report, std::size_t i,
   for (const Quantity& q : quantities(c, units)) {
     if (q.deviation->count == 0) continue;
     std::string name = q.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
+    if (!name.starts_with("response:")) std::replace(name.begin(), name.end(), '_', ' ');
     if (q.name == "force_away") name = "force away from events";
     std::vector<std::string> cells = {name, q.unit};
     const std::string where = place(q.deviation->whole, cells);

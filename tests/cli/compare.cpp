@@ -25,7 +25,7 @@ TEST_CASE("cli compare: response quantities have differences and limits; tables 
   CHECK(good.code == 0);
   CHECK(good.out.rfind("| run | outcome | events |", 0) == 0);
   CHECK(has(good.out, "|---|---|---:|"));
-  CHECK(has(good.out, "| response:x block | m | "));
+  CHECK(has(good.out, "| response:x_block | m | "));
   CHECK(has(good.out, "| \\|T\\| > T_U |"));
   const json report = json::parse(shell.read("belt-compare/compare.json"));
   const json& difference = report["comparisons"][0]["differences"]["response:x_block"];
@@ -40,7 +40,7 @@ TEST_CASE("cli compare: response quantities have differences and limits; tables 
   CHECK(tex.code == 5);
   CHECK(has(tex.err, "response:x_block"));
   CHECK(tex.out.rfind("\\begin{tabular}{llrrr", 0) == 0);
-  CHECK(has(tex.out, "response:x block & m & "));
+  CHECK(has(tex.out, "response:x\\_block & m & "));
   CHECK(has(tex.out, "$|$T$|$ $>$ T\\_U"));
   CHECK(shell
             .run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "third", "--no-plots", "--quiet",

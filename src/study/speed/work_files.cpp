@@ -49,7 +49,7 @@ std::vector<std::string> shown_quantities(const WorkReport& report) {
 
 std::string heading(const std::string& quantity, const std::string& unit) {
   std::string name = quantity == "force_away" ? "force away" : quantity;
-  std::replace(name.begin(), name.end(), '_', ' ');
+  if (!name.starts_with("response:")) std::replace(name.begin(), name.end(), '_', ' ');
   return name + " [" + unit + "]";
 }
 

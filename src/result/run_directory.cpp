@@ -8,6 +8,7 @@
 #include "result/csv.hpp"
 #include "result/frames.hpp"
 #include "result/load_table.hpp"
+#include "result/plot_folder.hpp"
 #include "result/plots.hpp"
 #include "result/states.hpp"
 #include "result/summary.hpp"

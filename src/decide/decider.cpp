@@ -41,6 +41,16 @@ std::string what_makes_unique(const Model& model, const std::vector<std::size_t>
                            : "law = \"compliant\"";
 }
 
+/// "'first' stick, 'second' slip+": of the contacts in question.
+std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                         const Mode& mode) {
+  std::string text;
+  for (const Enumeration::Choice& choice : choices)
+    text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
+                        to_string(mode[choice.contact].state));
+  return text;
+}
+
 }  // namespace
 
 struct Decider::Course {
@@ -206,10 +216,12 @@ Refusal Decider::enumerate(std::size_t block, Course& course) {
   if (!best) return refusal;
   refusal.condition = best->condition;
   refusal.residual = best->forgiveness;
-  if (best->ambiguous) {
+  if (!best->rival.empty()) {
     refusal.kind = Refusal::Kind::ambiguous;
-    refusal.reason = "several motions continue this one; guards that fail in the last that was tried: " +
-                     names_of(model_, course.failed);
+    refusal.reason = fmt::format(
+        "several motions continue this one, as {} and as {}; guards that fail in the last that was tried: {}",
+        named_states(model_, choices, best->mode), named_states(model_, choices, best->rival),
+        names_of(model_, course.failed));
   }
   if (!best->acceptable()) return refusal;
   course.mode = best->mode;

@@ -10,8 +10,9 @@
 namespace signorini {
 namespace {
 
-// Accelerations that differ by less than this part of the greatest are equal: half of the digits, since
-// forces of a block of any condition that can be decided at all (1e8) share it.
+// Accelerations that differ by less than this part of the greatest that any combination makes are equal: half
+// of the digits, since forces of a block of any condition that can be decided at all (1e8) share it. Compared
+// with each other two that are the rounding of rest would differ.
 constexpr double same_acceleration = 1e-8;
 
 /// The combination of a number, one digit a choice.
@@ -24,7 +25,9 @@ void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mo
 
 }  // namespace
 
-bool Enumeration::Best::acceptable() const { return !ambiguous && forgiveness <= std::max(1.0, condition); }
+bool Enumeration::Best::acceptable() const {
+  return rival.empty() && forgiveness <= std::max(1.0, condition);
+}
 
 Enumeration::Choice Enumeration::choice(const Participant& who) const {
   const Contact& contact = model_.contacts[who.contact];
@@ -97,22 +100,22 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
   std::size_t combinations = 1;
   for (const Choice& choice : choices) combinations *= choice.states.size();
   std::optional<Best> best;
-  Vector a;
+  std::vector<std::pair<Mode, Vector>> holding;  // those that need no forgiveness
+  double greatest = 0.0;
   for (std::size_t code = 0; code < combinations; ++code) {
     Mode tried = mode;
     apply(choices, code, tried);
     const auto weighed = weigh(instant, forcing, block, known, tried);
     if (!weighed) continue;
-    // Two that hold must go on alike.
-    const bool differs = best && best->forgiveness == 0.0 && weighed->forgiveness == 0.0 &&
-                         !((weighed->a - a).norm() <= same_acceleration * (a.norm() + weighed->a.norm()));
-    if (best && weighed->forgiveness >= best->forgiveness) {
-      best->ambiguous = best->ambiguous || differs;
-      continue;
-    }
-    best = Best{std::move(tried), weighed->forgiveness, 1.0, false};
-    a = weighed->a;
+    greatest = std::max(greatest, weighed->a.norm());
+    if (weighed->forgiveness == 0.0) holding.emplace_back(tried, weighed->a);
+    if (best && weighed->forgiveness >= best->forgiveness) continue;
+    best = Best{std::move(tried), weighed->forgiveness, 1.0, {}};
   }
+  // Two that hold must go on alike.
+  for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
+    if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest))
+      best->rival = holding[i].first;
   if (best) best->condition = condition(choices, mode);
   return best;
 }

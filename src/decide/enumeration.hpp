@@ -36,7 +36,7 @@ class Enumeration {
     Mode mode;
     double forgiveness = 0.0;
     double condition = 1.0;  ///< of what the chosen contacts' forces do to their accelerations
-    bool ambiguous = false;  ///< another mode holds as well, with other accelerations
+    Mode rival;              ///< another that holds as well, with other accelerations; empty: there is none
     [[nodiscard]] bool acceptable() const;
   };
   /// All others keep their states in `mode`. known: one a contact. Nothing: there are too many choices, none,

@@ -11,14 +11,16 @@
 namespace signorini {
 namespace {
 
-/// The rounding of a form of the velocities. Where all of them are held at zero, what is left of them is the
-/// rounding of corrections, square against the motion of the rest.
+/// The rounding of a form of the velocities, |form| |v| whatever the angle between them. Where all of them are
+/// held at zero, what is left of them is the rounding of corrections, square against the motion of the rest.
 double rounding_of(const Combination& form, const Vector& v) {
-  const double fastest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0;
-  double size = 0.0;
-  for (const auto& [dof, factor] : form.terms)
-    size += std::abs(factor) * (std::abs(v[dof]) + rounding::eps * fastest);
-  return rounding::of_many * size;
+  const double rest = rounding::eps * v.norm();
+  double form_squared = 0.0, v_squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) {
+    form_squared += factor * factor;
+    v_squared += v[dof] * v[dof];
+  }
+  return rounding::of_many * std::sqrt(form_squared) * (std::sqrt(v_squared) + rest);
 }
 
 }  // namespace

@@ -63,16 +63,17 @@ double greatest_mass(const Model& model, const DofMap& map) {
   return greatest;
 }
 
-double diagonal_of(const DofMap& map) {
-  if (map.mesh.nodes.empty()) return 0.0;
-  double x0 = map.mesh.nodes[0].x, x1 = x0, y0 = map.mesh.nodes[0].y, y1 = y0;
-  for (const MeshNode& node : map.mesh.nodes) {
-    x0 = std::min(x0, node.x);
-    x1 = std::max(x1, node.x);
-    y0 = std::min(y0, node.y);
-    y1 = std::max(y1, node.y);
-  }
-  return std::hypot(x1 - x0, y1 - y0);
+/// Greatest distance of two nodes; the same however the scene is turned. Inner nodes lie between named ones.
+double length_of(const DofMap& map) {
+  const auto named = static_cast<std::size_t>(map.mesh.named);
+  double squared = 0.0;
+  for (std::size_t i = 0; i < named; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = map.mesh.nodes[i].x - map.mesh.nodes[j].x,
+                   dy = map.mesh.nodes[i].y - map.mesh.nodes[j].y;
+      squared = std::max(squared, dx * dx + dy * dy);
+    }
+  return std::sqrt(squared);
 }
 
 double force_of(const Model& model, const DofMap& map, double t_end) {
@@ -97,7 +98,7 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
         force = std::max(force, force_factor(load.direction, map) * most);
         break;
       case LoadKind::moment:  // a couple across the whole structure
-        if (const double arm = diagonal_of(map); arm > 0.0)
+        if (const double arm = length_of(map); arm > 0.0)
           force = std::max(force, direction.cwiseAbs().maxCoeff() * most / arm);
         break;
       case LoadKind::temperature:
@@ -194,7 +195,7 @@ double spring_answer(const Model& model, double force) {
 
 Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool>& closed, double t_end) {
   Scales scales;
-  const double length = diagonal_of(map);
+  const double length = length_of(map);
   const double force = force_of(model, map, t_end);
   const double v0 = greatest_translation(model.v0, map);
   const Holding holding = hold_contacts(model.contacts, closed);

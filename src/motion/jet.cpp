@@ -12,6 +12,9 @@ namespace {
 // How many times the difference that some roundings make counts as noise: it is one sample.
 constexpr double noise_factor = rounding::of_many / rounding::eps / Disturbance::most;
 
+// Of a form on data: the most that a sample of their rounding gives, and the rounding of the sum.
+constexpr double of_data = 2.0 * rounding::of_many;
+
 constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the orders of a motion reach
 
 /// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
@@ -157,6 +160,12 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
       d.gap = noise(a.gap[k], b.gap[k], terms.gap);
       d.ut = noise(a.ut[k], b.ut[k], terms.ut);
       d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
+      if (k == 0) {
+        // u and v are data where there is mass: a sample of their rounding is at most this, by how the scene
+        // is turned.
+        d.gap = std::max(d.gap, of_data * terms.gap);
+        d.vn = std::max(d.vn, of_data * terms.vn);
+      }
       d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
       d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
       d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "behaviour/engines.hpp"
@@ -150,6 +151,36 @@ TEST_CASE("a block turns where its load is just above friction") {
           const Vector& v = r.rows.back().v;
           CHECK(v[0] * c + v[1] * s == doctest::Approx(-eps * (200.0 - turns)).epsilon(1e-5));
         }
+}
+
+TEST_CASE("ida goes on where a guard touches zero within a step") {
+  // IDA halts at the root inside its step, and again at the step's end: that is no step of no length.
+  const Scene scene =
+      read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/touching-slip-rate.toml", {{"run.engine", "ida"}});
+  const Result r = simulate(build_model(scene), scene.run);
+  INFO(r.report.outcome.reason);
+  CHECK(r.report.outcome.kind == Outcome::Kind::done);
+  CHECK(r.report.outcome.t == doctest::Approx(0.5));
+  // The touch itself is below the tolerance; c2 turns after it, as `exact` has it.
+  CHECK(std::any_of(r.events.begin(), r.events.end(), [](const Event& e) {
+    return e.to == State::slip_minus && std::abs(e.t - 0.0676005355236563) < 2e-6;
+  }));
+}
+
+TEST_CASE("scales do not turn with the scene") {
+  const auto scales = [](double degrees) {
+    const Scene scene =
+        parse_scene(turned_frame(degrees) + "[[loads]]\nnode = \"B\"\nmoment = 1.0e6\n", "frame.toml");
+    return build_model(scene).scales;
+  };
+  const Scales along = scales(0.0);
+  for (const double degrees : {17.0, 45.0, 133.0}) {
+    CAPTURE(degrees);
+    const Scales turned = scales(degrees);
+    CHECK(turned.force == doctest::Approx(along.force).epsilon(1e-10));
+    CHECK(turned.displacement == doctest::Approx(along.displacement).epsilon(1e-8));
+    CHECK(turned.velocity == doctest::Approx(along.velocity).epsilon(1e-8));
+  }
 }
 
 TEST_SUITE_END();

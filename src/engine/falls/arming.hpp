@@ -26,6 +26,8 @@ class Arming {
 
   /// What its derivatives at the start said has been refuted.
   void doubt(std::size_t slot) { guards_[slot].leading = 0; }
+  /// It is zero again, and nothing is known of it.
+  void wait(std::size_t slot) { guards_[slot] = {Standing::waiting, 0}; }
   void arm(std::size_t slot) { guards_[slot] = {Standing::armed, 0}; }
   /// Its value at the end of a step without an event: what started at zero is armed above the level, and
   /// its derivatives at the start say no more.

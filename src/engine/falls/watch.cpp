@@ -14,6 +14,11 @@ void Watch::start(const std::vector<GuardStart>& guards, std::vector<double> lev
   levels_ = std::move(levels);
 }
 
+void Watch::wait(std::size_t slot, double level) {
+  arming_.wait(slot);
+  levels_[slot] = std::max(levels_[slot], level);
+}
+
 double Watch::leeway(std::size_t contact, const Form& form) const {
   const std::size_t end = std::min(guard_slot(contact + 1, 0), arming_.size());
   for (std::size_t slot = guard_slot(contact, 0); slot < end; ++slot)

@@ -29,6 +29,8 @@ class Watch {
   /// levels: re-arming levels, one a slot.
   void start(const std::vector<GuardStart>& guards, std::vector<double> levels);
   [[nodiscard]] bool armed(std::size_t slot) const { return arming_.armed(slot); }
+  /// It fell and was taken not to: waits again, an event once it has sunk below `level`, and no less.
+  void wait(std::size_t slot, double level);
   /// How far below zero the contact's guard of this form may sink before it is an event: 0 once it is armed.
   [[nodiscard]] double leeway(std::size_t contact, const Form& form) const;
   /// All falls in the part [0, limit] of the last step, where scalars 0.. of the history are the guards.

@@ -205,6 +205,17 @@ struct BdfIntegrator::Memory {
     }
   }
 
+  /// After a root that was no event IDA stops at the further roots of its step and at its end, which have been
+  /// handed on already with all that their polynomials show: on to the next step.
+  int leave_step(int flag, double far, double& t) {
+    for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
+         flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
+      IDAGetCurrentTime(ida, &end);
+      if (end > reported_end) break;
+    }
+    return flag;
+  }
+
   IdaProblem problem;
   SUNContext context = nullptr;
   N_Vector y = nullptr, yp = nullptr, work = nullptr;
@@ -220,6 +231,7 @@ struct BdfIntegrator::Memory {
   double t_previous = 0.0;    // beginning of the last accepted step
   double reported_end = 0.0;  // end of the last step that was returned
   double held_time = 0.0;     // time of what y and yp hold
+  bool rooted = false;        // the last step that was returned ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
   std::array<long, max_degree + 1> steps_by_order{};  // since the last count
@@ -240,6 +252,7 @@ void BdfIntegrator::start(const Segment& segment, const Watch& watch) {
   m_->problem.start(segment, watch);
   m_->begin(m_->first_step());
   m_->counted = Counters{};
+  m_->rooted = false;
   ++counters_.restarts;
 }
 
@@ -249,6 +262,7 @@ BdfStep BdfIntegrator::advance() {
   // A far tout: in one-step mode it only bounds IDA's own choice of a first step.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
+  if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
   const bool first = m_->reported_end == m_->segment.decision->jet.t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < most_retries; ++retry) {
@@ -278,7 +292,8 @@ BdfStep BdfIntegrator::advance() {
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
   // y' as IDA returns it is no velocity of massless degrees of freedom yet: evaluate() makes it one.
   m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
-  if (flag == IDA_ROOT_RETURN) {
+  m_->rooted = flag == IDA_ROOT_RETURN;
+  if (m_->rooted) {
     step.kind = BdfStep::Kind::root;
     step.root = t;
     std::vector<int>& found = m_->found;

@@ -139,6 +139,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     }
   std::erase_if(candidates, [&](const Located& c) {
     if (!only_touches(c.slot, (c.time - step.begin) / h)) return false;
+    watch_.wait(c.slot, allowance(c.slot));
     if (!std::exchange(touched_, true))
       warnings.push_back(fmt::format(
           "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than the tolerances of "
@@ -168,8 +169,13 @@ bool IdaEngine::only_touches(std::size_t slot, double x) const {
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;
   const double depth = (rate < 0.0 ? rate * rate / (2.0 * bend) : 0.0) - value;
+  return depth <= allowance(slot);
+}
+
+/// What the steps of the segment have been off at most, in a guard.
+double IdaEngine::allowance(std::size_t slot) const {
   const ContactMotion& motion = segment_.decision->after[contact_of_guard(slot)];
-  return depth <= static_cast<double>(steps_) * tolerance(guard.form, motion, tolerance_);
+  return static_cast<double>(steps_) * tolerance(segment_.decision->guards[slot].form, motion, tolerance_);
 }
 
 void IdaEngine::integrate(double from, double to, Works& works) {

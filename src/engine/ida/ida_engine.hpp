@@ -40,6 +40,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
   [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
+  [[nodiscard]] double allowance(std::size_t slot) const;
 
   const Model& model_;
   ConsistentMotion consistent_;

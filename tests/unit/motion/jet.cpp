@@ -89,6 +89,19 @@ TEST_CASE("what a rounding of an acceleration does through a spring is within th
   }
 }
 
+TEST_CASE("the noise of places and velocities does not turn with the scene") {
+  for (int degrees = 0; degrees < 360; degrees += 5) {
+    CAPTURE(degrees);
+    Model model = at_limit(degrees);
+    const double c = std::cos((degrees + 20.0) * M_PI / 180.0), s = std::sin((degrees + 20.0) * M_PI / 180.0);
+    model.u0 << 2.0 * c, 2.0 * s, 0.0, 0.0;
+    model.v0 << 3.0 * s, -3.0 * c, 0.0, 0.0;
+    const auto motions = motions_in(model, State::open, State::open);
+    CHECK(motions[0].noise[0].gap == doctest::Approx(4.0 * rounding::of_many).epsilon(1e-9));
+    CHECK(motions[0].noise[0].vn == doctest::Approx(6.0 * rounding::of_many).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("what sticks stands still exactly, at every angle") {
   for (int degrees = 0; degrees < 360; ++degrees) {
     CAPTURE(degrees);

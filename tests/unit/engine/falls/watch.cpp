@@ -99,4 +99,31 @@ TEST_CASE("idle guards never fall") {
   CHECK(watch.check(history, 1.0).empty());
 }
 
+TEST_CASE("what was taken not to fall waits: deeper it falls, and once it has risen it counts as before") {
+  const auto found = [](const std::function<double(double)>& g) {
+    GuardStart clear;
+    clear.kind = Guard::sliding;
+    Watch watch;
+    watch.start({clear}, {1e-9});
+    StepHistory history(1);
+    *history.restart(0.0) = g(0.0);
+    std::vector<double> result;
+    for (int i = 1; i <= 40; ++i) {
+      *history.push(0.05 * i, 0.05) = g(0.05 * i);
+      history.prepare(std::min(i, 5));
+      for (const Fall& fall : watch.check(history, 1.0)) {
+        result.push_back(history.begin() + fall.x * 0.05);
+        if (result.size() == 1) watch.wait(0, 1e-3);
+      }
+    }
+    return result;
+  };
+  // Touches zero at 1 to 1e-4 and rises: one fall, waited out.
+  CHECK(found([](double t) { return (t - 1.0) * (t - 1.0) - 1e-4; }).size() == 1);
+  // Goes on sinking: an event where it is 1e-3 below.
+  const auto sinks = found([](double t) { return 0.01 * (1.0 - t); });
+  REQUIRE(sinks.size() >= 2);
+  CHECK(sinks[1] == doctest::Approx(1.1).epsilon(1e-9));
+}
+
 TEST_SUITE_END();

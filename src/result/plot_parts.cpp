@@ -40,11 +40,11 @@ std::string every(const PlottedRun& run, std::size_t group, std::size_t index) {
                      run.times * group - 1);
 }
 
-std::string contact_rows(const PlottedRun& run, std::size_t k) {
+std::string contact_rows(const PlottedRun& run, std::size_t k, const std::string& run_directory) {
   if (k < run.motion.size() && run.motion[k].count > 1)
-    return fmt::format("'../motion.csv' skip 1 every ::{}::{}", run.motion[k].first,
+    return fmt::format("{} skip 1 every ::{}::{}", quoted(run_directory + "/motion.csv"), run.motion[k].first,
                        run.motion[k].first + run.motion[k].count - 1);
-  return "'../contacts.csv' skip 1" + every(run, run.facts.contacts.size(), k);
+  return quoted(run_directory + "/contacts.csv") + " skip 1" + every(run, run.facts.contacts.size(), k);
 }
 
 TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,

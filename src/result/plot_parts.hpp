@@ -53,8 +53,10 @@ inline constexpr int picture_width = 1120;
 /// " every ..." for rows of a table with `group` rows a time: thins out what no picture could show.
 [[nodiscard]] std::string every(const PlottedRun& run, std::size_t group, std::size_t index);
 
-/// The rows of a contact: of motion.csv, else of contacts.csv; both have the same columns.
-[[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k);
+/// The rows of a contact: of motion.csv, else of contacts.csv; both have the same columns. run_directory: as seen
+/// from the folder of the scripts.
+[[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k,
+                                       const std::string& run_directory = "..");
 
 /// A table for gnuplot, and the number of one of its columns, from 1.
 struct TableColumn {

@@ -16,6 +16,7 @@
 #include "result/plot_folder.hpp"
 #include "result/plot_frames.hpp"
 #include "result/plot_parts.hpp"
+#include "result/plot_rows.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -51,42 +52,9 @@ std::size_t read_times(const fs::path& directory, const PlotWindow& window, Plot
   return shown;
 }
 
-/// Errors: FileError for a name that summary.json has not.
-std::size_t number_of(const std::map<std::string, std::size_t>& index, const std::string& contact,
-                      const fs::path& file) {
-  const auto found = index.find(contact);
-  if (found == index.end())
-    throw FileError(file.string(),
-                    "has a contact that summary.json has not: '" + contact.substr(0, 80) + "'");
-  return found->second;
-}
-
-/// Where motion.csv has the rows of which contact, and the greatest forces; nothing where it is missing.
-void read_motion(const fs::path& directory, const std::map<std::string, std::size_t>& index,
-                 PlottedRun& run) {
-  std::error_code error;
-  run.motion.clear();
-  if (!fs::is_regular_file(directory / "motion.csv", error)) return;
-  run.motion.resize(index.size());
-  CsvReader motion(directory / "motion.csv");
-  const std::size_t name = motion.column("contact"), n = motion.column("N"), t = motion.column("T");
-  for (std::size_t row = 0; motion.next(); ++row) {
-    const std::size_t k = number_of(index, motion.cell(name), directory / "motion.csv");
-    PlottedRun::Rows& rows = run.motion[k];
-    if (rows.count == 0) rows.first = row;
-    if (row != rows.first + rows.count)
-      throw FileError((directory / "motion.csv").string(), "has rows of contacts that are not in order");
-    ++rows.count;
-    const double force = motion.number(n);
-    run.greatest_compression[k] = std::max(run.greatest_compression[k], -force);
-    run.greatest_force = std::max(run.greatest_force, std::hypot(force, motion.number(t)));
-  }
-}
-
 // States at the first output time, then the events: the bands are exact, not sampled.
 void read_bands(const fs::path& directory, PlottedRun& run) {
-  std::map<std::string, std::size_t> index;
-  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) index[run.facts.contacts[k].name] = k;
+  const ContactNumbers index = contact_numbers(run.facts);
   run.bands.resize(index.size());
 
   CsvReader contacts(directory / "contacts.csv");

@@ -11,6 +11,7 @@
 #include "result/csv_read.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "result/plot_rows.hpp"
 
 namespace signorini {
 
@@ -43,6 +44,8 @@ PlottedRun plotted(const RunFigures& figures, double t_end) {
   if (run.times > 0 && run.facts.outcome == "running") --run.times;
   run.from = run.t_first;
   run.to = std::max(run.t_last, t_end);
+  run.greatest_compression.assign(run.facts.contacts.size(), 0.0);
+  read_motion(figures.directory, contact_numbers(run.facts), run);
   return run;
 }
 
@@ -89,10 +92,9 @@ class Pictures {
         if (found == contacts.end() || runs_[r].times < 2) continue;
         const auto index = static_cast<std::size_t>(found - contacts.begin());
         elements.push_back(
-            fmt::format("{} skip 1{} using 1:{} with lines {} title {}",
-                        quoted(path_from(folder_, report_.runs[r].figures.directory / "contacts.csv")),
-                        every(runs_[r], contacts.size(), index), curves[i].column, look(r),
-                        quoted(report_.runs[r].figures.name)));
+            fmt::format("{} using 1:{} with lines {} title {}",
+                        contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
+                        curves[i].column, look(r), quoted(report_.runs[r].figures.name)));
       }
       s += plot_command(elements);
     }

@@ -67,6 +67,22 @@ void fill(const Model& model, std::size_t c, const Series& series, Derivatives& 
   d.gap_terms[0] += std::abs(contact.gap);
 }
 
+/// The k-th derivative; pressing: coefficients, factorial: k!.
+ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double* pressing, double factorial) {
+  ContactMotion m;
+  m.N = d.N[k];
+  m.T = d.T[k];
+  m.gap = d.gap[k];
+  m.ut = d.ut[k];
+  m.vn = d.gap[k + 1];
+  m.vt = d.ut[k + 1];
+  m.an = d.gap[k + 2];
+  m.at = d.ut[k + 2];
+  m.pressing = factorial * pressing[k];
+  m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+  return m;
+}
+
 }  // namespace
 
 JetMaker::JetMaker(ModeSystems& systems)
@@ -127,16 +143,7 @@ void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result)
     for (std::size_t k = 0; k < MotionJet::orders; ++k) {
       if (k > 1) factorial *= static_cast<double>(k);
       ContactMotion &m = result[c].motion[k], &d = result[c].noise[k];
-      m.N = a.N[k];
-      m.T = a.T[k];
-      m.gap = a.gap[k];
-      m.ut = a.ut[k];
-      m.vn = a.gap[k + 1];
-      m.vt = a.ut[k + 1];
-      m.an = a.gap[k + 2];
-      m.at = a.ut[k + 2];
-      m.pressing = factorial * pressing[k];
-      m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+      m = motion_of_order(a, k, pressing, factorial);
       // The sizes of the terms of each row bound the rounding of its force.
       ContactMotion terms;
       terms.gap = a.gap_terms[k];

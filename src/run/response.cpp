@@ -79,20 +79,20 @@ double value_of(const Output& output, double t, Side side, const Point& point,
   return sum;
 }
 
-Response::Response(const Model& model, double t_end, Recorder& recorder)
+ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder)
     : model_(model),
       recorder_(recorder),
       shortest_(model.omega_max > 0.0 ? 1.0 / model.omega_max : t_end),
       extremes_(model.outputs.size()),
       samples_(model.outputs.size()) {}
 
-void Response::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
-                        std::vector<double>& values) const {
+void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
+                             std::vector<double>& values) const {
   values.clear();
   for (const Output& output : model_.outputs) values.push_back(value_of(output, t, side, point, losses));
 }
 
-void Response::see(std::size_t i, double t, double value) {
+void ResponseWatch::see(std::size_t i, double t, double value) {
   OutputExtremes& e = extremes_[i];
   if (value > e.maximum + tie * std::abs(e.maximum)) {
     e.maximum = value;
@@ -104,7 +104,7 @@ void Response::see(std::size_t i, double t, double value) {
   }
 }
 
-void Response::write(double t, const std::vector<double>& values) {
+void ResponseWatch::write(double t, const std::vector<double>& values) {
   if (began_ && t == last_t_ && values == last_) return;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!began_) extremes_[i] = {values[i], values[i], values[i], t, t};
@@ -117,13 +117,13 @@ void Response::write(double t, const std::vector<double>& values) {
   recorder_.response(t, values);
 }
 
-void Response::before(double t, const Point& point, const std::vector<double>& losses) {
+void ResponseWatch::before(double t, const Point& point, const std::vector<double>& losses) {
   if (!any()) return;
   evaluate(t, Side::before, point, losses, before_);
   before_t_ = t;
 }
 
-void Response::row(double t, Side side, const Point& point, const std::vector<double>& losses) {
+void ResponseWatch::row(double t, Side side, const Point& point, const std::vector<double>& losses) {
   if (!any()) return;
   evaluate(t, side, point, losses, values_);
   if (before_t_ == t) write(t, before_);
@@ -135,7 +135,7 @@ void Response::row(double t, Side side, const Point& point, const std::vector<do
   }
 }
 
-void Response::inside(Stepper& engine, double begin, double end) {
+void ResponseWatch::inside(Stepper& engine, double begin, double end) {
   if (!any() || !(end > begin)) return;
   std::vector<Part> parts{{begin, end}};
   while (!parts.empty()) {
@@ -148,7 +148,7 @@ void Response::inside(Stepper& engine, double begin, double end) {
   }
 }
 
-bool Response::look(Stepper& engine, const Part& part, double begin) {
+bool ResponseWatch::look(Stepper& engine, const Part& part, double begin) {
   static const std::array<double, points> nodes = chebyshev();
   for (std::size_t j = 0; j < points; ++j) {
     const double t =
@@ -163,7 +163,7 @@ bool Response::look(Stepper& engine, const Part& part, double begin) {
   return halve;
 }
 
-bool Response::look_at(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
+bool ResponseWatch::look_at(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
   static const std::array<double, points> nodes = chebyshev();
   double error = 0.0;
   for (std::size_t j = 1; j < points; j += 2)
@@ -178,7 +178,7 @@ bool Response::look_at(std::size_t i, Stepper& engine, const Part& part, const V
   return false;
 }
 
-void Response::sharpen(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
+void ResponseWatch::sharpen(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
   static const std::array<double, points> nodes = chebyshev();
   const Values slope = slopes(values);
   const double half = 0.5 * (part.end - part.begin);

@@ -22,10 +22,10 @@ namespace signorini {
 [[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
                               const std::vector<double>& losses);
 
-class Response {
+class ResponseWatch {
  public:
   /// Both must outlive it. Nothing is done where the model has no outputs.
-  Response(const Model& model, double t_end, Recorder& recorder);
+  ResponseWatch(const Model& model, double t_end, Recorder& recorder);
 
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
   /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.

@@ -289,7 +289,7 @@ class Loop {
   Samples samples_;
   MotionRecord motion_;
   CurveRecord curves_;
-  Response response_;
+  ResponseWatch response_;
   LastTouch touches_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;

@@ -134,6 +134,15 @@ std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task)
   return {ExitCode::bug, ""};
 }
 
+/// Closes all other files than these and the first three: the lock of a directory, which a worker would hold for
+/// some milliseconds more where its parent is killed.
+void keep_only(int a, int b) {
+  const auto low = static_cast<unsigned>(std::min(a, b)), high = static_cast<unsigned>(std::max(a, b));
+  if (low > 3) (void)close_range(3, low - 1, 0);
+  if (high > low + 1) (void)close_range(low + 1, high - 1, 0);
+  (void)close_range(high + 1, ~0U, 0);
+}
+
 [[noreturn]] void be_worker(pid_t parent, const HeldSignals& signals, const Work& work, int tasks,
                             int reports) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take the result
@@ -142,6 +151,7 @@ std::pair<ExitCode, std::string> carried_out(const Work& work, std::size_t task)
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   signals.restore();
+  keep_only(tasks, reports);
   std::uint64_t task = 0;
   while (receive(tasks, &task, sizeof task)) {
     const auto [code, report] = carried_out(work, static_cast<std::size_t>(task));

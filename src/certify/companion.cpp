@@ -23,6 +23,7 @@ CompanionRun companion_of(const Model& model, const RunSpec& run) {
   CompanionRun companion{model, run};
   hold_capture(companion.model, tolerance_of(model, run).capture_velocity());
   companion.run.frames.clear();
+  companion.model.outputs.clear();  // nobody reads them
   return companion;
 }
 

@@ -26,101 +26,90 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-struct Panel {
-  std::string suffix, label;
-  std::vector<std::size_t> columns;
+struct PlottedLine {
+  std::string title, data;
+  std::size_t number = 0;  ///< of its column in the data, from 1
 };
 
-std::vector<Panel> displacement_panels(const PlottedRun& run) {
+struct PanelOfLines {
+  std::string key, label;  ///< key: what its lines have in common
+  std::vector<PlottedLine> lines;
+};
+
+std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   const std::string& length = run.facts.units.length;
-  std::vector<Panel> panels = {{".ux", "horizontal ux [" + length + "]", {}},
-                               {".uy", "vertical uy [" + length + "]", {}},
-                               {".rz", "rotation rz [rad]", {}},
-                               {".u", "displacement u", {}}};
-  for (Panel& p : panels) {
+  std::vector<PanelOfLines> panels = {{".ux", "horizontal ux [" + length + "]", {}},
+                                      {".uy", "vertical uy [" + length + "]", {}},
+                                      {".rz", "rotation rz [rad]", {}},
+                                      {".u", "displacement u", {}}};
+  for (PanelOfLines& p : panels)
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
-      if (ends_with(run.columns[i], p.suffix)) p.columns.push_back(i);
+      const std::string& name = run.columns[i];
+      if (!ends_with(name, p.key)) continue;
+      const TableColumn curve = curve_of(run, "history.csv", name, i + 1);
+      p.lines.push_back({name.substr(0, name.size() - p.key.size()), curve.data, curve.number});
     }
-  }
-  panels.erase(std::remove_if(panels.begin(), panels.end(), [](const Panel& p) { return p.columns.empty(); }),
-               panels.end());
+  panels.erase(
+      std::remove_if(panels.begin(), panels.end(), [](const PanelOfLines& p) { return p.lines.empty(); }),
+      panels.end());
   return panels;
+}
+
+/// One a unit.
+std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
+  std::vector<PanelOfLines> panels;
+  for (std::size_t i = 0; i < run.facts.response.size(); ++i) {
+    const RunFacts::Response& column = run.facts.response[i];
+    const auto same = std::find_if(panels.begin(), panels.end(),
+                                   [&](const PanelOfLines& p) { return p.key == column.unit; });
+    PanelOfLines& p = same == panels.end()
+                          ? panels.emplace_back(PanelOfLines{column.unit, "[" + column.unit + "]", {}})
+                          : *same;
+    p.lines.push_back({column.name, "'../response.csv'", i + 2});
+  }
+  for (PanelOfLines& p : panels)
+    if (p.lines.size() == 1) p.label = p.lines[0].title + " " + p.label;
+  return panels;
+}
+
+/// Panels above each other; nothing without any.
+std::string script_of_lines(const PlottedRun& run, Picture picture, const std::vector<PanelOfLines>& panels) {
+  if (panels.empty()) return "";
+  const int count = static_cast<int>(panels.size());
+  picture.height = 120 + (count == 1 ? 480 : 290 * count);
+  std::string s = begin_script(run, picture);
+  s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
+  s += "unset colorbox\n";
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const PanelOfLines& p = panels[i];
+    const auto [bottom, top] = stacked(i, panels.size(), picture.height);
+    s += panel(run, bottom, top, p.label, i + 1 == panels.size());
+    const std::size_t shown = std::min(p.lines.size(), most_curves);
+    if (shown > 12) s += "set key spacing 0.9 font ',10'\n";
+    std::vector<std::string> elements;
+    for (std::size_t j = 0; j < shown; ++j)
+      elements.push_back(
+          fmt::format("{} using 1:{} with lines linewidth {} {} title {}", p.lines[j].data,
+                      // Curves that coincide show through: every other one is thinner and dashed, on top.
+                      p.lines[j].number, j % 2 == 0 ? "1.9" : "1.2",
+                      colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"), quoted(p.lines[j].title)));
+    if (shown < p.lines.size())
+      elements.push_back("NaN with lines linecolor '#ffffff' title " +
+                         quoted(fmt::format("(first {} of {})", shown, p.lines.size())));
+    s += plot_command(elements);
+  }
+  return s + end_script();
 }
 
 }  // namespace
 
 std::string displacement_script(const PlottedRun& run) {
-  const std::vector<Panel> panels = displacement_panels(run);
-  if (panels.empty()) return "";
-  const int count = static_cast<int>(panels.size());
-  const int height = 120 + (count == 1 ? 480 : 290 * count);
-  std::string s = begin_script(run, {"displacement", "Displacements from the undeformed state", height});
-  s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
-  s += "unset colorbox\n";
-  const double line = 1.0 / height;
-  const double bottom = 58.0 * line, top = 1.0 - 62.0 * line, space = 22.0 * line;
-  const double panel_height = (top - bottom - space * (count - 1)) / count;
-  for (int i = 0; i < count; ++i) {
-    const Panel& p = panels[static_cast<std::size_t>(i)];
-    const double upper = top - i * (panel_height + space);
-    s += panel(run, upper - panel_height, upper, p.label, i + 1 == count);
-    const std::size_t shown = std::min(p.columns.size(), most_curves);
-    if (shown > 12) s += "set key spacing 0.9 font ',10'\n";
-    std::vector<std::string> elements;
-    for (std::size_t j = 0; j < shown; ++j) {
-      const std::string& name = run.columns[p.columns[j]];
-      const TableColumn curve = curve_of(run, "history.csv", name, p.columns[j] + 1);
-      elements.push_back(fmt::format(
-          "{} using 1:{} with lines linewidth {} {} title {}", curve.data,
-          // Curves that coincide show through: every other one is thinner and dashed, on top.
-          curve.number, j % 2 == 0 ? "1.9" : "1.2", colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
-          quoted(name.substr(0, name.size() - p.suffix.size()))));
-    }
-    if (shown < p.columns.size()) {
-      elements.push_back("NaN with lines linecolor '#ffffff' title " +
-                         quoted(fmt::format("(first {} of {})", shown, p.columns.size())));
-    }
-    s += plot_command(elements);
-  }
-  return s + end_script();
+  return script_of_lines(run, {"displacement", "Displacements from the undeformed state"},
+                         displacement_panels(run));
 }
 
 std::string response_script(const PlottedRun& run) {
-  std::vector<Panel> panels;
-  for (std::size_t i = 0; i < run.facts.response.size(); ++i) {
-    const std::string& unit = run.facts.response[i].unit;
-    const auto same =
-        std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.suffix == unit; });
-    Panel& p = same == panels.end() ? panels.emplace_back(Panel{unit, "[" + unit + "]", {}}) : *same;
-    p.columns.push_back(i);
-  }
-  if (panels.empty()) return "";
-  for (Panel& p : panels)
-    if (p.columns.size() == 1) p.label = run.facts.response[p.columns[0]].name + " " + p.label;
-  const int count = static_cast<int>(panels.size());
-  const int height = 120 + (count == 1 ? 480 : 290 * count);
-  std::string s = begin_script(run, {"response", "Response quantities", height});
-  s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
-  s += "unset colorbox\n";
-  const double bottom = 58.0 / height, top = 1.0 - 62.0 / height, space = 22.0 / height;
-  const double panel_height = (top - bottom - space * (count - 1)) / count;
-  for (int i = 0; i < count; ++i) {
-    const Panel& p = panels[static_cast<std::size_t>(i)];
-    const double upper = top - i * (panel_height + space);
-    s += panel(run, upper - panel_height, upper, p.label, i + 1 == count);
-    const std::size_t shown = std::min(p.columns.size(), most_curves);
-    std::vector<std::string> elements;
-    for (std::size_t j = 0; j < shown; ++j)
-      elements.push_back(fmt::format("'../response.csv' using 1:{} with lines linewidth {} {} title {}",
-                                     p.columns[j] + 2, j % 2 == 0 ? "1.9" : "1.2",
-                                     colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
-                                     quoted(run.facts.response[p.columns[j]].name)));
-    if (shown < p.columns.size())
-      elements.push_back("NaN with lines linecolor '#ffffff' title " +
-                         quoted(fmt::format("(first {} of {})", shown, p.columns.size())));
-    s += plot_command(elements);
-  }
-  return s + end_script();
+  return script_of_lines(run, {"response", "Response quantities"}, response_panels(run));
 }
 
 std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start) {

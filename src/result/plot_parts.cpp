@@ -55,6 +55,13 @@ TableColumn curve_of(const PlottedRun& run, const std::string& table, const std:
   return {quoted("../" + table) + " skip 1" + every(run, 1, 0), number};
 }
 
+PanelEdges stacked(std::size_t i, std::size_t count, int height, double margin, double space) {
+  const double bottom = margin / height, top = 1.0 - 62.0 / height, apart = space / height;
+  const double each = (top - bottom - apart * static_cast<double>(count - 1)) / static_cast<double>(count);
+  const double upper = top - static_cast<double>(i) * (each + apart);
+  return {upper - each, upper};
+}
+
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
   std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";

@@ -67,6 +67,14 @@ struct TableColumn {
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
                                    std::size_t number);
 
+/// Lower and upper edge of the i-th of `count` panels above each other, as fractions of the picture's height; margin
+/// below all and space between, in points.
+struct PanelEdges {
+  double bottom = 0.0, top = 1.0;
+};
+[[nodiscard]] PanelEdges stacked(std::size_t i, std::size_t count, int height, double margin = 58.0,
+                                 double space = 22.0);
+
 /// Size and headings of a picture.
 struct Picture {
   std::string name;      ///< of its files

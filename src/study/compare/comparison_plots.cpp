@@ -82,7 +82,7 @@ class Pictures {
     const int height = 130 + 230 * static_cast<int>(curves.size());
     std::string s = begin_script(first, {name, "Contact '" + contact.name + "': motion and forces", height});
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto [bottom, top] = room(i, curves.size(), height);
+      const auto [bottom, top] = stacked(i, curves.size(), height);
       s += panel(first, bottom, top, curves[i].label, i + 1 == curves.size());
       std::vector<std::string> elements;
       for (std::size_t r = 0; r < runs_.size(); ++r) {
@@ -115,7 +115,7 @@ class Pictures {
         first, {"differences", "Greatest differences from " + report_.runs.front().figures.name, height});
     s += "set logscale y\n";
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto [bottom, top] = room(i, curves.size(), height);
+      const auto [bottom, top] = stacked(i, curves.size(), height);
       s += panel(first, bottom, top, curves[i].label, i + 1 == curves.size());
       s += "set format y '%.0e'\n";
       std::vector<std::string> elements;
@@ -133,14 +133,6 @@ class Pictures {
   }
 
  private:
-  static std::pair<double, double> room(std::size_t i, std::size_t count, int height) {
-    const double line = 1.0 / height;
-    const double bottom = 58.0 * line, top = 1.0 - 62.0 * line, space = 22.0 * line;
-    const double each = (top - bottom - space * static_cast<double>(count - 1)) / static_cast<double>(count);
-    const double upper = top - static_cast<double>(i) * (each + space);
-    return {upper - each, upper};
-  }
-
   /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
   /// runs agree to the last digit.
   [[nodiscard]] std::string y_range(const Curve& curve, std::vector<std::string>& elements) const {

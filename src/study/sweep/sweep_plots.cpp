@@ -140,13 +140,10 @@ class Script {
                                 const std::vector<Panel>& panels) const {
     const int count = static_cast<int>(panels.size()), height = 140 + 320 * count;
     std::string s = begin_script(run_, {name, subtitle, height, false});
-    const double line = 1.0 / height;
-    const double bottom = 62.0 * line, top = 1.0 - 62.0 * line, space = 26.0 * line;
-    const double each = (top - bottom - space * (count - 1)) / count;
     s += "set offsets 0,0,graph 0.05,0\n" + x_range();
     for (int i = 0; i < count; ++i) {
-      const double upper = top - i * (each + space);
-      s += panel(run_, upper - each, upper, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
+      const auto [bottom, top] = stacked(static_cast<std::size_t>(i), panels.size(), height, 62.0, 26.0);
+      s += panel(run_, bottom, top, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
       s += panels[static_cast<std::size_t>(i)].figure < 0 ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) s += ticks(i + 1 == count);
       if (i + 1 == count) s += "set xlabel " + quoted(axis_.vary->path) + "\n";

@@ -12,23 +12,11 @@
 
 #include "base/json.hpp"
 #include "scene/keys.hpp"
+#include "scene/toml_json.hpp"
 
 using namespace signorini;
 
 namespace {
-
-Json schema_json_of(const toml::node& node) {
-  if (const auto* value = node.as_boolean()) return value->get();
-  if (const auto* value = node.as_integer()) return value->get();
-  if (const auto* value = node.as_floating_point()) return value->get();
-  if (const auto* value = node.as_string()) return value->get();
-  Json json = node.is_array() ? Json::array() : Json::object();
-  if (const toml::array* array = node.as_array())
-    for (const toml::node& item : *array) json.push_back(schema_json_of(item));
-  if (const toml::table* table = node.as_table())
-    for (const auto& [name, item] : *table) json[std::string(name.str())] = schema_json_of(item);
-  return json;
-}
 
 /// Says where and why a value is no instance of a schema; empty where it is.
 class Validator {
@@ -123,7 +111,7 @@ class Validator {
 
 std::string against_schema(const toml::table& scene) {
   static const Json schema = parse_json(scene_schema());
-  return Validator(schema).why_not(schema_json_of(scene), schema, "scene");
+  return Validator(schema).why_not(json_of(scene), schema, "scene");
 }
 
 std::string text_against_schema(std::string_view text) { return against_schema(toml::parse(text)); }

@@ -35,8 +35,8 @@ tidy() {
 
 threads() {
   configure tsan
-  cmake --build build/tsan -j "$(nproc)"
-  ctest --test-dir build/tsan --output-on-failure --no-tests=error -L '^behaviour/threads$'
+  cmake --build build/tsan -j "$(nproc)" -t signorini_thread_tests
+  build/tsan/tests/signorini_thread_tests
 }
 
 attack() {

@@ -80,6 +80,7 @@ struct Contact {
   History normal_force;                    ///< slider: compression >= 0
   History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
+  int initial_slip = 0;  ///< sign of the slip at t = 0, which T alone does not tell below the static limit
 
   [[nodiscard]] bool has_gap() const { return signorini::has_gap(law); }
   [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }

@@ -107,8 +107,8 @@ struct DrawnNode {
 /// A beam, a bar, or a spring between two nodes; dofs at both ends.
 struct DrawnElement {
   enum class Kind : unsigned char { beam, bar, spring };
-  double x1, y1, x2, y2;
-  int dofs[6];
+  double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
+  int dofs[6] = {-1, -1, -1, -1, -1, -1};
   int nodes[2] = {-1, -1};  ///< indices into Model::drawn_nodes
   Kind kind = Kind::beam;
 };

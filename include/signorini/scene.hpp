@@ -1,6 +1,6 @@
 // scene.hpp: a scene as the file says it, with every default filled in and every unit checked.
 //
-//   M u'' + C u' + K u = P(t) + sum_k ( n_k lambda_k + t_k tau_k )
+//   M u'' + C u' + K u = P(t) - sum_k ( n_k N_k + t_k T_k )
 //
 // A Scene knows names, places and numbers, no matrices. docs/scene.md is its reference.
 //
@@ -127,8 +127,14 @@ struct StageSpec {
 
 /// Where a run stood: everything that its motion goes on from.
 struct SavedState {
+  std::string run;                                      ///< directory
   std::vector<std::pair<std::string, double>> motions;  ///< by the names of Dof: displacement, velocity
   std::vector<std::pair<std::string, double>> shears;   ///< T of contacts by name
+  std::vector<std::pair<std::string, int>> slips;       ///< -1, 0, 1: which way contacts slip, by name
+  /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
+  /// velocity, force.
+  std::optional<std::array<double, 5>> scales;
+  std::vector<std::string> differing;  ///< tables in which the run's scene has another structure
 };
 
 /// initial = "static" or "frictional", the state of a run, or a state: by degree of freedom in the order of

@@ -56,8 +56,10 @@ away. Where contacts at their limits leave a motion that nothing resists, many s
 them is taken, and a warning names the contacts; another warns of flutter, an oscillation that would grow while they slip.
 
 `initial = { run = "DIR", t = 3.2 }` goes on from a state that the run in DIR kept in its states.csv: displacements and
-velocities of all degrees of freedom, and the shears of contacts. Its t_end and its `frames` are kept. The structure must
-be the same; loads may be others. Time begins at 0 again: `shift = -3.2` takes a history along.
+velocities of all degrees of freedom and of supports that `acceleration` drives, the shears of contacts and which of them
+slip. Its t_end and its `frames` are kept. The units must be the same, and the structure should: what differs is warned of;
+loads and motions may be others. Scales, and tolerances and `capture_velocity` with them, are those of that run, so that
+the events of two halves are those of the whole. Time begins at 0 again: `shift = -3.2` takes a history along.
 
 Otherwise displacements and velocities are as given, and zero where they are not:
 
@@ -180,7 +182,8 @@ motion = { type = "table", times = [0.0, 0.2, 0.8, 1.0], values = [0.0, 0.0, -0.
 
 The force of supports that move is -K s - C s' - M s'', of the rows of what is free and the columns of what moves; the
 audit's energy is that of what is free, and books the work of this force with that of the loads. A motion that jumps, or
-has a kink where mass moves with the support, is refused: it would need an impulse. Displacements are absolute;
+has a kink where mass moves with the support, is refused: it would need an impulse. (At t = 0 it is warned of: the initial
+state is the one just after.) Displacements are absolute;
 `[base_motion]` is the same for all supports at once, seen from them.)"},
     {"springs[]", "## `[[springs]]`",
      R"(```toml
@@ -312,7 +315,8 @@ acceleration = { type = "table", times = [0.0, 0.1, 0.2], values = [0.0, 3.0, 0.
 ```
 
 Along several directions at once: tables under `[[base_motion]]`. An acceleration may be given in g, and as a record of
-PEER, whose heading names its unit, G, CM/S/S, M/S/S, MM/S/S or GAL; velocities and displacements are refused:
+PEER, whose heading names its unit, G, CM/S/S, M/S/S, MM/S/S or GAL; its step is in seconds whatever
+the scene's unit of time; velocities and displacements are refused:
 
 ```toml
 [[base_motion]]
@@ -416,7 +420,8 @@ and combinations.)"},
 f is zero before start and from end on, a table outside its times (after them with `hold` as it last was); it has neither
 start nor end. `period` begins the shape anew every so long, `shift` moves all of it. At a jump f
 already has its new value. Where it jumps or has a kink the integration stops and restarts, so that no pulse is
-stepped over, however short.
+stepped over, however short: times of several histories that differ by rounding, as 0.1 + 0.2 and 0.3 do, are one instant.
+Only a pulse shorter than a double tells times apart (2e-14 of the run) has no effect, and is warned of.
 
 ```toml
 history = { type = "harmonic", frequency = 2.0, start = 0.5, end = 4.5 }

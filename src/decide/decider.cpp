@@ -65,6 +65,7 @@ struct Decider::Course {
   Findings found;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
   bool blurred = false;
+  std::vector<MotionJet> so_far = {};  // up to the instant; empty where no limit has rested
 };
 
 Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
@@ -111,6 +112,7 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
     d.before.push_back(jet.motion[0]);
     course.noise_before.push_back(jet.noise[0]);
   }
+  if (!instant.rested.empty()) course.so_far = course.jets;
   d.slides_before = slides(before, d);
   // What sticks rigidly moves with its surface, what touches rigidly has no gap: an integrator's drift must
   // not decide what comes next.
@@ -124,7 +126,8 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
 void Decider::look(Course& course, bool before) {
-  course.failed = failures(model_, course.jets, course.mode, course.instant, before, course.found.known);
+  course.failed =
+      failures(model_, course.jets, course.mode, course.instant, before, course.found.known, course.so_far);
   std::erase_if(course.failed, [&](const Failure& f) {
     return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
            course.undecided.end();
@@ -341,10 +344,12 @@ void Decider::finish(Course& course) const {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);
-        start.at_zero = known.zeros > 0 || starts_at_zero(guard.form, jet, course.instant);
+        const MotionJet* base = course.instant.has_rested(c, guard.kind) ? &course.so_far[c] : nullptr;
+        const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
+        start.at_zero =
+            known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
         start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
-        const int order = sign_of_guard(guard.form, jet, course.instant, known).order;
-        start.leading = order < static_cast<int>(jet.motion.size()) ? order : -1;
+        start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
         // What the decision took for zero is rounding to an engine, too.
         if (start.at_zero && start.leading < 0)
           start.noise = std::max(start.noise, std::abs(guard.form.value(now)));

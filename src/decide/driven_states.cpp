@@ -30,6 +30,8 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
       s.state = state_at_rest(contact);
       if (contact.tangential_stiffness) {
         s.anchor = slip_of(contact, m.ut, contact.initial_shear);
+        if (contact.initial_slip != 0)
+          s.state = contact.initial_slip > 0 ? State::slip_plus : State::slip_minus;
       } else if (contact.sticks_rigidly()) {
         const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
         if (std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))

@@ -2,7 +2,7 @@
 // and where the forcing is not smooth.
 //
 //   slider       open iff its compression is lifted
-//   compliant    at the start open iff g >= 0
+//   compliant    at the start open iff g >= 0; slips if the run that it goes on from did
 //   stick        ends where the surface's velocity jumps away from t . v, unless an element lies between
 #pragma once
 

@@ -22,7 +22,7 @@ double zero_of(const Form& form, const MotionJet& jet, const Instant& instant, s
 /// The guard of a contact that fails soonest.
 std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const MotionJet& jet,
                                   const ContactState& state, const Instant& instant, bool before,
-                                  const KnownGuards& known) {
+                                  const KnownGuards& known, const MotionJet* so_far) {
   const auto all = guards(contact, state);
   std::optional<Failure> soonest;
   for (const GuardForm& guard : all) {
@@ -33,7 +33,8 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     Known guard_known = known.of(guard.kind);
     if (fell && guard.form.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    Sign sign = sign_of_guard(guard.form, jet, instant, guard_known);
+    const MotionJet* base = instant.has_rested(c, guard.kind) ? so_far : nullptr;
+    Sign sign = sign_of_guard(guard.form, jet, instant, guard_known, base);
     if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
       sign = sign_of_guard(guard.form, jet, instant, guard_known);
@@ -58,16 +59,19 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
 
 }  // namespace
 
-Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {
+Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first,
+                const MotionJet* base) {
   for (std::size_t k = first; k < jet.motion.size(); ++k) {
-    const double d = derivative(form, jet, k), zero = zero_of(form, jet, instant, k);
+    const double d = derivative(form, jet, k) - (base ? derivative(form, *base, k) : 0.0);
+    const double zero = zero_of(form, jet, instant, k);
     if (std::abs(d) > zero) return {d > 0.0 ? 1 : -1, static_cast<int>(k), std::abs(d) / zero};
   }
   return {0, static_cast<int>(jet.motion.size()), 0.0};
 }
 
-Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant, const Known& known) {
-  const Sign sign = sign_after(form, jet, instant, known.zeros);
+Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant, const Known& known,
+                   const MotionJet* base) {
+  const Sign sign = sign_after(form, jet, instant, known.zeros, base);
   if (!known.rises || (sign.sign < 0 && sign.order == static_cast<int>(known.zeros))) return sign;
   return {1, static_cast<int>(known.zeros), sign.order == static_cast<int>(known.zeros) ? sign.excess : 1.0};
 }
@@ -89,10 +93,12 @@ double forgiveness(const Form& form, const MotionJet& jet, const Instant& instan
 }
 
 std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets, const Mode& mode,
-                              const Instant& instant, bool before, const std::vector<KnownGuards>& known) {
+                              const Instant& instant, bool before, const std::vector<KnownGuards>& known,
+                              const std::vector<MotionJet>& so_far) {
   std::vector<Failure> result;
   for (std::size_t c = 0; c < mode.size(); ++c)
-    if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c]))
+    if (auto failed = failure_of(model.contacts[c], c, jets[c], mode[c], instant, before, known[c],
+                                 so_far.empty() ? nullptr : &so_far[c]))
       result.push_back(std::move(*failed));
   return result;
 }

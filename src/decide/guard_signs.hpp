@@ -62,15 +62,16 @@ struct Sign {
 };
 
 /// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
+/// base: a motion in which the form is zero, whatever rounding has left of it; what counts is the difference.
 [[nodiscard]] Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant,
-                              std::size_t first);
+                              std::size_t first, const MotionJet* base = nullptr);
 [[nodiscard]] bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& instant);
 /// How many times its rounding must be forgiven for the form not to be lexicographically negative; 0: none.
 [[nodiscard]] double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant,
                                  std::size_t first);
 /// Sign of a guard of which something is known: one that rises is only asked whether it clearly does not.
 [[nodiscard]] Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant,
-                                 const Known& known);
+                                 const Known& known, const MotionJet* base = nullptr);
 
 struct Failure {
   std::size_t contact = 0;
@@ -80,9 +81,11 @@ struct Failure {
 };
 
 /// The guard that fails soonest of each contact of which one fails. before: the mode is that of the motion
-/// up to the instant, so what the engine located is zero. known: one a contact.
+/// up to the instant, so what the engine located is zero. known: one a contact. so_far: the motion up to the
+/// instant, one a contact, needed where limits have rested.
 [[nodiscard]] std::vector<Failure> failures(const Model& model, const std::vector<MotionJet>& jets,
                                             const Mode& mode, const Instant& instant, bool before,
-                                            const std::vector<KnownGuards>& known);
+                                            const std::vector<KnownGuards>& known,
+                                            const std::vector<MotionJet>& so_far = {});
 
 }  // namespace signorini

@@ -24,6 +24,9 @@ struct Instant {
   Vector u, v;
   Mode mode;  ///< just before
   std::vector<Fired> fired;
+  /// Friction limits that were zero with all their derivatives when the integrator set out, and that it has not
+  /// seen fall since: zero under the forcing up to here, whatever the rounding of the way has left of them.
+  std::vector<Fired> rested = {};
   /// When each contact was last at g = 0, the start where it never was; empty: not known.
   std::vector<double> touched = {};
   bool jump = false;   ///< the forcing is not smooth here
@@ -32,8 +35,14 @@ struct Instant {
   /// A flight lower than the rounding of its gap is flown, not taken as rest: a series knows it all the same.
   bool low_flights = false;
 
-  [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const {
-    return std::any_of(fired.begin(), fired.end(),
+  [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const { return has(fired, contact, guard); }
+  [[nodiscard]] bool has_rested(std::size_t contact, Guard guard) const {
+    return has(rested, contact, guard) && !has_fired(contact, guard);
+  }
+
+ private:
+  static bool has(const std::vector<Fired>& list, std::size_t contact, Guard guard) {
+    return std::any_of(list.begin(), list.end(),
                        [&](const Fired& f) { return f.contact == contact && f.guard == guard; });
   }
 };

@@ -30,11 +30,15 @@
 namespace signorini {
 namespace {
 
-/// The shears that contacts had, from which their anchors follow.
-void take_shears(const SavedState& saved, Model& model) {
-  for (const auto& [name, T] : saved.shears)
-    for (Contact& c : model.contacts)
-      if (c.name == name && c.tangential_stiffness && c.has_friction()) c.initial_shear = T;
+/// The shears that contacts had, from which their anchors follow, and which of them slipped.
+void take_contacts(const SavedState& saved, Model& model) {
+  for (Contact& c : model.contacts) {
+    if (!c.tangential_stiffness || !c.has_friction()) continue;
+    for (const auto& [name, T] : saved.shears)
+      if (c.name == name) c.initial_shear = T;
+    for (const auto& [name, sign] : saved.slips)
+      if (c.name == name) c.initial_slip = sign;
+  }
 }
 
 void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
@@ -46,7 +50,7 @@ void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
     const InitialState state = given_state(scene, map);
     model.u0 = state.u;
     model.v0 = state.v;
-    if (scene.initial.saved) take_shears(*scene.initial.saved, model);
+    if (scene.initial.saved) take_contacts(*scene.initial.saved, model);
     return;
   }
   bool loaded = false;
@@ -123,6 +127,10 @@ Model assembled(const Scene& scene, const Factors& unit) {
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
+  if (const auto& saved = scene.initial.saved; saved && saved->scales && saved->differing.empty()) {
+    const auto& s = *saved->scales;
+    model.scales = {s[0], s[1], s[2], s[3], s[4]};
+  }
   check_rigid_contacts(scene, model);
   for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
   if (scene.reduction) {

@@ -16,6 +16,7 @@
 #include "model/slip_growth.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/static_system.hpp"
+#include "motion/clock.hpp"
 
 namespace signorini {
 namespace {
@@ -44,6 +45,9 @@ class Doubts {
     drag();
     friction();
     shear();
+    another_structure();
+    pulses();
+    sudden_supports();
     growth();
     return std::move(found_);
   }
@@ -156,6 +160,53 @@ class Doubts {
         fmt::format("friction {:.6g} at {}: a ratio of forces is rarely above 2; was an angle "
                     "or a percentage meant?",
                     greatest, names(model_, high)));
+  }
+
+  /// What lasts less than the clock can tell is passed at once, and with it a pulse.
+  void pulses() {
+    for (const Load& load : model_.loads) {
+      const History& f = load.history;
+      for (std::size_t i = 1; i < f.starts().size(); ++i) {
+        const double a = f.starts()[i - 1], b = f.starts()[i], least = resolution_at(b, scene_.run.t_end);
+        if (!(a > 0.0 && b < scene_.run.t_end && b - a < least)) continue;
+        const double before = f.pieces()[i - 1].value(a), inside = f.pieces()[i].value(0.5 * (a + b)),
+                     after = f.pieces()[i + 1].value(b);
+        const double rounded = roundoff(f.pieces()[i], b) + roundoff(f.pieces()[i - 1], a);
+        if (inside <= std::max(before, after) + rounded && inside >= std::min(before, after) - rounded)
+          continue;
+        found_.push_back(fmt::format(
+            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} which a clock "
+            "of sixteen digits tells for sure: its impulse is lost; let it last longer",
+            load.name, a * model_.unit.time, (b - a) * model_.unit.time, least * model_.unit.time));
+      }
+    }
+  }
+
+  /// The initial state is the one just after t = 0: what a support does there suddenly gives no impulse.
+  void sudden_supports() {
+    for (const Load& load : model_.loads) {
+      if (load.kind != LoadKind::support || scene_.initial.saved) continue;
+      const Piece &before = load.history.piece_before(0.0), &after = load.history.piece(0.0);
+      for (const int order : {0, 1}) {
+        const double a = before.value(0.0, order), b = after.value(0.0, order);
+        const double rounded = order == 0 ? roundoff(before, 0.0) + roundoff(after, 0.0)
+                                          : roundoff_of_rate(before, 0.0) + roundoff_of_rate(after, 0.0);
+        if (std::abs(b - a) <= rounded) continue;
+        found_.push_back(
+            fmt::format("the {} of '{}' jumps at t = 0: the initial state is taken as the one just after, "
+                        "without an impulse; at a later time it would be refused",
+                        order == 0 ? "motion" : "velocity", load.name));
+        break;
+      }
+    }
+  }
+
+  void another_structure() {
+    if (!scene_.initial.saved || scene_.initial.saved->differing.empty()) return;
+    found_.push_back(
+        fmt::format("goes on from a run in {} whose scene has other {}: its displacements, velocities and "
+                    "shears are taken as they stand",
+                    scene_.initial.saved->run, listed_plainly(scene_.initial.saved->differing)));
   }
 
   void shear() {

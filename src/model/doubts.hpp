@@ -7,6 +7,9 @@
 //   drag                                alpha M acts on motions without stiffness: v ~ exp(-alpha t)
 //   friction above 2                    an angle, a percentage?
 //   initial_shear in a static start     which has no friction: nothing carries it
+//   another structure                   in the scene of the run that this one goes on from
+//   a pulse too short for the clock     100 eps (t + t_end)
+//   a support that jumps at t = 0      or its velocity: the state is the one after
 //   flutter after a frictional start    contacts slip at their limits (slip_growth.hpp); what runs away
 //                                       there is refused
 #pragma once

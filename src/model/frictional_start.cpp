@@ -94,8 +94,13 @@ void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
                        "has no meaning beside initial = \"frictional\", which finds it");
-  FrictionalEquilibrium found = frictional_equilibrium(model.stiffness, model.contacts,
-                                                       stages_of(scene, model), map, scene.initial.place);
+  const std::vector<Stage> stages = stages_of(scene, model);
+  FrictionalEquilibrium found =
+      frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
+  for (const Stage& stage : stages)
+    if (!scene.initial.stages.empty() && stage.load.isZero(0.0))
+      found.start.doubts.push_back(
+          fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stage.name));
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;

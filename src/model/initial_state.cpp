@@ -59,7 +59,7 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
   for (const ContactSpec& contact : scene.contacts)  // sliding points, which the shears stand for
     for (const char* of : {".slip", ".slip_rate"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
-    if (values.contains(name))
+    if (values.contains(name) && !name.starts_with("support "))
       refuse_saved(spec, fmt::format("the saved state has {} and the scene not", name));
   return state;
 }

@@ -1,6 +1,7 @@
 // states.hpp: whole states of a run, from which another may go on (docs/output.md).
 //
-//   states.csv   t, displacements of all degrees of freedom, their velocities, T of contacts with friction
+//   states.csv   t, displacements of all degrees of freedom, their velocities; motions of supports, their
+//                velocities; T and state of contacts with friction
 //
 // One row at each time of run.frames, and one at t_end. Read by scene/saved_state.hpp. Errors: FileError.
 #pragma once
@@ -22,6 +23,7 @@ class StateWriter {
   const Model& model_;
   CsvBlock block_;
   CsvFile file_;
+  std::vector<const Load*> supports_;  // that move
   double last_ = -1.0;
 };
 

@@ -1,17 +1,45 @@
 #include "run/breakpoints.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/history/history_internal.hpp"
 #include "motion/clock.hpp"
 
 namespace signorini {
 
+namespace {
+
+/// A breakpoint, and whose.
+struct Owned {
+  Breakpoint at;
+  const History* history;
+};
+
+/// Does what happens to f between the two, as good as at once, change its value?
+bool leaps(const History& f, double first, double last) {
+  const Piece &before = f.piece_before(first), &after = f.piece(last);
+  return std::abs(after.value(last) - before.value(first)) > roundoff(before, first) + roundoff(after, last);
+}
+
+/// [first, last) are one instant.
+Breakpoint merged(std::vector<Owned>::const_iterator first, std::vector<Owned>::const_iterator last) {
+  Breakpoint one{std::prev(last)->at.time, false};
+  for (auto i = first; i != last; ++i) {
+    const bool again = std::any_of(first, i, [&](const Owned& o) { return o.history == i->history; });
+    one.jump = one.jump || i->at.jump || (again && leaps(*i->history, first->at.time, one.time));
+  }
+  return one;
+}
+
+}  // namespace
+
 std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
-  std::vector<Breakpoint> all;
+  std::vector<Owned> all;
   const auto add = [&](const History& history, bool values) {
     for (Breakpoint b : history.breakpoints()) {
       b.jump = b.jump && values;
-      if (b.time > 0.0 && b.time < t_end) all.push_back(b);
+      if (b.time > 0.0 && b.time < t_end) all.push_back({b, &history});
     }
   };
   for (const Load& load : model.loads) add(load.history, true);
@@ -19,15 +47,16 @@ std::vector<Breakpoint> breakpoints(const Model& model, double t_end) {
     add(contact.normal_force, true);
     add(contact.surface_motion, false);
   }
-  std::sort(all.begin(), all.end(), [](const Breakpoint& a, const Breakpoint& b) { return a.time < b.time; });
-  std::vector<Breakpoint> merged;
-  for (const Breakpoint& b : all) {
-    if (!merged.empty() && b.time - merged.back().time <= resolution_at(b.time, 0.0))
-      merged.back().jump = merged.back().jump || b.jump;
-    else
-      merged.push_back(b);
+  std::sort(all.begin(), all.end(), [](const Owned& a, const Owned& b) { return a.at.time < b.at.time; });
+  std::vector<Breakpoint> result;
+  for (auto first = all.cbegin(); first != all.cend();) {
+    const auto last = std::find_if(first, all.cend(), [&](const Owned& o) {
+      return o.at.time - first->at.time > resolution_at(o.at.time, 0.0);
+    });
+    result.push_back(merged(first, last));
+    first = last;
   }
-  return merged;
+  return result;
 }
 
 }  // namespace signorini

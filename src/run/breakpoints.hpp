@@ -6,7 +6,8 @@
 namespace signorini {
 
 /// Breakpoints of all forcing in (0, t_end), ascending; `jump` where any value jumps. Those that the clock
-/// cannot tell apart are one.
+/// cannot tell apart are one, at the last of their times: every history is on its next piece there. Where one
+/// history has several of them, its value jumps if they leave it another.
 [[nodiscard]] std::vector<Breakpoint> breakpoints(const Model& model, double t_end);
 
 }  // namespace signorini

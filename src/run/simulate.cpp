@@ -31,6 +31,17 @@ namespace {
 constexpr double shortest_stretch = 1e-100;
 constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
+/// Friction limits that are zero with all their derivatives, from here to where they are seen to fall.
+std::vector<Fired> resting(const Decision& decision) {
+  std::vector<Fired> result;
+  for (std::size_t i = 0; i < decision.guards.size(); ++i) {
+    const GuardStart& guard = decision.guards[i];
+    const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+    if (limit && guard.at_zero && guard.leading < 0) result.push_back({i / guards_per_contact, guard.kind});
+  }
+  return result;
+}
+
 /// Computes in the units of its model (Model::unit); the recorder takes them, the report has those of the
 /// scene.
 class Loop {
@@ -168,6 +179,7 @@ class Loop {
     motion_.before(t_, auditor_, forcing_, decision_.mode, point_);
     if (curves_.wanted()) add_curves(t_, t_);
     now.fired = std::move(fired);
+    now.rested = resting(decision_);
     now.touched = touches_.times();
     // States that an engine found itself come first; a breakpoint at the same time is the next instant.
     const bool load_jumps = !adopted && pass_breakpoints(now);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace signorini {
 namespace {
 
@@ -18,7 +20,8 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
   std::vector<std::string> sentences;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const double asked = model.contacts[k].initial_shear, found = start.after[k].T;
-    if (!start.visited[k] || !start.jumped[k] || std::abs(found) >= std::abs(asked)) continue;
+    const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::abs(asked);
+    if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
         model.contacts[k].name, asked * model.unit.force, found * model.unit.force));

@@ -30,6 +30,20 @@ std::vector<std::string> words_of(std::string line) {
   return words;
 }
 
+/// Nothing between two separators, or before the first: blanks alone do not part cells.
+bool has_empty_cell(const std::string& line) {
+  bool empty = true;
+  for (const char c : line) {
+    const bool separates = c == ',' || c == ';';
+    if (separates && empty) return true;
+    if (separates)
+      empty = true;
+    else if (c != ' ' && c != '\t')
+      empty = false;
+  }
+  return false;
+}
+
 bool is_binary(const std::string& line) {
   for (const char c : line) {
     if (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') return true;
@@ -84,6 +98,7 @@ class TableReader {
       const bool heading = heading_allowed_ && !parse_number(words_[0]);
       heading_allowed_ = false;
       if (heading) continue;
+      if (has_empty_cell(line_)) fail(fmt::format("found \"{}\", expected no empty cell", excerpt(line_)));
       if (values_only)
         for (const std::string& word : words_) add(time_of_next(), number(word, "a value"));
       else
@@ -145,7 +160,7 @@ class TableReader {
     if (!says(line_, "NPTS") || !whole || !(numbers[1] > 0.0) || !std::isfinite(numbers[1]))
       fail("found no \"NPTS= 5372, DT= .0050\", expected it in the fourth line of a PEER file");
     points_ = static_cast<std::size_t>(numbers[0]);
-    layout_.time_step = numbers[1];
+    layout_.time_step = numbers[1] * layout_.second;
     heading_allowed_ = false;
   }
 

@@ -9,7 +9,7 @@
 //
 //   PEER NGA STRONG MOTION DATABASE RECORD      three lines of words, one of them with the unit:
 //   ... ACCELERATION TIME SERIES IN UNITS OF G  G, CM/S/S, M/S/S, MM/S/S, GAL, with blanks, SEC, S**2, S^2
-//   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT
+//   NPTS= 5372, DT= .0050 SEC                   or: 5372 0.0050 NPTS, DT; in seconds whatever the scene's unit
 //   .1E-04  .2E-04 ...                          NPTS values
 #pragma once
 
@@ -50,6 +50,7 @@ struct TableLayout {
   double time_step = 0.0;  ///< > 0: values only
   bool peer = false;
   bool unit_given = false;  ///< in the scene, so that a PEER file need not say it
+  double second = 1.0;      ///< in the scene's unit of time: a PEER file's step is in seconds
 };
 
 /// Errors: SceneError at the line of the file; `key` stands in front of the message.

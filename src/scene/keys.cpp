@@ -78,8 +78,8 @@ constexpr Key table_of_keys[] = {
     {"run.initial.*", "wz", number, "1/time", "", "", "Initial angular velocity, counter-clockwise."},
 
     {"run.stages[]", "name", name, "", "required", "", "Name of the stage."},
-    {"run.stages[]", "loads", texts, "", "required", "", "What grows from zero to what it is at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"supports\" (motions of all)."},
-    {"run.stages[]", "steps", count, "", "1", "", "Equal parts after each of which the contacts are told in summary.json."},
+    {"run.stages[]", "loads", texts, "", "required", "", "What grows from zero to what it is at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"supports\" (motions of all), \"base motion\"."},
+    {"run.stages[]", "steps", count, "", "1", "", "Equal parts, at most 10000, after each of which the contacts are told in summary.json."},
 
     {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
     {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},

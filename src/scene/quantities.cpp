@@ -55,6 +55,9 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
   }
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
+  if (!initial.saved->scales) return;
+  const std::array units{length, plain, velocity, rate, force};
+  for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);
 }
 
 void visit_structure(Scene& scene, const Visit& visit) {

@@ -66,11 +66,13 @@ void read_harmonic(Table& table, HistorySpec& spec) {
   spec.phase = table.number("phase");
 }
 
+/// In the scene's unit of time.
+double second_in(const Units& units) { return units.time == "ms" ? 1000.0 : 1.0; }
+
 /// One m/s^2 in the scene's units.
 double metric_acceleration(const Units& units) {
   const double metre = units.length == "mm" ? 1000.0 : units.length == "cm" ? 100.0 : 1.0;
-  const double second = units.time == "ms" ? 1000.0 : 1.0;
-  return metre / (second * second);
+  return metre / (second_in(units) * second_in(units));
 }
 
 /// A load's history has its factor outside; an acceleration may be given in g.
@@ -112,6 +114,7 @@ bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& sc
   std::ifstream in = open_data_file(table, "file", path);
   TableLayout layout = read_layout(table, path);
   layout.unit_given = table.has("unit");
+  layout.second = second_in(scene.units);
   TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
   if (rows.unit && role != Role::acceleration)
     table.fail("file", "found a file of accelerations, expected one of values in the scene's units");

@@ -1,6 +1,9 @@
 // run.initial: "static", or the state at t = 0.
 #include <fmt/core.h>
 
+#include <cmath>
+
+#include "base/json.hpp"
 #include "base/listed.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
@@ -76,6 +79,24 @@ void read_stages(Table& run, InitialSpec& initial) {
   run.record("stages", toml_array(texts));
 }
 
+/// From the summary of a run; none where it has none, as that of a run that was killed.
+std::optional<std::array<double, 5>> scales_of_run(const std::filesystem::path& directory) {
+  std::ifstream in(directory / "summary.json");
+  if (!in) return std::nullopt;
+  try {
+    const Json scales = parse_json(in).at("model").at("scales");
+    std::array<double, 5> found{};
+    std::size_t i = 0;
+    for (const char* name : {"displacement", "rotation", "velocity", "angular_velocity", "force"})
+      found[i++] = scales.at(name).get<double>();
+    for (const double scale : found)
+      if (!(std::isfinite(scale) && scale > 0.0)) return std::nullopt;
+    return found;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
 void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   Table table = run.child("initial");
   const std::string name = table.text("run");
@@ -92,6 +113,8 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
     table.fail("t", fmt::format("found the number {}, expected one of the times in {}: {}", shortest(*t),
                                 path.string(), found.times.empty() ? "none" : listed_plainly(found.times)));
   initial.saved = std::move(*found.wanted);
+  initial.saved->run = directory.string();
+  initial.saved->scales = scales_of_run(directory);
   Record record;
   record.set("run", toml_string(std::filesystem::absolute(directory).lexically_normal().string()));
   if (t) record.set("t", toml_number(*t));

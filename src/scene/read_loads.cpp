@@ -46,18 +46,28 @@ BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
   return motion;
 }
 
+/// A name of its own; none of those by which stages call all loads of a kind.
+void take_name(const Table& table, const std::string& name, Names& names) {
+  if (name.empty()) return;
+  for (const char* kind : {"gravity", "temperature", "supports"})
+    if (name == kind)
+      table.fail(
+          "name",
+          fmt::format("found \"{}\", which stands for all loads of that kind, expected another name", name));
+  if (!names.add(name))
+    table.fail("name", fmt::format("found \"{}\" twice, expected each load to have its own name", name));
+}
+
 }  // namespace
 
 void read_loads(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
-  Names names{"gravity"};
+  Names names;
   for (Table& table : tables_of(top, "loads")) {
     LoadSpec load;
     load.place = table.place();
     load.name = table.optional_text("name").value_or("");
-    if (!load.name.empty() && !names.add(load.name))
-      table.fail("name",
-                 fmt::format("found \"{}\" twice, expected each load to have its own name", load.name));
+    take_name(table, load.name, names);
     const bool moment = table.has("moment"), distributed = table.has("distributed");
     for (const char* other : {"amplitude", "distributed"})
       if (table.has(other) && (moment || (distributed && table.has("amplitude"))))

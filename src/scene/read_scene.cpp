@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "base/input_file.hpp"
 #include "scene/overrides.hpp"
 #include "scene/readers.hpp"
+#include "scene/same_structure.hpp"
 
 namespace signorini {
 
@@ -98,6 +101,21 @@ void check_schema(const toml::table& root, const std::string& file) {
   }
 }
 
+/// A run from which this one goes on: in the same units, or its numbers mean something else; and of the same
+/// structure, or what it left is no state of this one, which may be meant.
+void compare_with_run(Scene& scene) {
+  const std::filesystem::path path = std::filesystem::path(scene.initial.saved->run) / "run.toml";
+  std::ifstream in(path);
+  if (!in) return;
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const toml::table run = parse_text(text, path.string()), here = parse_text(scene.resolved, scene.file);
+  if (!same_units(run, here))
+    throw SceneError(scene.initial.place, "run.initial.run",
+                     fmt::format("found a run in {}, expected one in the units of this scene, {}",
+                                 units_of(run), units_of(here)));
+  scene.initial.saved->differing = differing_structure(run, here);
+}
+
 Scene build(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
   toml::table root = parse_text(text, file);
   apply_overrides(root, overrides);
@@ -141,6 +159,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   std::vector<std::string> order;
   for (const Entry& entry : entries_of(root)) order.push_back(entry.name);
   scene.resolved = record.text(order);
+  if (scene.initial.saved) compare_with_run(scene);
   return scene;
 }
 

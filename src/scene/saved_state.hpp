@@ -1,7 +1,10 @@
 // saved_state.hpp: the states that a run kept, states.csv: everything that a motion goes on from.
 //
-//   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T      displacements, velocities, shears of contacts with friction
+//   t,A.ux,A.uy,...,A.vx,A.vy,...,first.T,first.state
 //   1.2,0.0103,...
+//
+// Displacements, velocities, "support B.uy" and "support B.vy" of supports that move, shears and states of contacts with friction. A column "x.state" that has numbers is
+// of a degree of freedom that is called so.
 #pragma once
 
 #include <istream>

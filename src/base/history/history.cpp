@@ -220,11 +220,13 @@ History History::repeated(double from, double period, int rounds) const {
     pieces.push_back(std::move(piece));
   };
   for (std::size_t i = 0; i < starts_.size() && starts_[i] < from; ++i) add(starts_[i], pieces_[i + 1], 0.0);
+  // A shape that lasts the whole period ends where it begins anew, whatever rounding makes of that sum.
+  const double end = from + period - rounding::of_many * (std::abs(from) + rounds * period);
   for (int round = 0; round < rounds; ++round) {
-    const double dt = round * period, end = from + (round + 1) * period;
+    const double dt = round * period;
     add(from + dt, piece(from), dt);
     for (std::size_t i = 0; i < starts_.size(); ++i)
-      if (starts_[i] > from && starts_[i] + dt < end) add(starts_[i] + dt, pieces_[i + 1], dt);
+      if (starts_[i] > from && starts_[i] < end) add(starts_[i] + dt, pieces_[i + 1], dt);
   }
   const double last = from + rounds * period;
   add(last, piece(last), 0.0);

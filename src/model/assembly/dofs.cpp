@@ -134,6 +134,14 @@ std::array<double, 2> sliding_direction(const ContactSpec& contact) {
   return {0.0, 0.0};
 }
 
+void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node) {
+  throw SceneError(
+      place, key,
+      fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
+                  "spring of rotations",
+                  node));
+}
+
 DofMap number_nodes(const Scene& scene) {
   DofMap map;
   map.mesh = make_mesh(scene);
@@ -145,6 +153,8 @@ DofMap number_nodes(const Scene& scene) {
     auto& numbers =
         map.number[static_cast<std::size_t>(find_node(map.mesh, s.node, s.place, s.key + ".node"))];
     const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
+    if (s.motion && s.rz && numbers[2] == DofMap::absent)
+      refuse_turn(s.place, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"), s.node);
     for (std::size_t c = 0; c < 3; ++c)
       if (fix[c]) numbers[c] = DofMap::fixed;
     if (s.motion) follow(map, i, s, fix);

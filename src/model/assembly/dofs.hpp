@@ -53,6 +53,8 @@ struct DofMap {
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
+/// The error of a moment or a turn at a node whose rotation is absent.
+[[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);
 
 /// A direction as a form on the numbered degrees of freedom, less what it is against. Fixed ones drop out;

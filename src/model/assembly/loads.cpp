@@ -27,12 +27,7 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   Vector form = Vector::Zero(map.size());
   const int node = find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
   const int dof = map.number[static_cast<std::size_t>(node)][2];
-  if (dof == DofMap::absent)
-    throw SceneError(
-        spec.direction.place, key + ".node",
-        fmt::format("nothing turns with node '{}': no beam that is not hinged there, no inertia and no "
-                    "spring of rotations",
-                    spec.direction.node));
+  if (dof == DofMap::absent) refuse_turn(spec.direction.place, key + ".node", spec.direction.node);
   if (dof >= 0) form[dof] = 1.0;
   return form;
 }
@@ -58,12 +53,25 @@ Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::stri
   return form;
 }
 
+/// The history, unless factors that are finite each have made it something else.
+History finite(History history, const SourcePlace& place, const std::string& key) {
+  for (const Piece& p : history.pieces()) {
+    bool all = std::isfinite(p.amplitude);
+    for (const double c : p.coefficients) all = all && std::isfinite(c);
+    if (!all)
+      throw SceneError(place, key,
+                       "found factors whose product is beyond all doubles, expected a finite load");
+  }
+  return history;
+}
+
 /// Adds one of the three kinds of [[loads]].
 Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
   load.name = spec.name.empty() ? fmt::format("load {}", number) : spec.name;
-  load.history = make_history(spec.history, key + ".history").scaled(spec.amplitude);
+  load.history = finite(make_history(spec.history, key + ".history").scaled(spec.amplitude), spec.place,
+                        key + ".amplitude");
   load.is_static = holds_since_ever(spec.history, load.history);
   switch (spec.type) {
     case LoadType::force:
@@ -108,7 +116,8 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
     const Member& member = scene.members[i];
     const auto add = [&](LoadKind kind, const char* what, const char* key, const HistorySpec& spec,
                          double factor) {
-      const History history = make_history(spec, fmt::format("members.{}.{}", i + 1, key)).scaled(factor);
+      const std::string path = fmt::format("members.{}.{}", i + 1, key);
+      const History history = finite(make_history(spec, path).scaled(factor), member.place, path);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
       Load load{fmt::format("{} of member {}", what, i + 1), strain_form(scene, map, static_cast<int>(i)),
                 history, holds_since_ever(spec, history)};
@@ -143,6 +152,14 @@ double jump_of(const History& f, double t_end) {
   return -1.0;
 }
 
+/// Where the support was in the run that this one goes on from; 0 where none is.
+double saved_motion(const Scene& scene, const std::string& name) {
+  if (scene.initial.saved)
+    for (const auto& [saved, value] : scene.initial.saved->motions)
+      if (saved == name) return value;
+  return 0.0;
+}
+
 /// What a support follows, and how it is called.
 struct SupportMotion {
   std::string name, key;
@@ -159,7 +176,10 @@ SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t 
                        support.rz,
                        {}};
   moving.s = make_history(*support.motion, moving.key);
-  if (support.motion_is_acceleration) moving.s = moving.s.integrated().integrated();
+  if (support.motion_is_acceleration) {
+    const double s = saved_motion(scene, moving.name), rate = saved_motion(scene, rate_of(moving.name));
+    moving.s = moving.s.integrated().scaled(1.0, rate).integrated().scaled(1.0, s);
+  }
   return moving;
 }
 
@@ -182,6 +202,13 @@ void add_supports(const Scene& scene, const DofMap& map, const Assembly& assembl
 }
 
 }  // namespace
+
+std::string rate_of(const std::string& support_motion) {
+  std::string rate = support_motion;
+  char& component = rate[rate.size() - 2];
+  component = component == 'r' ? 'w' : 'v';
+  return rate;
+}
 
 std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {
   std::vector<Load> loads;

@@ -18,6 +18,8 @@ namespace signorini {
 
 /// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
 /// the base, where supports that move are. Errors: SceneError.
+/// "support A.ux" -> "support A.vx"
+[[nodiscard]] std::string rate_of(const std::string& support_motion);
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
 /// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "behaviour/scene_parts.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -67,6 +68,33 @@ TEST_CASE("doubts are the first warnings of a run") {
   const Result result = simulate(build_model(scene), scene.run);
   REQUIRE(!result.report.warnings.empty());
   CHECK(result.report.warnings[0].find("load 1 acts only") == 0);
+}
+
+TEST_CASE("a pulse that is shorter than the clock can tell") {
+  const auto pulse = [](const char* history) {
+    return doubts_of("load-on-held", {{"loads.1.direction", "[1.0, 0.0]"}, {"loads.1.history", history}});
+  };
+  CHECK(says(pulse("{ type = \"rectangle\", start = 0.25, end = 0.25000000000001 }"),
+             "'load 1' has a pulse at 0.25 that lasts 9.99e-15, less than the 5e-14"));
+  CHECK(pulse("{ type = \"rectangle\", start = 0.25, end = 0.2500000000001 }").empty());
+  CHECK(pulse("{ type = \"table\", times = [0.0, 0.25, 0.25000000000001, 2.0], values = [1, 1, 3, 3] }")
+            .empty());
+}
+
+TEST_CASE("supports that move at once") {
+  using namespace tests::parts;
+  const auto held = [](const std::string& motion) {
+    return build_model(parse_scene(head + run_table(1.0, 0.1) + section(1e5, 3e3, 0.3) +
+                                       nodes({{"A", 0, 0}, {"B", 3, 1}}) +
+                                       member("A, B", "mass = \"lumped\"\n") + fixed("A", "ux, rz") +
+                                       fixed("A", "uy", "motion = " + motion + "\n"),
+                                   "test.toml"))
+        .warnings;
+  };
+  CHECK(says(held("{ type = \"half_sine\", duration = 1.0 }"),
+             "the velocity of 'support A.uy' jumps at t = 0"));
+  CHECK(says(held("{ type = \"step\" }"), "the motion of 'support A.uy' jumps at t = 0"));
+  CHECK(held("{ type = \"polynomial\", coefficients = [0.0, 0.0, 1.0] }").empty());
 }
 
 TEST_SUITE_END();

@@ -133,7 +133,21 @@ TEST_CASE("a record in cm/s^2 is one in the scene's units, written out or not") 
   CHECK(parse_scene(scene.resolved, "run.toml").base_motion.at(0).acceleration.values ==
         scene.base_motion.at(0).acceleration.values);
   CHECK_THROWS_AS((void)parse_scene(text(", unit = \"g\""), "test.toml"), SceneError);
+  // Its step is in seconds: in a scene in milliseconds it is ten of them. kN = kg mm/ms^2
+  std::string fast = text("");
+  for (const auto& [from, to] : {std::pair("\"s\"", "\"ms\""), {"\"t\"", "\"kg\""}, {"\"N\"", "\"kN\""}})
+    fast.replace(fast.find(from), std::string(from).size(), to);
+  const HistorySpec quick = parse_scene(fast, "test.toml").base_motion.at(0).acceleration;
+  CHECK(quick.times == std::vector<double>{0.0, 10.0, 20.0});
+  CHECK(quick.values.at(1) == doctest::Approx(5e-4).epsilon(1e-15));
   std::filesystem::remove(file);
+}
+
+TEST_CASE("cells may be parted by blanks, not be empty") {
+  CHECK(refusal("0.0 , 1.0\n0.2;2.0,\n0.4\t \t3.0\n", {}) == "none");
+  for (const char* line : {"0.2,,1.0", ",0.2,1.0", "0.2, ; 1.0"})
+    CHECK(refusal(std::string("0.0,1.0\n") + line + "\n", {}).find("expected no empty cell") !=
+          std::string::npos);
 }
 
 TEST_CASE("hold beside a period: the last value holds until the shape begins anew") {

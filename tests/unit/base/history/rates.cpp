@@ -51,6 +51,16 @@ TEST_CASE("repeated: a stretch again and again") {
   CHECK(g.breakpoints().size() == 4 + 4 + 1);
 }
 
+TEST_CASE("repeated: a shape that lasts its whole period has one piece less a round") {
+  // 0.3 + 3 * 0.2 and 0.5 + 2 * 0.2 are not the same double.
+  const History f({0.3, 0.5}, {Piece{}, Piece{0.3, {1.0}}, Piece{}});
+  const History g = f.repeated(0.3, 0.2, 40);
+  CHECK(g.starts().size() == 41);
+  for (int i = 0; i < 400; ++i) CHECK(g.value(0.31 + 0.0199 * i) == 1.0);
+  CHECK(g.value(8.31) == 0.0);
+  CHECK(f.repeated(0.3, 0.21, 40).starts().size() == 81);
+}
+
 TEST_SUITE_END();
 
 }  // namespace signorini::tests::rates

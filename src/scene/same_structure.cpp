@@ -1,0 +1,44 @@
+#include "scene/same_structure.hpp"
+
+namespace signorini {
+namespace {
+
+/// The table without what drives it.
+toml::table undriven(toml::table table) {
+  for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear"})
+    table.erase(key);
+  return table;
+}
+
+bool same(const toml::node* a, const toml::node* b) {
+  if (!a || !b) return a == b;
+  if (a->is_table() && b->is_table()) return *a->as_table() == *b->as_table();
+  if (!a->is_array() || !b->is_array()) return false;
+  const toml::array &x = *a->as_array(), &y = *b->as_array();
+  if (!x.is_homogeneous(toml::node_type::table) || !y.is_homogeneous(toml::node_type::table)) return x == y;
+  if (x.size() != y.size()) return false;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (undriven(*x[i].as_table()) != undriven(*y[i].as_table())) return false;
+  return true;
+}
+
+}  // namespace
+
+bool same_units(const toml::table& a, const toml::table& b) { return same(a.get("units"), b.get("units")); }
+
+std::string units_of(const toml::table& scene) {
+  std::string text;
+  for (const char* key : {"force", "mass", "length", "time"})
+    text += (text.empty() ? "" : ", ") + scene["units"][key].value_or(std::string("?"));
+  return text;
+}
+
+std::vector<std::string> differing_structure(const toml::table& a, const toml::table& b) {
+  std::vector<std::string> tables;
+  for (const char* key : {"nodes", "lines", "sections", "members", "masses", "springs", "damping", "supports",
+                          "contacts", "stops", "reduction", "matrices", "gravity"})
+    if (!same(a.get(key), b.get(key))) tables.emplace_back(key);
+  return tables;
+}
+
+}  // namespace signorini

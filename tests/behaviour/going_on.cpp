@@ -1,0 +1,242 @@
+// Runs that go on from a state of another: whole, in the same units, of the same structure.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "behaviour/scene_parts.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::going_on {
+namespace {
+
+using namespace parts;
+
+/// Runs the scene into the folder, which another may go on from.
+Model keep(const std::filesystem::path& folder, const Scene& scene) {
+  std::filesystem::remove_all(folder);
+  Model model = build_model(scene);
+  RunDirectory directory(folder, scene, model, {true, {"test"}});
+  const Report report = simulate(model, scene.run, directory);
+  static_cast<void>(directory.finish(report));
+  return model;
+}
+
+std::filesystem::path folder_of(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("signorini-going-on-" + name);
+}
+
+/// The events of the second half are those of the whole after t.
+void check_halves(const std::string& name, const std::string& whole, double t,
+                  const std::function<std::string(const std::string&)>& second) {
+  const auto folder = folder_of(name);
+  const Scene scene = parse_scene(whole, "whole.toml");
+  const Model model = keep(folder, scene);
+  const Result all = simulate(model, scene.run);
+  std::size_t first = 0;
+  while (first < all.events.size() && all.events[first].t <= t) ++first;
+  REQUIRE(all.events.size() - first > 5);
+  for (const char* engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    const Scene later = parse_scene(second(folder.string()), "second.toml", {{"run.engine", engine}});
+    const Model rest_of = build_model(later);
+    const Result rest = simulate(rest_of, later.run);
+    CHECK(rest_of.warnings == model.warnings);
+    REQUIRE(rest.events.size() == all.events.size() - first);
+    for (std::size_t i = 0; i < rest.events.size(); ++i) {
+      CHECK(std::abs(rest.events[i].t + t - all.events[first + i].t) < (engine[0] == 'e' ? 1e-12 : 1e-9));
+      CHECK(rest.events[i].to == all.events[first + i].to);
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  REQUIRE(text.find(from) != std::string::npos);
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/going_on");
+
+TEST_CASE("a run in two halves has the events of the whole") {
+  const std::string whole = head + R"(
+[run]
+t_end = 4.0
+output_dt = 0.1
+frames = [1.7]
+engine = "exact"
+rtol = 1e-12
+initial = "frictional"
+[nodes]
+A = [0.0, 0.0]
+B = [1.0, 0.0]
+[[masses]]
+node = "A"
+mass = 1.0
+[[masses]]
+node = "B"
+mass = 1.0
+[[supports]]
+nodes = ["A", "B"]
+fix = ["uy"]
+[[springs]]
+node = "A"
+against = "B"
+direction = [1.0, 0.0]
+stiffness = 10.0
+[[contacts]]
+name = "ca"
+node = "A"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 1.0
+tangential_stiffness = 100.0
+friction = 0.5
+[[contacts]]
+name = "cb"
+node = "B"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 2.0
+tangential_stiffness = 100.0
+friction = 0.5
+[[loads]]
+node = "A"
+direction = [1.0, 0.0]
+amplitude = 1.5
+history = { type = "harmonic", omega = 5.0, end = 9.0 }
+[[stops]]
+name = "guide"
+node = "B"
+law = "compliant"
+direction = [1.0, 0.0]
+gap = 0.004
+normal_stiffness = 500.0
+)";
+  check_halves("sliders", whole, 1.7, [&](const std::string& run) {
+    std::string second = with(whole, "t_end = 4.0", "t_end = 2.3");
+    second = with(second, "frames = [1.7]\n", "");
+    second =
+        with(second, "initial = \"frictional\"", fmt::format("initial = {{ run = \"{}\", t = 1.7 }}", run));
+    return with(second, "end = 9.0", "end = 9.0, shift = -1.7");
+  });
+}
+
+TEST_CASE("what slips below its static limit slips on: kinetic friction is lower") {
+  // At t = 0.25 T is the kinetic limit, 2, half of the static one: T alone would be a stick.
+  const std::string whole = head + R"(gravity = [0.0, -10.0]
+[run]
+t_end = 2.0
+initial = { b = { uy = -0.001 } }
+engine = "exact"
+rtol = 1e-12
+output_dt = 0.25
+frames = [0.25]
+[nodes]
+b = [0.0, 0.0]
+[[masses]]
+node = "b"
+mass = 1.0
+[[springs]]
+node = "b"
+direction = [1.0, 0.0]
+stiffness = 40.0
+[[contacts]]
+name = "c"
+node = "b"
+law = "compliant"
+normal = [0.0, 1.0]
+normal_stiffness = 1e4
+tangential_stiffness = 5e3
+friction = { static = 0.4, kinetic = 0.2 }
+[[loads]]
+node = "b"
+direction = [1.0, 0.0]
+amplitude = 15.0
+)";
+  check_halves("kinetic", whole, 0.25, [&](const std::string& run) {
+    std::string second = with(whole, "t_end = 2.0", "t_end = 1.75");
+    second = with(second, "frames = [0.25]\n", "");
+    return with(second, "{ b = { uy = -0.001 } }", fmt::format("{{ run = \"{}\", t = 0.25 }}", run));
+  });
+}
+
+TEST_CASE("a run in other units is refused, one of another structure taken with a warning") {
+  const auto folder = folder_of("other-units");
+  const std::string first = head + run_table(0.3, 0.1) + section(1e5, 3e3, 0.3) +
+                            nodes({{"A", 0, 0}, {"B", 3, 1}}) + member("A, B") + fixed("A", "ux, uy, rz") +
+                            "[[loads]]\nnode = \"B\"\ndirection = [1.0, 0.0]\namplitude = 1.0\n";
+  const Model model = keep(folder, parse_scene(first, "first.toml"));
+  const std::string on =
+      with(first, "[run]\n", fmt::format("[run]\ninitial = {{ run = \"{}\" }}\n", folder.string()));
+
+  CHECK(build_model(parse_scene(on, "second.toml")).warnings == model.warnings);
+  // Loads may be others, and so may what drives supports.
+  CHECK(build_model(parse_scene(with(on, "amplitude = 1.0", "amplitude = 2.0"), "second.toml")).warnings ==
+        model.warnings);
+  const auto warnings =
+      build_model(parse_scene(with(on, "EA = 100000", "EA = 200000"), "second.toml")).warnings;
+  REQUIRE(warnings.size() == model.warnings.size() + 1);
+  CHECK(warnings.back().find("whose scene has other sections:") != std::string::npos);
+  try {
+    static_cast<void>(
+        parse_scene(with(with(on, "length = \"m\"", "length = \"mm\""), "force = \"kN\"", "force = \"N\""),
+                    "second.toml"));
+    FAIL("other units");
+  } catch (const SceneError& error) {
+    CHECK(std::string(error.what())
+              .find("run.initial.run: found a run in kN, t, m, s, expected one in the units of "
+                    "this scene, N, t, mm, s") != std::string::npos);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("supports that accelerations drive go on where they were, as fast as they were") {
+  const std::string quake =
+      "{ type = \"harmonic\", omega = 11.0, phase = -1.5707963, amplitude = 3.0, end = 9.0 }";
+  const std::string whole =
+      head + run_table(2.0, 0.1) + "engine = \"exact\"\nrtol = 1e-12\nframes = [0.617]\n" +
+      "[damping]\nalpha = 0.3\nbeta = 1e-4\n" + section(1e5, 3e3, 0.3) + nodes({{"A", 0, 0}, {"B", 3, 1}}) +
+      member("A, B") + fixed("A", "ux, rz") + fixed("A", "uy", "acceleration = " + quake + "\n") +
+      "[[contacts]]\nname = \"c\"\nnode = \"B\"\nlaw = \"compliant\"\nnormal = [0.0, 1.0]\n"
+      "gap = 1e-3\nnormal_stiffness = 900.0\ntangential_stiffness = 700.0\nfriction = 0.2\n";
+  check_halves("supports", whole, 0.617, [&](const std::string& run) {
+    std::string second = with(whole, "t_end = 2", "t_end = 1.383");
+    second =
+        with(second, "frames = [0.617]\n", fmt::format("initial = {{ run = \"{}\", t = 0.617 }}\n", run));
+    return with(second, "end = 9.0", "end = 9.0, shift = -0.617");
+  });
+}
+
+TEST_CASE("scales stay those of the first run, so that rebounds end where they did") {
+  const std::string whole = head + "gravity = [0.0, -9.81]\n" + run_table(1.5, 0.1) +
+                            "engine = \"exact\"\nframes = [0.31]\n" + nodes({{"b", 0, 0}}) +
+                            point_mass("b", 1.0) +
+                            "[[contacts]]\nname = \"c\"\nnode = \"b\"\nlaw = \"rigid\"\nnormal = [0.0, 1.0]\n"
+                            "gap = 0.1\nrestitution = 0.6\n" +
+                            spring("b", "[1.0, 0.0]", 10.0);
+  const auto on = [&](const std::string& run) {
+    std::string second = with(whole, "t_end = 1.5", "t_end = 1.19");
+    return with(second, "frames = [0.31]\n", fmt::format("initial = {{ run = \"{}\", t = 0.31 }}\n", run));
+  };
+  const auto folder = folder_of("scales");
+  const Model model = keep(folder, parse_scene(whole, "whole.toml"));
+  const Model later = build_model(parse_scene(on(folder.string()), "second.toml"));
+  CHECK(later.scales.velocity == model.scales.velocity);
+  CHECK(later.scales.displacement == model.scales.displacement);
+  CHECK(later.scales.force == model.scales.force);
+  // Of another structure the scales are its own.
+  const Model other =
+      build_model(parse_scene(with(on(folder.string()), "mass = 1", "mass = 2"), "second.toml"));
+  CHECK(other.scales.force != model.scales.force);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::going_on

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [install];
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [install] [cluster];
 # without arguments all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
@@ -11,6 +11,7 @@
 #   page     the pages of `report` in a headless Chromium; screenshots in build/page, to be looked at
 #   python   the Python package by pip, its tests and its tutorial
 #   install  the Debian package on a bare Debian 12 (needs root)
+#   cluster  sweeps under GNU parallel, mpirun, and an array of a Slurm of one node that is started for it (needs root)
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -81,8 +82,14 @@ installed() {
   tests/install/package.sh build/release
 }
 
+cluster() {
+  scripts/setup.sh parallel openmpi-bin slurmctld slurmd slurm-client munge
+  build_program signorini_program
+  tests/install/cluster.sh build/release/signorini
+}
+
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python install
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python install cluster
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -95,7 +102,8 @@ for what in "$@"; do
     page) page ;;
     python) python_package ;;
     install) installed ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, install" >&2; exit 2 ;;
+    cluster) cluster ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, install, cluster" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

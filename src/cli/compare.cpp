@@ -209,9 +209,7 @@ fs::path output_directory(const CompareOptions& options) {
 
 ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
   const std::vector<Limit> limits = parse_limits(options.limits);
-  const TableStyle style = table_style(options.table);
-  if (style != TableStyle::plain && options.json)
-    throw UsageError("--table: stands beside --json, expected one of the two");
+  const TableStyle style = table_style_of(options.table, options);
   check_sources(options);
   const fs::path path = output_directory(options);
   check_folder(path, compare_folder(), options.force, by_engine(options) ? options.sources.front() : "");

@@ -6,11 +6,12 @@
 
 namespace signorini::cli {
 
-Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress)
+Live::Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events)
     : next_(next),
       model_(model),
       t_end_(t_end),
       show_progress_(show_progress && stderr_is_terminal()),
+      keep_all_(keep_all_events),
       next_line_(std::chrono::steady_clock::now() + std::chrono::milliseconds(300)) {}
 
 Live::~Live() {
@@ -21,7 +22,7 @@ void Live::event(const Event& event) {
   next_.event(event);
   reached_ = event.t;
   ++count_;
-  if (first_.size() < most_shown) first_.push_back(event);
+  if (keep_all_ || first_.size() < most_shown) first_.push_back(event);
   last_.push_back(event);
   if (last_.size() > shown_last) last_.pop_front();
 }

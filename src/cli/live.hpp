@@ -18,7 +18,7 @@ namespace signorini::cli {
 
 class Live : public Recorder {
  public:
-  Live(Recorder& next, const Model& model, double t_end, bool show_progress);
+  Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events = false);
   ~Live() override;
   Live(const Live&) = delete;
   Live& operator=(const Live&) = delete;
@@ -47,9 +47,9 @@ class Live : public Recorder {
   Recorder& next_;
   const Model& model_;
   double t_end_;
-  bool show_progress_, line_shown_ = false;
+  bool show_progress_, keep_all_, line_shown_ = false;
   std::chrono::steady_clock::time_point next_line_;
-  std::vector<Event> first_;  // the first most_shown
+  std::vector<Event> first_;  // the first most_shown, or all
   std::deque<Event> last_;    // the last shown_last
   long count_ = 0;
   double reached_ = 0.0;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/number.hpp"
-#include "cli/table.hpp"
 #include "engine/tolerance.hpp"
 #include "run/expected.hpp"
 
@@ -56,7 +55,7 @@ class EventTable {
     table_.row(std::move(cells));
   }
   void line(std::string text) { table_.line(std::move(text)); }
-  [[nodiscard]] std::string str() const { return table_.str(); }
+  [[nodiscard]] std::string str(TableStyle style) const { return table_.str(style); }
 
  private:
   static std::vector<std::string> header(const Model& model) {
@@ -97,27 +96,6 @@ void add_extreme(Table& table, const Model& model, const char* what, const Extre
              fmt::format("{:.2g} {}", extreme.value, unit), extreme.value == 0.0 ? "" : where});
 }
 
-std::string audit_table(const Model& model, const Audit& a) {
-  const std::string& force = model.units.force;
-  const std::string& length = model.units.length;
-  const std::string energy = force + " " + length;
-  Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
-  add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
-  add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
-  add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
-  if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const Contact& c) { return c.takes_impulses(); }))
-    add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
-  add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
-  add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
-              energy + "/" + model.units.time);
-  add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
-  if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
-  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
-              a.energy_scale > moved * a.force_scale * a.length_scale);
-  return table.str();
-}
-
 std::string method_of(const Method& method) {
   const EngineName& engine = name_of(method.engine);
   const std::string name =
@@ -135,14 +113,15 @@ std::string method_of(const Method& method) {
 
 }  // namespace
 
-std::string start_table(const Model& model) {
-  constexpr std::size_t most = 24;
+std::string start_table(const Model& model, TableStyle style) {
+  const std::size_t most = style == TableStyle::plain ? 24 : model.statics.events.size();
   if (!model.statics.frictional) return "";
   std::string stages;
   for (const StageEnd& end : model.statics.stages)
     if (end.part == 1.0) stages += fmt::format("{}{}", stages.empty() ? "" : ", ", end.stage);
   const std::string title = fmt::format("before t = 0, slowly and with friction: {}", stages);
-  if (model.statics.events.empty()) return title + "; no contact changed its state\n";
+  if (model.statics.events.empty())
+    return style == TableStyle::plain ? title + "; no contact changed its state\n" : "";
   Table table({"stage", "part", "contact", "from -> to"}, {false, true, false, false});
   for (std::size_t i = 0; i < model.statics.events.size() && i < most; ++i) {
     const StageEvent& e = model.statics.events[i];
@@ -151,13 +130,14 @@ std::string start_table(const Model& model) {
   }
   if (model.statics.events.size() > most)
     table.line(fmt::format("... {} more; all are in summary.json", model.statics.events.size() - most));
-  return title + "\n" + table.str();
+  return style == TableStyle::plain ? title + "\n" + table.str() : table.str(style);
 }
 
-std::string event_table(const Live& live, const Model& model, const Certificate* certificate) {
+std::string event_table(const Live& live, const Model& model, const Certificate* certificate,
+                        TableStyle style) {
   EventTable table(model, certificate);
   const auto& first = live.first_events();
-  const bool all = live.event_count() <= static_cast<long>(Live::most_shown);
+  const bool all = live.event_count() == static_cast<long>(first.size());
   const std::size_t shown = all ? first.size() : Live::shown_first;
   for (std::size_t i = 0; i < shown; ++i) table.add(first[i], i);
   if (!all) {
@@ -166,11 +146,12 @@ std::string event_table(const Live& live, const Model& model, const Certificate*
     std::size_t row = static_cast<std::size_t>(live.event_count()) - live.last_events().size();
     for (const Event& e : live.last_events()) table.add(e, row++);
   }
-  return first.empty() ? "  no events\n" : table.str();
+  if (first.empty()) return style == TableStyle::plain ? "  no events\n" : "";
+  return table.str(style);
 }
 
-std::string contact_table(const Model& model, const Report& report) {
-  constexpr std::size_t most = 24;
+std::string contact_table(const Model& model, const Report& report, TableStyle style) {
+  const std::size_t most = style == TableStyle::plain ? 24 : model.contacts.size();
   if (model.contacts.empty() || report.peaks.size() < model.contacts.size()) return "";
   const std::string force = " [" + model.units.force + "]", length = " [" + model.units.length + "]";
   Table table({"contact", "static -N" + force, "peak along t" + length, "along n" + length, "|N|" + force,
@@ -187,11 +168,11 @@ std::string contact_table(const Model& model, const Report& report) {
   if (model.contacts.size() > most) {
     table.line(fmt::format("... {} more; all are in summary.json", model.contacts.size() - most));
   }
-  return table.str();
+  return table.str(style);
 }
 
-std::string response_table(const Model& model, const Report& report) {
-  constexpr std::size_t most = 40;
+std::string response_table(const Model& model, const Report& report, TableStyle style) {
+  const std::size_t most = style == TableStyle::plain ? 40 : model.outputs.size();
   if (report.response.size() != model.outputs.size() || model.outputs.empty()) return "";
   const std::string at = "at t [" + model.units.time + "]";
   Table table({"response", "unit", "maximum", at, "minimum", at, "at the end"},
@@ -203,7 +184,28 @@ std::string response_table(const Model& model, const Report& report) {
   }
   if (model.outputs.size() > most)
     table.line(fmt::format("... {} more; all are in summary.json", model.outputs.size() - most));
-  return table.str();
+  return table.str(style);
+}
+
+std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
+  const std::string& force = model.units.force;
+  const std::string& length = model.units.length;
+  const std::string energy = force + " " + length;
+  Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
+  add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
+  add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
+  add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
+  if (std::any_of(model.contacts.begin(), model.contacts.end(),
+                  [](const Contact& c) { return c.takes_impulses(); }))
+    add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
+  add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
+  add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
+              energy + "/" + model.units.time);
+  add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
+  if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
+  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
+              a.energy_scale > moved * a.force_scale * a.length_scale);
+  return table.str(style);
 }
 
 std::string closing(const RunSpec& run, const Model& model, const Report& report) {

@@ -29,6 +29,7 @@ struct RunOptions : OutputOptions {
   std::optional<std::string> directory, trace;
   std::vector<std::string> settings;
   bool certify = false;
+  std::string table;
 };
 
 fs::path directory_of(const RunOptions& options) {
@@ -53,10 +54,20 @@ ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& di
   return ExitCode::bug;
 }
 
+/// Tables with an empty line between them.
+std::string joined(const std::vector<std::string>& tables) {
+  std::string text;
+  for (const std::string& table : tables)
+    if (!table.empty()) text += (text.empty() ? "" : "\n") + table;
+  return text;
+}
+
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
   if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
   if (options.certify) changes.push_back({"run.certify", "true"});
+  const TableStyle style = table_style_of(options.table, options);
+  const bool plain = style == TableStyle::plain;
   const fs::path path = directory_of(options);
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
@@ -73,7 +84,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const Report& report = certified.report;
   std::string events;
   {
-    Live live(directory, model, scene.run.t_end, !options.quiet);
+    Live live(directory, model, scene.run.t_end, !options.quiet, !plain);
     try {
       certified = simulate_certified(model, scene.run, live, {listener, [] { return !Interrupt::asked(); }});
     } catch (const FileError& error) {
@@ -84,14 +95,17 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
                               "is kept in {}",
                               error.what(), live.reached(), model.units.time, path.string()));
     }
-    if (options.tables())
-      events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr);
+    if (options.tables() || !plain)
+      events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr, style);
   }
   const std::string summary = directory.finish(certified);
   for (const std::string& warning : report.warnings) print_warning(warning);
 
   if (options.json) print(summary);
-  if (options.tables()) {
+  if (!plain) {
+    print(joined({start_table(model, style), events, contact_table(model, report, style),
+                  response_table(model, report, style), audit_table(model, report.audit, style)}));
+  } else if (options.tables()) {
     if (!scene.title.empty()) print(scene.title + "\n\n");
     if (const std::string start = start_table(model); !start.empty()) print(start + "\n");
     print(events + "\n");
@@ -107,7 +121,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =
       pictures ? draw_pictures(path, write_plots(path), " (signorini plot draws them later)") : "";
-  if (options.tables()) print(drawn);
+  if (options.tables() && plain) print(drawn);
   return conclude(report.outcome, scene.units, path);
 }
 
@@ -130,6 +144,7 @@ void add_run(Program& program) {
       "sequence is certain; the same as --set run.certify=true");
   command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
       ->option_text("FILE");
+  add_table_option(*command, options->table);
   add_output_options(*command, *options,
                      "replace an earlier run in the directory, unless the scene lies in it", "summary.json");
   command->callback([&program, options] {

@@ -46,6 +46,13 @@ void add_table_option(CLI::App& command, std::string& style) {
       ->option_text("markdown|latex");
 }
 
+TableStyle table_style_of(const std::string& style, const OutputOptions& options) {
+  const TableStyle result = table_style(style);
+  if (result != TableStyle::plain && options.json)
+    throw UsageError("--table: stands beside --json, expected one of the two");
+  return result;
+}
+
 std::vector<Override> overrides_of(const std::vector<std::string>& settings) {
   std::vector<Override> list;
   for (const std::string& setting : settings) {
@@ -78,7 +85,8 @@ std::string engine_as_given(const std::string& message, const std::string& engin
 
 std::string vary_as_given(const std::string& message, const std::vector<Vary>& varied) {
   for (const Vary& vary : varied)
-    if (message.starts_with(set + vary.path + "=")) return "--vary " + message.substr(set.size());
+    if (message.starts_with(set + vary.path + "="))
+      return fmt::format("--{} {}", option_of(vary), message.substr(set.size()));
   return message;
 }
 

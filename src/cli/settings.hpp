@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/table.hpp"
 #include "signorini/scene.hpp"
 #include "study/sweep/vary.hpp"
 
@@ -22,6 +23,8 @@ void add_output_options(CLI::App& command, OutputOptions& options, const std::st
 
 /// Adds --table markdown|latex: what is printed, for papers. `style` must outlive parsing.
 void add_table_option(CLI::App& command, std::string& style);
+/// What it asks for. Errors: UsageError, also beside --json.
+[[nodiscard]] TableStyle table_style_of(const std::string& style, const OutputOptions& options);
 
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);

@@ -46,6 +46,7 @@ struct StudyOptions : OutputOptions {
   std::vector<std::string> varied, settings;
   long repeats = 3;
   double time_limit = 60.0;
+  std::string table;
 };
 
 const OwnedFolder& study_folder() {
@@ -142,6 +143,7 @@ WorkRequest request_of(const StudyOptions& options, const std::vector<std::strin
   request.directory = options.directory.value_or(fs::path(options.scene).stem().string() + "-study");
   request.limits = {options.time_limit, [] { return !Interrupt::asked(); }, command_line};
   try_engines(options, varied);
+  check_overlaps(options.scene, varied, {});
   return request;
 }
 
@@ -192,6 +194,7 @@ void run_all(WorkStudy& study, const WorkRequest& request, const ProgressLine& p
 
 ExitCode study(const StudyOptions& options, const std::vector<std::string>& command_line) {
   check(options);
+  const TableStyle style = table_style_of(options.table, options);
   WorkRequest request = request_of(options, command_line);
   const fs::path path = request.directory;
   check_folder(path, study_folder(), options.force, options.scene);
@@ -222,14 +225,16 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   const std::string drawn = pictures ? draw_pictures(path, write_work_plots(path, report)) : "";
   if (!drawn.empty()) write_work(path, report);  // now with the picture
   if (options.json) print(work_json(report));
-  if (options.tables())
+  if (style != TableStyle::plain)
+    print(study_table(report, style));
+  else if (options.tables())
     print(study_text(report) + "\nresults: " + path.string() +
           "/ (study.csv, study.json, study.md, runs/)\n");
   if (report.interrupted) {
     print_error("interrupted; what was measured is kept in " + path.string());
     return ExitCode::interrupted;
   }
-  if (options.tables()) print(drawn);
+  if (options.tables() && style == TableStyle::plain) print(drawn);
   return ExitCode::done;
 }
 
@@ -267,6 +272,7 @@ void add_study(Program& program) {
       ->option_text("N");
   command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
       ->option_text("S");
+  add_table_option(*command, options->table);
   add_output_options(*command, *options, "replace an earlier study in the directory", "study.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return study(*options, line); };

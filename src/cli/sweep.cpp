@@ -253,6 +253,7 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
 
 ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
   const SweepSpec spec = specify(options);
+  check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   std::vector<std::size_t> tasks;
@@ -306,8 +307,7 @@ ExitCode merge(const SweepOptions& options) {
 }
 
 ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
-  if (table_style(options.table) != TableStyle::plain && options.json)
-    throw UsageError("--table: stands beside --json, expected one of the two");
+  (void)table_style_of(options.table, options);
   if (!options.merge.empty()) return merge(options);
   if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
   if (options.varied.empty() && options.samples.empty())
@@ -344,8 +344,12 @@ void add_sweep(Program& program) {
                    "triangular(least,likely,greatest) (may be repeated)")
       ->option_text("PATH=DISTRIBUTION")
       ->allow_extra_args(false);
-  command->add_option("--samples", options->sample_count, "how many draws (default: 1000)")->option_text("N");
-  command->add_option("--seed", options->seed, "of the draws (default: 1)")->option_text("S");
+  const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
+                             "");
+  command->add_option("--samples", options->sample_count, "how many draws (default: 1000)")
+      ->option_text("N")
+      ->check(given);
+  command->add_option("--seed", options->seed, "of the draws (default: 1)")->option_text("S")->check(given);
   command->add_option("--sequence", options->sequence, "of the draws: random (the default) or sobol")
       ->option_text("NAME");
   command
@@ -353,7 +357,9 @@ void add_sweep(Program& program) {
                    "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")
       ->option_text("DIR");
   add_settings(*command, options->settings);
-  command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")->option_text("N");
+  command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")
+      ->option_text("N")
+      ->check(given);
   command
       ->add_option(
           "--share", options->share,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
 #include "run/thinned.hpp"
 
@@ -33,7 +35,10 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
 const std::vector<MotionRecord::Moment>& MotionRecord::moments(double begin, double end,
                                                                const std::vector<double>& turning_points) {
   moments_.clear();
-  for (const double t : turning_points) moments_.push_back({t, true});
+  // Bodies that move alike turn at one time but for its rounding: a thousand of them are one moment.
+  for (const double t : turning_points)
+    if (moments_.empty() || t - moments_.back().t > rounding::of_time * std::abs(t))
+      moments_.push_back({t, true});
   if (tracks_.empty()) return moments_;
   const double length = end - begin;
   const double spacing = std::min(std::max(length / pieces_of_step, spacing_), t_end_ / fewest_pieces_of_run);

@@ -2,67 +2,65 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double resolved = 1e-8;  // of |r|: then degree 8 is good to rounding
 // Values this close are equal: the earlier one keeps its time.
 constexpr double tie = rounding::of_few;
+// Of |r|: how far off p may be where its turning points are taken. A time that is off by d there costs r d^2.
+constexpr double located = 1e-12;
+// Radians of the fastest motion in a part: five points see where it swings at all. Chosen; what is narrower
+// than a fifth of that and nowhere else in the part would be missed.
+constexpr double longest = 32.0;
 
-/// Chebyshev points on [-1, 1], ascending; every other one makes the coarser set.
-std::array<double, 9> chebyshev() {
-  std::array<double, 9> x{};
-  for (std::size_t i = 0; i < 9; ++i) x[i] = -std::cos(std::numbers::pi * static_cast<double>(i) / 8.0);
-  x[4] = 0.0;
-  return x;
+/// What e, of half the degree, may be for that: errors of degree n go with the power n + 1 of the part.
+double resolved(std::size_t stride) {
+  static const double of[] = {std::pow(located, 9.0 / 17.0), std::pow(located, 5.0 / 9.0),
+                              std::pow(located, 3.0 / 5.0)};
+  return stride == 1 ? of[0] : stride == 2 ? of[1] : of[2];
 }
 
-/// p(x) through values at every `stride`-th of the points: barycentric, weights +-1, half at the ends.
-double through(const std::array<double, 9>& values, std::size_t stride, double x) {
-  static const std::array<double, 9> nodes = chebyshev();
-  double above = 0.0, below = 0.0, sign = 1.0;
-  for (std::size_t i = 0; i < 9; i += stride, sign = -sign) {
-    if (x == nodes[i]) return values[i];
-    const double w = sign * (i == 0 || i == 8 ? 0.5 : 1.0) / (x - nodes[i]);
-    above += w * values[i];
-    below += w;
+struct Bounds {
+  double least = 0.0, greatest = 0.0;
+};
+
+Bounds at_points(const Chebyshev::Values& values, std::size_t stride) {
+  Bounds b{values[0], values[0]};
+  for (std::size_t j = stride; j < Chebyshev::count; j += stride) {
+    b.least = std::min(b.least, values[j]);
+    b.greatest = std::max(b.greatest, values[j]);
   }
-  return above / below;
+  return b;
 }
 
-/// Values of p' at the points.
-std::array<double, 9> slopes(const std::array<double, 9>& values) {
-  static const std::array<double, 9> nodes = chebyshev();
-  std::array<double, 9> result{};
-  for (std::size_t i = 0; i < 9; ++i) {
-    const double ci = i == 0 || i == 8 ? 2.0 : 1.0;
-    for (std::size_t j = 0; j < 9; ++j) {
-      if (i == j) continue;
-      const double cj = j == 0 || j == 8 ? 2.0 : 1.0, sign = (i + j) % 2 == 0 ? 1.0 : -1.0;
-      // Of differences, so that a constant has none: the diagonal is minus the sum of its row.
-      result[i] += ci / cj * sign / (nodes[i] - nodes[j]) * (values[j] - values[i]);
-    }
+/// With what lies between the points: where p rises from one and falls to the next, it stays below both tangents.
+Bounds between_points(const Chebyshev::Values& values, std::size_t stride) {
+  const Chebyshev::Values& x = Chebyshev::nodes();
+  const Chebyshev::Values slope = Chebyshev::slopes(values, stride);
+  Bounds b = at_points(values, stride);
+  for (std::size_t j = 0; j + stride < Chebyshev::count; j += stride) {
+    const double sa = slope[j], sb = slope[j + stride], width = x[j + stride] - x[j];
+    if ((sa > 0.0) == (sb > 0.0)) continue;
+    const double to = (values[j + stride] - values[j] - sb * width) / (sa - sb);
+    const double peak = values[j] + sa * std::clamp(to, 0.0, width);
+    b.least = std::min(b.least, peak);
+    b.greatest = std::max(b.greatest, peak);
   }
-  return result;
+  return b;
 }
 
-/// Where p' is zero between two points at which its signs differ.
-double turn_between(const std::array<double, 9>& slope, double a, double b) {
-  double fa = through(slope, 1, a);
-  for (int i = 0; i < 60 && b - a > rounding::of_few; ++i) {
-    const double middle = 0.5 * (a + b), f = through(slope, 1, middle);
-    if ((f > 0.0) == (fa > 0.0)) {
-      a = middle;
-      fa = f;
-    } else {
-      b = middle;
-    }
-  }
-  return 0.5 * (a + b);
+/// Sum of the magnitudes of its terms: what rounding is relative to.
+double magnitude_of(const Output& output, double t, Side side, const Point& point) {
+  double sum = std::abs(output.constant) + output.u.magnitude(point.u) + output.v.magnitude(point.v);
+  if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.magnitude(point.a);
+  for (const Output::ContactForces& f : output.forces)
+    sum += std::abs(f.N * point.N(f.contact)) + std::abs(f.T * point.T(f.contact));
+  for (const History& h : output.given)
+    sum += std::abs((side == Side::after ? h.piece(t) : h.piece_before(t)).value(t));
+  return sum;
 }
 
 }  // namespace
@@ -82,8 +80,9 @@ double value_of(const Output& output, double t, Side side, const Point& point,
 ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder)
     : model_(model),
       recorder_(recorder),
-      shortest_(model.omega_max > 0.0 ? 1.0 / model.omega_max : t_end),
+      radian_(model.omega_max > 0.0 ? 1.0 / model.omega_max : t_end),
       extremes_(model.outputs.size()),
+      magnitudes_(model.outputs.size()),
       samples_(model.outputs.size()) {}
 
 void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
@@ -94,12 +93,13 @@ void ResponseWatch::evaluate(double t, Side side, const Point& point, const std:
 
 void ResponseWatch::see(std::size_t i, double t, double value) {
   OutputExtremes& e = extremes_[i];
-  if (value > e.maximum + tie * std::abs(e.maximum)) {
-    e.maximum = value;
+  const double equal_to_most = tie * std::abs(e.maximum), equal_to_least = tie * std::abs(e.minimum);
+  if (value > e.maximum + equal_to_most || (t < e.t_maximum && value >= e.maximum - equal_to_most)) {
+    e.maximum = std::max(value, e.maximum);
     e.t_maximum = t;
   }
-  if (value < e.minimum - tie * std::abs(e.minimum)) {
-    e.minimum = value;
+  if (value < e.minimum - equal_to_least || (t < e.t_minimum && value <= e.minimum + equal_to_least)) {
+    e.minimum = std::min(value, e.minimum);
     e.t_minimum = t;
   }
 }
@@ -137,58 +137,88 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
 
 void ResponseWatch::inside(Stepper& engine, double begin, double end) {
   if (!any() || !(end > begin)) return;
-  std::vector<Part> parts{{begin, end}};
-  while (!parts.empty()) {
-    const Part part = parts.back();
-    parts.pop_back();
-    if (!look(engine, part, begin)) continue;
-    const double middle = 0.5 * (part.begin + part.end);
-    parts.push_back({middle, part.end});  // the earlier half first: the first of equal extremes counts
-    parts.push_back({part.begin, middle});
+  std::vector<char> open;
+  for (const Output& output : model_.outputs) open.push_back(output.loss ? 0 : 1);
+  const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
+  double from = begin;
+  for (double k = 1.0; k <= pieces; ++k) {
+    const double to = k == pieces ? end : begin + k / pieces * (end - begin);
+    std::vector<Part> parts{{from, to, open}};
+    from = to;
+    while (!parts.empty()) {
+      Part part = std::move(parts.back());
+      parts.pop_back();
+      if (!look(engine, part, begin)) continue;
+      const double middle = 0.5 * (part.begin + part.end);
+      // The earlier half first: the first of equal extremes counts.
+      parts.push_back({middle, part.end, part.open});
+      parts.push_back({part.begin, middle, std::move(part.open)});
+    }
   }
 }
 
-bool ResponseWatch::look(Stepper& engine, const Part& part, double begin) {
-  static const std::array<double, points> nodes = chebyshev();
-  for (std::size_t j = 0; j < points; ++j) {
-    const double t =
-        j + 1 == points ? part.end : part.begin + 0.5 * (nodes[j] + 1.0) * (part.end - part.begin);
-    engine.interpolate(t, point_);
-    evaluate(t, t == begin ? Side::after : Side::before, point_, none_, values_);
-    for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i][j] = values_[i];
+void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std::size_t point) {
+  const double x = Chebyshev::nodes()[point];
+  const double t =
+      point + 1 == Chebyshev::count ? part.end : part.begin + 0.5 * (x + 1.0) * (part.end - part.begin);
+  engine.interpolate(t, point_);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (part.open[i] == 0) continue;
+    const Side side = t == begin ? Side::after : Side::before;
+    samples_[i][point] = value_of(model_.outputs[i], t, side, point_, none_);
+    magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(model_.outputs[i], t, side, point_));
+    see(i, t, samples_[i][point]);
   }
-  bool halve = false;
+}
+
+bool ResponseWatch::look(Stepper& engine, Part& part, double begin) {
+  for (const std::size_t point : {0, 8, 16}) sample(engine, part, begin, point);
+  for (const std::size_t stride : {4, 2, 1}) {
+    for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(engine, part, begin, j);
+    bool left = false;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (part.open[i] == 0) continue;
+      if (settled(i, engine, part, stride)) part.open[i] = 0;
+      left = left || part.open[i] != 0;
+    }
+    if (!left) return false;
+  }
+  if (part.end - part.begin > radian_) return true;
   for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (!model_.outputs[i].loss) halve = look_at(i, engine, part, samples_[i]) || halve;
-  return halve;
-}
-
-bool ResponseWatch::look_at(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
-  static const std::array<double, points> nodes = chebyshev();
-  double error = 0.0;
-  for (std::size_t j = 1; j < points; j += 2)
-    error = std::max(error, std::abs(through(values, 2, nodes[j]) - values[j]));
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  const OutputExtremes& known = extremes_[i];
-  const double rest = 2.0 * error;
-  if (*greatest + rest <= known.maximum && *least - rest >= known.minimum) return false;
-  const double size = std::max({std::abs(known.maximum), std::abs(known.minimum), *greatest, -*least});
-  if (error > resolved * size && part.end - part.begin > shortest_) return true;
-  sharpen(i, engine, part, values);
+    if (part.open[i] != 0) sharpen(i, engine, part, 1);
   return false;
 }
 
-void ResponseWatch::sharpen(std::size_t i, Stepper& engine, const Part& part, const Values& values) {
-  static const std::array<double, points> nodes = chebyshev();
-  const Values slope = slopes(values);
+bool ResponseWatch::settled(std::size_t i, Stepper& engine, const Part& part, std::size_t stride) {
+  const Chebyshev::Values& values = samples_[i];
+  double error = 0.0;
+  for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride)
+    error =
+        std::max(error, std::abs(Chebyshev::through(values, 2 * stride, Chebyshev::nodes()[j]) - values[j]));
+  const OutputExtremes& known = extremes_[i];
+  const auto within = [&](const Bounds& b, double rest) {
+    return b.greatest + rest <= known.maximum && b.least - rest >= known.minimum;
+  };
+  const Bounds at = at_points(values, stride);
+  if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
+  if (stride < 4 && within(between_points(values, stride), 2.0 * error)) return true;
+  const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // samples are known
+  if (error > std::max(resolved(stride) * size, rounding::of_elimination * magnitudes_[i])) return false;
+  sharpen(i, engine, part, stride);
+  return true;
+}
+
+void ResponseWatch::sharpen(std::size_t i, Stepper& engine, const Part& part, std::size_t stride) {
+  const Chebyshev::Values& nodes = Chebyshev::nodes();
+  const Chebyshev::Values slope = Chebyshev::slopes(samples_[i], stride);
   const double half = 0.5 * (part.end - part.begin);
-  for (std::size_t j = 0; j < points; ++j) {
-    const double t = j + 1 == points ? part.end : part.begin + half * (nodes[j] + 1.0);
-    see(i, t, values[j]);
-    if (j + 1 == points || (slope[j] > 0.0) == (slope[j + 1] > 0.0)) continue;
-    const double x = turn_between(slope, nodes[j], nodes[j + 1]);
-    const double p = through(values, 1, x);
-    if (p <= extremes_[i].maximum && p >= extremes_[i].minimum) continue;
+  for (std::size_t j = 0; j + stride < Chebyshev::count; j += stride) {
+    if ((slope[j] > 0.0) == (slope[j + stride] > 0.0)) continue;
+    const double x = Chebyshev::turn_between(slope, stride, nodes[j], nodes[j + stride]);
+    const double p = Chebyshev::through(samples_[i], stride, x);
+    const OutputExtremes& known = extremes_[i];
+    const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
+    if (p + rest <= known.maximum && p - rest >= known.minimum) continue;
     const double at = part.begin + half * (x + 1.0);
     engine.interpolate(at, point_);
     see(i, at, value_of(model_.outputs[i], at, Side::before, point_, none_));

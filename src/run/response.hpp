@@ -1,20 +1,21 @@
 // response.hpp: the outputs while a run goes on: rows, and extremes between them.
 //
 //   rows      at output times, and on both sides of every instant at which something happens
-//   extremes  of each step's motion: p through r at nine Chebyshev points of a part of the step,
-//             e = |p of five of them - r| at the other four
-//             nothing to find where p +- 2 e stays within what was seen;  else p' = 0, where e is
-//             below 1e-8 |r|, so that p is good to rounding (e of degree 4: O(h^5), of degree 8: O(h^9));
-//             else both halves, until no motion turns by more than one radian in a part
+//   extremes  of each step's motion r, in parts of a few periods of the fastest motion:
+//             p through r at 5, then 9, then 17 nested Chebyshev points of the part,
+//             e = |r - the polynomial of every other point| at the new ones
+//             nothing to find where p, between its points too, +- 2 e stays within what was seen;
+//             e below a part of |r|: p' = 0 gives the times, r its values there;
+//             else more points, else both halves, until no motion turns by more than a radian in a part
 //
 // The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average
 // acceleration in `newmark`. Losses only grow, so their extremes stand in rows.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "run/audit.hpp"
+#include "run/chebyshev.hpp"
 
 namespace signorini {
 
@@ -39,29 +40,30 @@ class ResponseWatch {
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
 
  private:
-  static constexpr std::size_t points = 9;
-  using Values = std::array<double, points>;
   struct Part {
     double begin = 0.0, end = 0.0;
+    std::vector<char> open;  // outputs that are not settled there
   };
 
   void evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
                 std::vector<double>& values) const;
   void write(double t, const std::vector<double>& values);
   void see(std::size_t output, double t, double value);
-  /// True: a part must be halved.
-  [[nodiscard]] bool look(Stepper& engine, const Part& part, double begin);
-  [[nodiscard]] bool look_at(std::size_t output, Stepper& engine, const Part& part, const Values& values);
-  void sharpen(std::size_t output, Stepper& engine, const Part& part, const Values& values);
+  /// Closes what is settled; false: nothing is left.
+  [[nodiscard]] bool look(Stepper& engine, Part& part, double begin);
+  void sample(Stepper& engine, const Part& part, double begin, std::size_t point);
+  [[nodiscard]] bool settled(std::size_t output, Stepper& engine, const Part& part, std::size_t stride);
+  void sharpen(std::size_t output, Stepper& engine, const Part& part, std::size_t stride);
 
   const Model& model_;
   Recorder& recorder_;
-  double shortest_;  // part: one radian of the fastest motion
+  double radian_;  // of the fastest motion
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
   std::vector<double> values_, last_, before_, none_;
+  std::vector<double> magnitudes_;  // of the terms of each output, until now
   double last_t_ = 0.0, before_t_ = -1.0;
-  std::vector<Values> samples_;
+  std::vector<Chebyshev::Values> samples_;
   Point point_;
   Extreme reactions_;
 };

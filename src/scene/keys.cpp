@@ -1,6 +1,8 @@
 #include "scene/keys.hpp"
 
-#include <sstream>
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
 
 #include "signorini/engine.hpp"
 
@@ -216,16 +218,44 @@ constexpr Key table_of_keys[] = {
 };
 // clang-format on
 
+/// Rows of one table stand together.
+constexpr bool tables_stand_together() {
+  for (std::size_t i = 1; i < std::size(table_of_keys); ++i) {
+    if (table_of_keys[i].table == table_of_keys[i - 1].table) continue;
+    for (std::size_t j = 0; j < i; ++j)
+      if (table_of_keys[j].table == table_of_keys[i].table) return false;
+  }
+  return true;
+}
+static_assert(tables_stand_together());
+
+/// The rows of one table.
+std::span<const Key> rows_of(std::string_view table) {
+  static const std::unordered_map<std::string_view, std::span<const Key>> tables = [] {
+    std::unordered_map<std::string_view, std::span<const Key>> all;
+    for (const Key& key : table_of_keys) {
+      std::span<const Key>& rows = all.try_emplace(key.table, &key, 0).first->second;
+      rows = {rows.data(), static_cast<std::size_t>(&key - rows.data()) + 1};
+    }
+    return all;
+  }();
+  const auto found = tables.find(table);
+  return found == tables.end() ? std::span<const Key>() : found->second;
+}
+
 std::vector<std::string> words_of(const Key& key, bool later) {
   std::string choices(key.choices);
   if (key.choices == engines_and_auto) {
     choices = to_string(Engine::automatic);
     for (const EngineName& engine : all_engines) choices.append(" ").append(engine.name);
   }
-  std::istringstream words{choices};
   std::vector<std::string> result;
-  for (std::string word; words >> word;) {
-    if ((word[0] == '~') == later) result.push_back(later ? word.substr(1) : word);
+  for (std::string_view rest = choices; !rest.empty();) {
+    std::string_view word = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+    if (word.empty() || word.starts_with('~') != later) continue;
+    if (later) word.remove_prefix(1);
+    result.emplace_back(word);
   }
   return result;
 }
@@ -242,8 +272,7 @@ const Key* find_key(std::string_view table, std::string_view name) {
     return find_key("contacts[]" + std::string(table.substr(stops.size())), name);
   }
   const Key* any = nullptr;
-  for (const Key& key : table_of_keys) {
-    if (key.table != table) continue;
+  for (const Key& key : rows_of(table)) {
     if (key.name == name) return &key;
     if (key.name == "*") any = &key;
   }

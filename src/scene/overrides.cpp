@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
@@ -17,6 +20,30 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t deepest = 16;  // no key of a scene lies nearly as deep
+
+/// Two ways to say the same.
+constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
+                                                                {"alpha", "alpha_over_omega1"},
+                                                                {"omega", "frequency"},
+                                                                {"cutoff_omega", "cutoff_frequency"}};
+
+/// The tables of an array that a part of a path chooses; `names`: those that have one.
+std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
+                                   std::vector<std::string>& names) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const toml::table* table = array[i].as_table();
+    if (const auto name = table ? (*table)["name"].value<std::string>() : std::nullopt) {
+      names.push_back(*name);
+      if (*name == which) chosen.push_back(i);
+    }
+    if (which == "*") chosen.push_back(i);
+  }
+  const auto number = parse_integer(which);
+  const bool in_range = number && *number >= 1 && static_cast<std::size_t>(*number) <= array.size();
+  if (chosen.empty() && in_range) chosen.push_back(static_cast<std::size_t>(*number - 1));
+  return chosen;
+}
 
 class Change {
  public:
@@ -39,6 +66,8 @@ class Change {
   void apply(toml::table& root) {
     // A misspelt first name would otherwise make a new table.
     if (!find_key("", segments_[0])) fail("unknown key" + suggestion(segments_[0], key_names("")));
+    ready_ = parsed();
+    place_ = ready_->begin()->first.source();
     into_table(root, segments_);
   }
 
@@ -49,7 +78,20 @@ class Change {
     throw UsageError(text_of(change_) + ": " + message);
   }
 
-  /// `value = VALUE`, each time anew: a copied node forgets its place.
+  /// The value where it is wanted, each time anew: a copied node forgets its place.
+  template <typename Put>
+  void give(const Put& put) {
+    toml::table source = ready_ ? *std::exchange(ready_, std::nullopt) : parsed();
+    put(std::move(*source.get("value")));
+  }
+
+  /// The parser takes no other word without quotes.
+  static bool is_toml_word(std::string_view value) {
+    constexpr std::string_view words[] = {"true", "false", "inf", "nan"};
+    return std::find(std::begin(words), std::end(words), value) != std::end(words);
+  }
+
+  /// `value = VALUE`
   toml::table parsed() const {
     const std::string file = text_of(change_);
     const auto parse = [&](const std::string& value) {
@@ -57,37 +99,30 @@ class Change {
     };
     const std::string& value = change_.value;
     const bool one_line = value.find_first_of("\r\n") == std::string::npos;
+    const bool bare = value.find_first_of("\"'[]{}=#\\") == std::string::npos;
+    const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '/'; };
+    const bool begins_with_letter = !value.empty() && letter(value.front());
     try {
+      if (one_line && bare && begins_with_letter && !is_toml_word(value)) return parse('"' + value + '"');
       if (one_line) return parse(value);
     } catch (const toml::parse_error&) {
-      const bool letters = std::any_of(value.begin(), value.end(), [](char c) {
-        return std::isalpha(static_cast<unsigned char>(c)) || c == '/';
-      });
-      const bool word = letters && value.find_first_of("\"'[]{}=#\\") == std::string::npos;
-      if (word) return parse('"' + value + '"');
+      if (bare && std::any_of(value.begin(), value.end(), letter)) return parse('"' + value + '"');
     }
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
   void into_table(toml::table& table, Segments rest) {
-    toml::table source = parsed();
-    const toml::key key(rest[0], source.begin()->first.source());
+    const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
-      // The other of two ways to say the same would contradict.
-      constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
-                                                                      {"alpha", "alpha_over_omega1"},
-                                                                      {"omega", "frequency"},
-                                                                      {"cutoff_omega", "cutoff_frequency"}};
-      for (const auto& [a, b] : alternatives) {
+      for (const auto& [a, b] : alternatives) {  // the other one would contradict
         if (rest[0] == a) table.erase(b);
         if (rest[0] == b) table.erase(a);
       }
-      table.insert_or_assign(key, std::move(*source.get("value")));
+      give([&](toml::node&& value) { table.insert_or_assign(key, std::move(value)); });
       return;
     }
     if (!table.contains(rest[0])) {
-      toml::table nested = toml::parse(
-          "value = {}", source.source().path ? std::string_view(*source.source().path) : std::string_view());
+      toml::table nested = toml::parse("value = {}", text_of(change_));
       table.insert_or_assign(key, std::move(*nested.get("value")));
     }
     toml::node* next = table.get(rest[0]);
@@ -124,27 +159,17 @@ class Change {
 
   void into_array(toml::array& array, Segments rest, const std::string& done) {
     const std::string& which = rest[0];
-    std::vector<std::size_t> chosen;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < array.size(); ++i) {
-      const toml::table* table = array[i].as_table();
-      if (const auto name = table ? (*table)["name"].value<std::string>() : std::nullopt) {
-        names.push_back(*name);
-        if (*name == which) chosen.push_back(i);
-      }
-      if (which == "*") chosen.push_back(i);
-    }
-    const auto number = parse_integer(which);
-    const bool in_range = number && *number >= 1 && static_cast<std::size_t>(*number) <= array.size();
-    if (chosen.empty() && in_range) chosen.push_back(static_cast<std::size_t>(*number - 1));
+    const std::vector<std::size_t> chosen = chosen_by(which, array, names);
     if (chosen.empty()) {
       fail(fmt::format("there is no \"{}\" among the {} of {}{}", which, array.size(), done,
                        suggestion(which, names)));
     }
     for (const std::size_t i : chosen) {
       if (rest.size() == 1) {
-        toml::table source = parsed();
-        array.replace(array.begin() + static_cast<std::ptrdiff_t>(i), std::move(*source.get("value")));
+        give([&](toml::node&& value) {
+          array.replace(array.begin() + static_cast<std::ptrdiff_t>(i), std::move(value));
+        });
       } else {
         into(array[i], rest);
       }
@@ -153,12 +178,48 @@ class Change {
 
   const Override& change_;
   std::vector<std::string> segments_;
+  std::optional<toml::table> ready_;
+  toml::source_region place_;
 };
 
 }  // namespace
 
 std::string text_of(const Override& change) {
   return std::string(override_prefix) + change.path + "=" + change.value;
+}
+
+std::vector<std::string> places_of(const toml::table& root, const std::string& path) {
+  struct Place {
+    const toml::node* node;
+    std::string text;
+  };
+  std::vector<Place> places{{&root, ""}};
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    std::string segment = path.substr(begin, end - begin);
+    begin = end + 1;
+    for (const auto& [a, b] : alternatives)
+      if (segment == b) segment = a;
+    std::vector<Place> next;
+    for (const Place& place : places) {
+      const std::string before = place.text.empty() ? "" : place.text + ".";
+      const toml::array* array = place.node ? place.node->as_array() : nullptr;
+      const toml::table* table = place.node ? place.node->as_table() : nullptr;
+      std::vector<std::string> names;
+      const std::vector<std::size_t> chosen =
+          array ? chosen_by(segment, *array, names) : std::vector<std::size_t>{};
+      for (const std::size_t i : chosen) next.push_back({array->get(i), before + std::to_string(i + 1)});
+      if (chosen.empty()) next.push_back({table ? table->get(segment) : nullptr, before + segment});
+    }
+    places = std::move(next);
+  }
+  std::vector<std::string> texts;
+  for (Place& place : places) texts.push_back(std::move(place.text));
+  return texts;
+}
+
+bool lies_in(const std::string& a, const std::string& b) {
+  return a.starts_with(b) && (a.size() == b.size() || a[b.size()] == '.');
 }
 
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides) {

@@ -18,6 +18,14 @@ namespace signorini {
 
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 
+/// The keys that the path means in these tables, with numbers for names and one name for two ways to say the same:
+/// "contacts.1.friction.static", "contacts.2.friction.static". What is not there yet stands as it was written.
+[[nodiscard]] std::vector<std::string> places_of(const toml::table& root, const std::string& path);
+/// The same in a scene file. Errors: as of read_scene, of what TOML says already.
+[[nodiscard]] std::vector<std::string> places_in(const std::string& scene, const std::string& path);
+/// Whether what stands at a stands inside of what stands at b, or is it.
+[[nodiscard]] bool lies_in(const std::string& a, const std::string& b);
+
 /// "--set run.rtol=1e-10"
 [[nodiscard]] std::string text_of(const Override& change);
 

@@ -33,7 +33,7 @@ void read_list(Table& table, std::string_view key, const Space& space, std::vect
 
 void read_nodes_state(Table& table, InitialSpec& initial, const Space& space) {
   for (const Entry& entry : entries_of(table.node())) {
-    check_known(entry.name, space.names, "node", entry.place, table.path(entry.name));
+    check_known(entry.name, space.names, "node", entry.place(), table.path(entry.name));
     const toml::node* node = table.raw(entry.name);
     if (!node->is_table()) table.wrong(entry.name, "a table { ux = ..., vx = ... }");
     Table state(node->as_table(), "run.initial.*", table.path(entry.name), place_of(*node));
@@ -158,7 +158,7 @@ void read_initial(Table& run, Scene& scene) {
     Table table = run.child("initial");
     for (const Entry& entry : entries_of(table.node())) {
       if (entry.name != "u" && entry.name != "v") {
-        refuse(entry.place, table.path(entry.name), "unknown key; with [matrices] known: u, v");
+        refuse(entry.place(), table.path(entry.name), "unknown key; with [matrices] known: u, v");
       }
     }
     read_list(table, "u", space, initial.u);

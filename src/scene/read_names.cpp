@@ -130,7 +130,7 @@ Direction read_direction(Table& table, std::string_view key, const Space& space)
   bool zero = true;
   for (const Entry& entry : entries_of(*node->as_table())) {
     const std::string path = table.path(key) + "." + entry.name;
-    check_known(entry.name, space.names, "degree of freedom", entry.place, path);
+    check_known(entry.name, space.names, "degree of freedom", entry.place(), path);
     const double factor = finite_number(*entry.node, path, "a number");
     direction.dofs.emplace_back(entry.name, factor);
     record.set(entry.name, toml_number(factor));

@@ -79,7 +79,7 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
   for (const OutputSpec& before : scene.outputs) names.add(before.name);
   Table terms = table.child("terms");
   for (const Entry& entry : entries_of(terms.node())) {
-    const std::size_t i = check_known(entry.name, names, "output", entry.place, terms.path(entry.name));
+    const std::size_t i = check_known(entry.name, names, "output", entry.place(), terms.path(entry.name));
     if (scene.outputs[i].quantity == OutputQuantity::loss)
       terms.fail(entry.name, "is a loss, which has no part in a combination: it has no value between rows");
     output.terms.emplace_back(entry.name, terms.number(entry.name));

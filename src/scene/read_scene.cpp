@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -188,21 +189,33 @@ Scene parse_scene(const std::string& text, const std::string& file, const std::v
   throw UsageError(all + ": " + message);
 }
 
-Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
+namespace {
+
+std::string text_of_file(const std::string& path) {
   if (const std::string why = why_no_input_file(path); !why.empty())
     throw FileError(path, why + ", expected a scene file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw FileError(path, std::strerror(errno ? errno : EIO));
   std::string text;
-  std::vector<char> block(1u << 16);
+  std::array<char, 8192> block;
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(in.gcount()));
     if (text.size() > longest_file)
       throw SceneError({path, 0, 0}, "", "larger than 64 MB, expected a scene file");
   }
   if (in.bad()) throw FileError(path, "cannot be read");
-  return parse_scene(text, path, overrides);
+  return text;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
+  return parse_scene(text_of_file(path), path, overrides);
+}
+
+std::vector<std::string> places_in(const std::string& scene, const std::string& path) {
+  return places_of(parse_text(text_of_file(scene), scene), path);
 }
 
 }  // namespace signorini

@@ -69,7 +69,7 @@ void check_bar(const Table& table, const Member& member) {
 void read_sections(Table& top, Scene& scene, RecordedScene& record) {
   Table sections = top.child("sections");
   for (const Entry& entry : entries_of(sections.node())) {
-    check_name(entry.name, entry.place, sections.path(entry.name));
+    check_name(entry.name, entry.place(), sections.path(entry.name));
     if (!entry.node->is_table()) sections.wrong(entry.name, "a table [sections." + entry.name + "]");
     Table table(entry.node->as_table(), "sections.*", sections.path(entry.name), place_of(*entry.node));
     Section section;
@@ -85,9 +85,9 @@ void read_sections(Table& top, Scene& scene, RecordedScene& record) {
 void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
   Table nodes = top.child("nodes");
   for (const Entry& entry : entries_of(nodes.node())) {
-    check_name(entry.name, entry.place, nodes.path(entry.name));
+    check_name(entry.name, entry.place(), nodes.path(entry.name));
     const auto [x, y] = nodes.vector(entry.name);
-    scene.nodes.push_back({entry.name, x, y, entry.place});
+    scene.nodes.push_back({entry.name, x, y, entry.place()});
   }
   if (!scene.nodes.empty()) record.add("nodes", "[nodes]", nodes.record());
 }

@@ -55,7 +55,7 @@ std::string toml_strings(const std::vector<std::string>& texts) {
 }
 
 Record Record::arranged(const std::vector<std::string>& order) const {
-  std::unordered_map<std::string, std::size_t> ranks;
+  std::unordered_map<std::string_view, std::size_t> ranks;
   for (const std::string& key : order) ranks.emplace(key, ranks.size());
   const auto rank = [&](const auto& item) {
     const auto found = ranks.find(item.first);

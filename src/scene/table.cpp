@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "base/excerpt.hpp"
@@ -33,18 +34,32 @@ bool in_range(KeyType type, double value) {
   }
 }
 
+std::optional<double> finite_value(const toml::node& node) {
+  if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
+  const auto* number = node.as_floating_point();
+  return number && std::isfinite(number->get()) ? std::optional(number->get()) : std::nullopt;
+}
+
+/// The defaults of the table of keys, parsed once: a scene asks for dozens, a sweep for millions.
+const toml::node* default_of(const Key& key) {
+  static const std::vector<toml::table> parsed = [] {
+    std::vector<toml::table> all;
+    for (const Key& row : all_keys()) {
+      const bool has_one = !row.fallback.empty() && row.fallback != "required";
+      all.push_back(has_one ? toml::parse(fmt::format("value = {}", row.fallback)) : toml::table());
+    }
+    return all;
+  }();
+  return parsed[static_cast<std::size_t>(&key - all_keys().data())].get("value");
+}
+
 }  // namespace
 
 double finite_number(const toml::node& node, const std::string& path, const std::string& expected) {
-  double value = std::nan("");
-  if (const auto* number = node.as_floating_point()) value = number->get();
-  if (const auto* number = node.as_integer()) value = static_cast<double>(number->get());
-  if (!std::isfinite(value)) {
-    const bool infinite = node.is_floating_point();
-    refuse(place_of(node), path,
-           "found " + describe(node) + ", expected " + expected + (infinite ? " that is finite" : ""));
-  }
-  return value;
+  if (const auto value = finite_value(node)) return *value;
+  const bool infinite = node.is_floating_point();
+  refuse(place_of(node), path,
+         "found " + describe(node) + ", expected " + expected + (infinite ? " that is finite" : ""));
 }
 
 std::vector<double> number_array(const toml::node& node, const std::string& path,
@@ -96,12 +111,19 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
       kind_(std::move(kind)),
       path_(std::move(path)),
       place_(std::move(place)) {
-  for (const Entry& entry : entries_of(*node_)) {
+  const auto can_stand = [&](const toml::key& name) {
+    const Key* known = find_key(kind_, name.str());
+    return known && !known->later;
+  };
+  bool fits = true;
+  for (const auto& [name, value] : *node_) fits = fits && can_stand(name);
+  if (fits) return;
+  for (const Entry& entry : entries_of(*node_)) {  // the first in the file is named
     const Key* known = find_key(kind_, entry.name);
     if (!known) {
-      refuse(entry.place, this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
+      refuse(entry.place(), this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
     }
-    if (known->later) refuse(entry.place, this->path(entry.name), "not supported yet");
+    if (known->later) refuse(entry.place(), this->path(entry.name), "not supported yet");
   }
 }
 
@@ -121,16 +143,16 @@ const Key& Table::key(std::string_view name) const {
 }
 
 const toml::node* Table::raw(std::string_view name) {
-  read_.emplace(name);
-  return node_->get(name);
+  const toml::node* found = node_->get(name);
+  if (found) read_.push_back(found);
+  return found;
 }
 
 const toml::node* Table::value(const Key& key, std::string_view name) {
   if (const toml::node* found = raw(name)) return found;
   if (key.fallback == "required") require(name, "");
   if (key.fallback.empty()) return nullptr;
-  toml::table parsed = toml::parse(fmt::format("value = {}", key.fallback));
-  return &defaults_.insert_or_assign(name, std::move(*parsed.get("value"))).first->second;
+  return default_of(key);
 }
 
 double Table::number(std::string_view name) {
@@ -142,7 +164,8 @@ std::optional<double> Table::optional_number(std::string_view name) {
   const Key& row = key(name);
   const toml::node* found = value(row, name);
   if (!found) return std::nullopt;
-  const double result = finite_number(*found, path(name), describe_type(row));
+  const auto finite = finite_value(*found);
+  const double result = finite ? *finite : finite_number(*found, path(name), describe_type(row));
   if (!in_range(row.type, result)) wrong(name, describe_type(row));
   record_.set(name, toml_number(result));
   return result;
@@ -259,9 +282,16 @@ void Table::fail(std::string_view name, const std::string& message) const {
 }
 
 void Table::finish(const std::string& why) const {
-  for (const Entry& entry : entries_of(*node_)) {
-    if (!read_.contains(entry.name)) refuse(entry.place, path(entry.name), why);
-  }
+  std::vector<const toml::node*> read = read_;
+  std::sort(read.begin(), read.end(), std::less<>());
+  const auto is_read = [&](const toml::node& value) {
+    return std::binary_search(read.begin(), read.end(), &value, std::less<>());
+  };
+  bool whole = true;
+  for (const auto& [name, value] : *node_) whole = whole && is_read(value);
+  if (whole) return;
+  for (const Entry& entry : entries_of(*node_))
+    if (!is_read(*entry.node)) refuse(entry.place(), path(entry.name), why);
 }
 
 Record Table::record() const {

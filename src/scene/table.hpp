@@ -11,7 +11,6 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -77,8 +76,7 @@ class Table {
   const toml::table* node_;
   std::string kind_, path_;
   SourcePlace place_;
-  std::set<std::string, std::less<>> read_;
-  toml::table defaults_;
+  std::vector<const toml::node*> read_;
   Record record_;
 };
 

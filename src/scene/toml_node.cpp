@@ -14,6 +14,14 @@ namespace {
 
 bool is_override(const SourcePlace& place) { return place.file.starts_with(override_prefix); }
 
+/// Where it stands among its neighbours; those of `--set`, which have no lines, last.
+std::tuple<bool, toml::source_index, toml::source_index> position(const Entry& entry) {
+  const toml::source_region& region = entry.key->source();
+  const bool changed = region.path && region.path->starts_with(override_prefix);
+  return changed ? std::tuple(true, toml::source_index{}, toml::source_index{})
+                 : std::tuple(false, region.begin.line, region.begin.column);
+}
+
 /// A message stays on its line, whatever stands in the names and strings of a file.
 std::string on_one_line(std::string text) {
   for (char& c : text) {
@@ -60,14 +68,11 @@ void refuse(const SourcePlace& place, const std::string& key, const std::string&
 
 std::vector<Entry> entries_of(const toml::table& table) {
   std::vector<Entry> entries;
-  for (const auto& [key, node] : table) {
-    entries.push_back({std::string(key.str()), &node, place_of(key.source())});
-  }
-  const auto position = [](const Entry& entry) {
-    return std::tuple(is_override(entry.place), entry.place.line, entry.place.column);
-  };
-  std::stable_sort(entries.begin(), entries.end(),
-                   [&](const Entry& a, const Entry& b) { return position(a) < position(b); });
+  entries.reserve(table.size());
+  for (const auto& [key, node] : table) entries.push_back({std::string(key.str()), &node, &key});
+  const auto before = [](const Entry& a, const Entry& b) { return position(a) < position(b); };
+  if (!std::is_sorted(entries.begin(), entries.end(), before))
+    std::stable_sort(entries.begin(), entries.end(), before);
   return entries;
 }
 

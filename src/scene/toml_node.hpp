@@ -32,7 +32,8 @@ inline constexpr std::string_view override_prefix = "--set ";
 struct Entry {
   std::string name;
   const toml::node* node = nullptr;
-  SourcePlace place;  ///< of the key
+  const toml::key* key = nullptr;
+  [[nodiscard]] SourcePlace place() const { return place_of(key->source()); }
 };
 
 /// The entries in the order of the file (toml++ sorts by name); those of `--set` follow.

@@ -449,6 +449,75 @@ damping = [[0.8]]
   CHECK(std::abs(steps.extremes("u").t_maximum - t) < 1e-5);
 }
 
+TEST_CASE("outputs: extremes are those of the motion, however rows are spaced") {
+  // u = exp(-z t) (cos w t + z/w sin w t), u' = -exp(-z t)/w sin w t: extremes of u' where tan w t = w/z.
+  const double z = 0.01, w = std::sqrt(1.0 - z * z), t = std::atan2(w, z) / w;
+  const double least = -std::exp(-z * t) / w * std::sin(w * t);
+  const double lowest = -std::exp(-z * std::numbers::pi / w);
+  const std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 10.0
+initial = { u = [1.0], v = [0.0] }
+[matrices]
+mass = [[1.0]]
+stiffness = [[1.0]]
+damping = [[0.02]]
+)" + output("u", "displacement", "direction = { d0 = 1.0 }") +
+                           output("v", "velocity", "direction = { d0 = 1.0 }");
+  for (const char* dt : {"10", "0.1", "0.01", "0.0007"}) {
+    CAPTURE(std::string(dt));
+    for (const char* flow : {"taylor", "modal"}) {
+      CAPTURE(std::string(flow));
+      const Computed c = compute(text, "exact", {{"run.flow", flow}, {"run.output_dt", dt}});
+      CHECK(std::abs(c.extremes("v").minimum - least) < 1e-14);
+      CHECK(std::abs(c.extremes("v").t_minimum - t) < 1e-7);
+      CHECK(std::abs(c.extremes("u").minimum - lowest) < 1e-14);
+      CHECK(std::abs(c.extremes("u").t_minimum - std::numbers::pi / w) < 1e-7);
+    }
+    const Computed ida = compute(text, "ida", {{"run.output_dt", dt}});
+    CHECK(std::abs(ida.extremes("v").minimum - least) < 1e-8);
+    CHECK(std::abs(ida.extremes("v").t_minimum - t) < 1e-4);
+  }
+}
+
+TEST_CASE("outputs: of many equal peaks the greatest is found, of beats, in one step and in many") {
+  // Expected: the closed form on a grid of 1e-4, which sees peaks to some 1e-8.
+  for (const double k : {8.052433795271492, 3.3, 27.1}) {
+    CAPTURE(k);
+    const double w = std::sqrt(k), p = 0.6317071082430643, q = -0.9945229996597038 / w;
+    const std::string text = fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+[run]
+t_end = 60.0
+initial = {{ u = [1.0, {:.17g}], v = [0.0, {:.17g}] }}
+[matrices]
+mass = [[1.0, 0.0], [0.0, 1.0]]
+stiffness = [[1.0, 0.0], [0.0, {:.17g}]]
+)",
+                                         p, q * w, k) +
+                             output("rel", "displacement", "direction = { d0 = 1.0, d1 = -1.0 }");
+    const double norm = std::sqrt(2.0);  // of the direction, whose length does not matter
+    const auto at = [&](double t) {
+      return (std::cos(t) - p * std::cos(w * t) - q * std::sin(w * t)) / norm;
+    };
+    double greatest = -10.0, least = 10.0;
+    for (double t = 0.0; t <= 60.0; t += 1e-4) {
+      greatest = std::max(greatest, at(t));
+      least = std::min(least, at(t));
+    }
+    for (const char* dt : {"60", "0.05"}) {
+      CAPTURE(std::string(dt));
+      const Computed c = compute(text, "exact", {{"run.output_dt", dt}});
+      CHECK(c.extremes("rel").maximum == doctest::Approx(greatest).epsilon(1e-7));
+      CHECK(c.extremes("rel").maximum >= greatest - 1e-13);
+      CHECK(c.extremes("rel").minimum == doctest::Approx(least).epsilon(1e-7));
+      CHECK(c.extremes("rel").minimum <= least + 1e-13);
+      CHECK(std::abs(at(c.extremes("rel").t_maximum) - c.extremes("rel").maximum) < 1e-12);
+    }
+  }
+}
+
 TEST_CASE("outputs: a scene turned, or in other units, has the same member forces") {
   const std::string wanted = cut("N", "N", 0.4) + cut("V", "V", 0.4) + cut("M", "M", 0.4);
   const auto scene = [&](const std::string& units, double L, double F, double c, double s) {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +50,26 @@ TEST_CASE("cli study: errors fall with the setting, every run is a row, all file
     CHECK(row["wall_times"].size() == 2);
   }
   CHECK(study["frontier"]["event_time"].back() == "exact");
+}
+
+TEST_CASE("cli study: the table alone, for papers") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const std::vector<std::string> study{"study", "belt.toml", "--engines", "exact,ida", "--rtol",
+                                       "1e-6",  "--repeats", "1",         "--no-plots"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), study.begin(), study.end());
+    return shell.run(more);
+  };
+  const Ending good = with({"--table", "markdown"});
+  CHECK(good.code == 0);
+  CHECK(good.out.rfind("| ", 0) == 0);
+  CHECK(std::count(good.out.begin(), good.out.end(), '\n') == 4);  // header, rule, two runs
+  CHECK(has(good.out, "| exact |"));
+  const Ending tex = with({"--table", "latex", "--force"});
+  CHECK(tex.out.rfind("\\begin{tabular}{", 0) == 0);
+  CHECK(has(tex.out, "\\end{tabular}\n"));
+  CHECK(with({"--table", "latex", "--json", "--force"}).code == 2);
 }
 
 TEST_CASE("cli study: runs that lose events, are refused or too slow are rows, too") {

@@ -528,6 +528,43 @@ TEST_CASE("cli sweep: what is wrong with queries and samples is told before anyt
           "expected 1 to 1000000");
   refused({"--sample", "masses.1.mass=normal(2,0.1)", "--vary", vary_mass, "--response", "max:x"},
           "varied already");
+  refused({"--sample", "masses.1.mass=normal(-5,0.1)", "--response", "max:x"}, "--sample masses.1.mass=");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--samples", ""},
+          "expected a number");
+}
+
+TEST_CASE("cli sweep: what another key would overwrite is refused, under whichever name") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto tried = [&](const std::vector<std::string>& more, const std::string& why) {
+    std::vector<std::string> all{"sweep", "block.toml", "--no-plots", "--quiet", "--force"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Ending ending = shell.run(all);
+    CHECK_MESSAGE(has(ending.err, why), ending.err);
+    return ending.code;
+  };
+  const std::string name = "contacts.floor.friction=0.2,0.3";
+  for (const char* other :
+       {"contacts.*.friction=0.5,0.6", "contacts.1.friction=0.5", "contacts.floor.friction.static=0.5"}) {
+    CAPTURE(std::string(other));
+    CHECK(tried({"--vary", name, "--vary", other}, "--vary contacts.floor.friction varies") == 2);
+    CHECK(tried({"--vary", other, "--vary", name}, "already") == 2);
+  }
+  CHECK(tried({"--vary", name, "--sample", "contacts.*.friction=uniform(0.1,0.2)", "--samples", "2",
+               "--response", "end:x"},
+              "--sample contacts.*.friction=uniform(0.1,0.2): --vary contacts.floor.friction") == 2);
+  for (const char* setting :
+       {"contacts.floor.friction=0.9", "contacts.*.friction=0.9", "contacts.1.friction.static=0.9"}) {
+    CAPTURE(std::string(setting));
+    CHECK(tried({"--vary", name, "--set", setting}, "has no effect") == 2);
+  }
+  CHECK(shell.list().size() == 1);
+  // What is left of a setting counts: friction's other half.
+  CHECK(tried({"--vary", "contacts.floor.friction.static=0.6,0.7", "--set", "contacts.floor.friction=0.5"},
+              "") == 0);
+  CHECK(tried({"--vary", "contacts.floor.friction.static=0.6,0.7", "--vary",
+               "contacts.*.friction.kinetic=0.1,0.2"},
+              "") == 0);
 }
 
 TEST_SUITE_END();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "result/csv.hpp"
 
@@ -12,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr double tail = 0.5 * (1.0 - confidence);
-constexpr std::size_t most_steps = 200;
+constexpr std::size_t most_steps = 200, even_steps = 100;
 
 /// P(B <= k) of n draws.
 double below_or_at(std::size_t k, double p, std::size_t n) {
@@ -30,6 +31,34 @@ std::size_t least_count(double q, double p, std::size_t n) {
       low = middle + 1;
   }
   return low;
+}
+
+/// Places among n values in order: all of few; of many some at equal distances, and towards both ends more, each
+/// a third farther out than the one before, since the rare ones are what is asked for.
+std::set<std::size_t> shown_of(std::size_t n) {
+  std::set<std::size_t> places;
+  const std::size_t even = n <= most_steps ? n : even_steps;
+  for (std::size_t i = 0; i < even; ++i) places.insert(even == 1 ? 0 : i * (n - 1) / (even - 1));
+  if (even == n) return places;
+  for (std::size_t m = 1; m < n / even_steps; m += 1 + m / 3) {
+    places.insert(m);
+    places.insert(n - 1 - m);
+  }
+  return places;
+}
+
+/// The p at which P(B >= m) of n draws is a/2, or P(B <= m) is: by bisection, since GSL's inverse of the beta
+/// distribution fails for many n.
+double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
+  double low = 0.0, high = 1.0;
+  while (true) {
+    const double p = 0.5 * (low + high);
+    if (p <= low || p >= high) return p;
+    const auto k = static_cast<unsigned>(m), size = static_cast<unsigned>(n);
+    const bool beyond =
+        lower ? gsl_cdf_binomial_Q(k - 1, p, size) >= tail : gsl_cdf_binomial_P(k, p, size) <= tail;
+    (beyond ? high : low) = p;
+  }
 }
 
 void keys_of(CsvBlock& block, const SweepSpec& spec, const Sampled& s) {
@@ -65,18 +94,16 @@ Quantile quantile(const std::vector<double>& sorted, double probability, bool is
 }
 
 std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool is_independent) {
-  const std::size_t n = sorted.size(), steps = std::min(n, most_steps);
+  const std::size_t n = sorted.size();
   std::vector<Exceedance> list;
-  for (std::size_t i = 0; i < steps; ++i) {
-    const std::size_t place = steps == 1 ? 0 : i * (n - 1) / (steps - 1);
+  for (const std::size_t place : shown_of(n)) {
     const double x = sorted[place];
     if (!list.empty() && list.back().value == x) continue;
-    const auto m = static_cast<double>(sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), x));
-    const auto size = static_cast<double>(n);
-    Exceedance e{x, m / size, {}, {}};
+    const auto m = static_cast<std::size_t>(sorted.end() - std::upper_bound(sorted.begin(), sorted.end(), x));
+    Exceedance e{x, static_cast<double>(m) / static_cast<double>(n), {}, {}};
     if (is_independent) {
-      e.low = m > 0.0 ? gsl_cdf_beta_Pinv(tail, m, size - m + 1.0) : 0.0;
-      e.high = m < size ? gsl_cdf_beta_Pinv(1.0 - tail, m + 1.0, size - m) : 1.0;
+      e.low = m > 0 ? clopper_pearson(m, n, true) : 0.0;
+      e.high = m < n ? clopper_pearson(m, n, false) : 1.0;
     }
     list.push_back(e);
   }

@@ -131,7 +131,13 @@ std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const Samp
     if (sobol) (void)gsl_qrng_get(sobol.get(), point.data());
     for (std::size_t j = 0; j < keys; ++j) {
       const double u = sobol ? std::fmod(point[j] + shift[j], 1.0) : gsl_rng_uniform(random.get());
-      varied[j].values.push_back(shortest(inverses[j](inner(u))));
+      const double value = inverses[j](inner(u));
+      if (!std::isfinite(value))
+        throw UsageError(
+            fmt::format("--sample {}={}: draw {} is no finite number, expected a distribution "
+                        "within the range of numbers",
+                        varied[j].path, varied[j].text, i + 1));
+      varied[j].values.push_back(shortest(value));
     }
   }
   return varied;

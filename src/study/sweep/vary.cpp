@@ -8,6 +8,7 @@
 
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
+#include "scene/overrides.hpp"
 
 namespace signorini {
 
@@ -131,14 +132,47 @@ std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i)
 
 }  // namespace
 
+const char* option_of(const Vary& vary) { return vary.sampled ? "sample" : "vary"; }
+
+void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
+                    const std::vector<Override>& settings) {
+  std::vector<std::vector<std::string>> places;
+  for (const Vary& vary : varied) {
+    places.push_back(places_in(scene, vary.path));
+    for (std::size_t j = 0; j + 1 < places.size(); ++j)
+      for (const std::string& a : places.back())
+        for (const std::string& b : places[j])
+          if (lies_in(a, b) || lies_in(b, a))
+            throw UsageError(fmt::format("--{} {}={}: --{} {} varies {} already", option_of(vary), vary.path,
+                                         vary.text, option_of(varied[j]), varied[j].path,
+                                         a == b ? "this key" : "what belongs to it"));
+  }
+  for (const Override& setting : settings) {
+    const std::vector<std::string> set = places_in(scene, setting.path);
+    std::size_t lost = 0;
+    const Vary* by = nullptr;
+    for (const std::string& a : set)
+      for (std::size_t j = 0; j < places.size(); ++j)
+        if (std::any_of(places[j].begin(), places[j].end(),
+                        [&](const std::string& b) { return lies_in(a, b); })) {
+          ++lost;
+          by = &varied[j];
+          break;
+        }
+    if (by && lost == set.size())
+      throw UsageError(fmt::format("{}: has no effect, --{} {} sets it anew in every run", text_of(setting),
+                                   option_of(*by), by->path));
+  }
+}
+
 std::vector<std::vector<Override>> points(const std::vector<Vary>& varied) {
   double count = 1.0;
   for (std::size_t i = 0; i < varied.size(); ++i) {
     if (!in_step(varied, i).empty()) count *= static_cast<double>(varied[i].values.size());
     for (std::size_t j = 0; j < i; ++j)
       if (varied[j].path == varied[i].path)
-        throw UsageError(fmt::format("--{} {}={}: this key is varied already",
-                                     varied[i].sampled ? "sample" : "vary", varied[i].path, varied[i].text));
+        throw UsageError(fmt::format("--{} {}={}: this key is varied already", option_of(varied[i]),
+                                     varied[i].path, varied[i].text));
   }
   if (count > most_points)
     throw UsageError(fmt::format("--vary: the ranges make {:.0f} runs, expected at most 1e6", count));

@@ -25,6 +25,12 @@ struct Vary {
   friend bool operator==(const Vary&, const Vary&) = default;
 };
 
+/// "vary" or "sample", whichever says it.
+[[nodiscard]] const char* option_of(const Vary& vary);
+/// Refuses what another one would overwrite: two that mean one key under different names (contacts.*.friction and
+/// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
+void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
+                    const std::vector<Override>& settings);
 /// Errors: UsageError, also for more than 1e6 values.
 [[nodiscard]] Vary parse_vary(const std::string& text);
 /// The product: entry i holds one value a Vary, in their order. Errors: UsageError for more than 1e6 points, for

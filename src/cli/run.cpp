@@ -62,6 +62,19 @@ std::string joined(const std::vector<std::string>& tables) {
   return text;
 }
 
+/// What came out; `events`: their table.
+std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
+                 const std::string& events, const fs::path& path) {
+  const Report& report = certified.report;
+  const std::string tables = joined({start_table(model), events, contact_table(model, report),
+                                     response_table(model, report), closing(scene.run, model, report)});
+  const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
+  const std::string response = model.outputs.empty() ? "" : "response.csv, ";
+  return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
+         "results: " + path.string() + "/ (events.csv, history.csv, " + response +
+         "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n";
+}
+
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
   if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
@@ -106,17 +119,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     print(joined({start_table(model, style), events, contact_table(model, report, style),
                   response_table(model, report, style), audit_table(model, report.audit, style)}));
   } else if (options.tables()) {
-    if (!scene.title.empty()) print(scene.title + "\n\n");
-    if (const std::string start = start_table(model); !start.empty()) print(start + "\n");
-    print(events + "\n");
-    const std::string contacts = contact_table(model, report);
-    if (!contacts.empty()) print(contacts + "\n");
-    if (const std::string response = response_table(model, report); !response.empty()) print(response + "\n");
-    print(closing(scene.run, model, report) + certification(model, certified));
-    const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
-    const std::string response = model.outputs.empty() ? "" : "response.csv, ";
-    print("results: " + path.string() + "/ (events.csv, history.csv, " + response +
-          "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n");
+    print(told(scene, model, certified, events, path));
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =

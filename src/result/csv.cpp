@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 #include "base/number.hpp"
@@ -87,21 +88,29 @@ void CsvFile::fail() {
 void write_file(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::path draft = path;
   draft += ".part";
-  // What stands there is a draft that a kill has left, or somebody else's link, which must not be followed.
-  unlink(draft.c_str());
+  const auto create = [&] { return open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); };
+  int file = create();
+  if (file < 0 && errno == EEXIST) {
+    // What stands there is a draft that a kill has left, or somebody else's link, which must not be followed.
+    unlink(draft.c_str());
+    file = create();
+  }
+  if (file < 0) throw FileError(path.string(), "cannot be created: " + reason(errno));
   errno = 0;
-  const int descriptor = open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  std::FILE* file = descriptor < 0 ? nullptr : fdopen(descriptor, "wb");
-  if (file == nullptr) throw FileError(path.string(), "cannot be created: " + reason(errno));
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = std::fclose(file) == 0;
-  const int error = errno;
-  std::error_code renamed;
-  if (written && closed) std::filesystem::rename(draft, path, renamed);
-  if (written && closed && !renamed) return;
-  std::error_code ignored;
-  std::filesystem::remove(draft, ignored);
-  throw FileError(path.string(), "cannot be written: " + (renamed ? renamed.message() : reason(error)));
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(file, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    done += static_cast<std::size_t>(n);
+  }
+  int error = done == text.size() ? 0 : errno;
+  if (close(file) != 0 && error == 0 && done == text.size()) error = errno;
+  const bool written = done == text.size() && error == 0;
+  if (written && std::rename(draft.c_str(), path.c_str()) == 0) return;
+  if (written) error = errno;
+  unlink(draft.c_str());
+  throw FileError(path.string(), "cannot be written: " + reason(error));
 }
 
 }  // namespace signorini

@@ -62,6 +62,31 @@ PanelEdges stacked(std::size_t i, std::size_t count, int height, double margin, 
   return {upper - each, upper};
 }
 
+namespace {
+
+// Letters of legends are some 8.8 of the picture's 1120 points wide, in front of them a line of 55.
+constexpr double letter = 8.8, line_of_legend = 55.0;
+constexpr std::size_t longest_name = 44;
+
+}  // namespace
+
+std::string legend_name(const std::string& name) {
+  if (name.size() <= longest_name) return name;
+  constexpr std::size_t half = (longest_name - 3) / 2;
+  std::size_t end = half, begin = name.size() - half;
+  const auto inside = [&](std::size_t i) { return (static_cast<unsigned char>(name[i]) & 0xC0) == 0x80; };
+  while (inside(end)) --end;  // of a letter of several bytes
+  while (inside(begin)) ++begin;
+  return name.substr(0, end) + "..." + name.substr(begin);
+}
+
+double room_for(const std::vector<std::string>& names) {
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, legend_name(name).size());
+  return std::min(panel_right,
+                  1.0 - (line_of_legend + letter * static_cast<double>(longest)) / picture_width);
+}
+
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
   std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
@@ -87,7 +112,7 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
     s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n",
                      quoted(picture.subtitle), panel_left, 1.0 - 46.0 * size.line);
   }
-  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", panel_left, panel_right);
+  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", panel_left, run.right);
   s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
   s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";
   if (picture.over_time) s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\n";
@@ -111,7 +136,7 @@ std::string panel(const PlottedRun& run, double bottom, double top, const std::s
   s += fmt::format(
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "
       "noautotitle noenhanced\n",
-      panel_right + 0.012, top + 0.008);
+      run.right + 0.012, top + 0.008);
   if (last) {
     s += "set format x '%g'\nset xlabel " + quoted("time t [" + run.facts.units.time + "]") + "\n";
   } else {

@@ -15,6 +15,10 @@
 
 namespace signorini {
 
+/// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
+inline constexpr double panel_left = 0.1, panel_right = 0.835;
+inline constexpr int picture_width = 1120;
+
 /// A run as the pictures see it.
 struct PlottedRun {
   RunFacts facts;
@@ -40,11 +44,13 @@ struct PlottedRun {
   };
   std::vector<Rows> motion;
   std::vector<std::string> curves;  ///< columns of curves.csv; none in runs that have no such table
+  double right = panel_right;       ///< where its panels end
 };
 
-/// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
-inline constexpr double panel_left = 0.1, panel_right = 0.835;
-inline constexpr int picture_width = 1120;
+/// Where panels end that leave room for these names in the legend, no longer than legend_name() makes them.
+[[nodiscard]] double room_for(const std::vector<std::string>& names);
+/// A name that is too long for a legend without its middle.
+[[nodiscard]] std::string legend_name(const std::string& name);
 
 /// 'text' for gnuplot: nothing in it is expanded. An apostrophe at its beginning becomes a typographic one.
 [[nodiscard]] std::string quoted(const std::string& text);

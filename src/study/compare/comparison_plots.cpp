@@ -66,7 +66,12 @@ class Pictures {
   Pictures(fs::path folder, const ComparisonReport& report) : folder_(std::move(folder)), report_(report) {
     double t_end = 0.0;
     for (const ComparedRun& run : report.runs) t_end = std::max(t_end, run.figures.t);
-    for (const ComparedRun& run : report.runs) runs_.push_back(plotted(run.figures, t_end));
+    std::vector<std::string> names;
+    for (const ComparedRun& run : report.runs) {
+      runs_.push_back(plotted(run.figures, t_end));
+      names.push_back(run.figures.name);
+    }
+    for (PlottedRun& run : runs_) run.right = room_for(names);
   }
 
   [[nodiscard]] bool any() const { return runs_.front().times >= 2; }
@@ -94,7 +99,7 @@ class Pictures {
         elements.push_back(
             fmt::format("{} using 1:{} with lines {} title {}",
                         contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
-                        curves[i].column, look(r), quoted(report_.runs[r].figures.name)));
+                        curves[i].column, look(r), quoted(legend_name(report_.runs[r].figures.name))));
       }
       s += plot_command(elements);
     }
@@ -158,14 +163,14 @@ class Pictures {
       return fmt::format(
           "'../events.csv' skip 1 using 2:(strcol(1) eq {0} && $4 != 0 ? abs($4) : NaN) with points "
           "pointtype 7 "
-          "pointsize 0.7 linecolor '{1}' title {0}",
-          quoted(name), colours[r % colours.size()]);
+          "pointsize 0.7 linecolor '{1}' title {2}",
+          quoted(name), colours[r % colours.size()], quoted(legend_name(name)));
     }
     return fmt::format(
         "'{}-{}.csv' skip 1{} using 1:(${} > 0 ? ${} : NaN) with lines linewidth 1.1 linecolor '{}' "
         "title {}",
         curve.name, run_slug(name, r), every(runs_[r], 1, 0), curve.column, curve.column,
-        colours[r % colours.size()], quoted(name));
+        colours[r % colours.size()], quoted(legend_name(name)));
   }
 
   fs::path folder_;

@@ -56,6 +56,22 @@ TEST_CASE("plots: names that look alike as file names stay apart") {
   CHECK(scripts[2].filename() == "contact-a_b-2.gp");
 }
 
+TEST_CASE("plots: a legend has room for its names") {
+  CHECK(room_for({"ida", "exact"}) == panel_right);
+  const std::string name = "friction-iteration:dt=1e-3";
+  // 9 points a letter, and the line in front of it.
+  CHECK((1.0 - room_for({"ida", name})) * picture_width >= 8.5 * static_cast<double>(name.size()) + 50.0);
+  CHECK(legend_name(name) == name);
+  const std::string longer = std::string(100, 'a') + std::string(100, 'b');
+  CHECK(legend_name(longer).size() <= 44);
+  CHECK(legend_name(longer).find("a...b") != std::string::npos);
+  CHECK(room_for({longer}) > 0.5);
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
+  CHECK(legend_name(umlauts).find("\u00e4...\u00e4") != std::string::npos);
+  CHECK(legend_name("x" + umlauts).find("\u00e4...\u00e4") != std::string::npos);
+}
+
 TEST_CASE("plots: a run of one instant has no pictures, a folder without a run is an error") {
   const Folder folder;
   const Scene s = scene();

@@ -36,6 +36,20 @@ const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml";
 
 TEST_SUITE_BEGIN("unit/run/motion_record");
 
+TEST_CASE("bodies that turn at one time but for its rounding are one moment") {
+  const Model model = build_model(read_scene(pipeline));
+  const Result recorder;
+  MotionRecord record(model, 1.0, recorder);
+  std::vector<double> turns;
+  for (int i = 0; i < 1000; ++i) turns.push_back(0.25 * (1.0 + 1e-17 * i));
+  for (int i = 0; i < 1000; ++i) turns.push_back(0.5 * (1.0 + 1e-16 * i));
+  turns.push_back(0.75);
+  long found = 0;
+  for (const auto& moment : record.moments(0.0, 1.0, turns)) found += moment.turns ? 1 : 0;
+  CHECK(found >= 3);
+  CHECK(found <= 10);  // 1e-13 are some few times a hundred roundings
+}
+
 TEST_CASE("no peak is lost, however coarse the output times") {
   for (const char* engine : {"exact", "ida"}) {
     CAPTURE(engine);

@@ -644,10 +644,7 @@ stiffness = [[1.0, 0.0], [0.0, {:.17g}]]
 )",
                                          p, q * w, k) +
                              output("rel", "displacement", "direction = { d0 = 1.0, d1 = -1.0 }");
-    const double norm = std::sqrt(2.0);  // of the direction, whose length does not matter
-    const auto at = [&](double t) {
-      return (std::cos(t) - p * std::cos(w * t) - q * std::sin(w * t)) / norm;
-    };
+    const auto at = [&](double t) { return std::cos(t) - p * std::cos(w * t) - q * std::sin(w * t); };
     double greatest = -10.0, least = 10.0;
     for (double t = 0.0; t <= 60.0; t += 1e-4) {
       greatest = std::max(greatest, at(t));

@@ -53,7 +53,8 @@ summary.json has them (`model.frictional_start`). Contacts with a gap below zero
 Refused by name: a structure that nothing holds at some part of a stage, one that could only go on by moving, a contact
 that begins to slip where its kinetic friction is below the static one, contacts at their limits from which a motion runs
 away. Where contacts at their limits leave a motion that nothing resists, many slips go with the same forces: the least of
-them is taken, and a warning names the contacts; another warns of flutter, an oscillation that would grow while they slip.
+them is taken, and a warning names the contacts; another warns of flutter, an oscillation that would grow while they slip
+(looked for up to 400 degrees of freedom).
 
 `initial = { run = "DIR", t = 3.2 }` goes on from a state that the run in DIR kept in its states.csv: displacements and
 velocities of all degrees of freedom and of supports that `acceleration` drives, the shears of contacts and which of them

@@ -6,59 +6,24 @@
 #include <cmath>
 #include <limits>
 
-#include "base/eigen_dense.hpp"
 #include "base/listed.hpp"
-#include "base/rounding.hpp"
 #include "decide/complementarity.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
-#include "model/statics/least_motion.hpp"
+#include "model/statics/least_share.hpp"
 #include "model/statics/null_motions.hpp"
+#include "model/statics/standing.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini {
 namespace {
-
-// Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
-// sixteen digits. Chosen.
-constexpr double same_force = 1e-11;
-// The same of rates, which one solve has found; where they are one, what is not at its limit hardly leaves
-// it.
-constexpr double same_rate = 1e-9;
-
-/// One contact on its way.
-struct Standing {
-  State state = State::open;
-  double gap = 0.0, N = 0.0, T = 0.0;
-  double gap_rate = 0.0, N_rate = 0.0, T_rate = 0.0;
-  double given_gap_rate = 0.0;    ///< of the gap without displacement, while a fit grows
-  int normal = -1, tangent = -1;  ///< rows in force
-};
-
-/// An unknown of the complementarity problem: displaces `row` by sign z; its condition is of rates.
-struct Unknown {
-  std::size_t contact;
-  int row;
-  int sign;
-  enum class Kind : unsigned char { opening, slip } kind;
-};
 
 class Path {
  public:
   Path(const SparseMatrix& stiffness, const std::vector<Contact>& contacts, const DofMap& map,
        const SourcePlace& place)
       : stiffness_(stiffness), contacts_(contacts), map_(map), place_(place), u_(Vector::Zero(map.size())) {
-    for (const Contact& c : contacts) {
-      Standing s;
-      if (c.is_pressed()) {
-        s.N = -c.normal_force.value(0.0);
-        s.state = s.N == 0.0 ? State::open : c.has_friction() ? State::stick : State::closed;
-      } else {
-        s.gap = std::max(0.0, c.gap);
-        s.state = s.gap > 0.0 ? State::open : c.has_friction() ? State::stick : State::closed;
-      }
-      standing_.push_back(s);
-    }
+    for (const Contact& c : contacts) standing_.push_back(undeformed(c));
   }
 
   FrictionalEquilibrium run(const std::vector<Stage>& stages) {
@@ -127,28 +92,10 @@ class Path {
   }
 
   [[nodiscard]] bool rubs(std::size_t k) const { return contacts_[k].has_friction(); }
-  [[nodiscard]] double friction(std::size_t k) const {
-    const Friction& f = contacts_[k].friction;
-    return slip_sign(standing_[k].state) != 0 ? f.kinetic : f.static_;
-  }
-  /// f |N| - s T
-  [[nodiscard]] double margin(std::size_t k, int s) const {
-    return friction(k) * std::abs(standing_[k].N) - s * standing_[k].T;
-  }
-  [[nodiscard]] double zero_force() const {
-    double most = 0.0;
-    for (const Standing& s : standing_) most = std::max({most, std::abs(s.N), std::abs(s.T)});
-    return same_force * most;
-  }
-  /// Neither pressed nor apart.
+  [[nodiscard]] double friction(std::size_t k) const { return friction_of(contacts_[k], standing_[k]); }
+  [[nodiscard]] double margin(std::size_t k, int s) const { return margin_of(contacts_[k], standing_[k], s); }
   [[nodiscard]] bool touches(std::size_t k, double zero) const {
-    const Contact& c = contacts_[k];
-    const Standing& s = standing_[k];
-    if (!c.has_gap() || std::abs(s.N) > zero) return false;
-    if (!is_open(s.state)) return true;
-    const double rounded = rounding::of_many * (c.gap + c.normal.magnitude(u_));
-    return s.gap <=
-           (c.takes_impulses() ? same_force * c.normal.magnitude(u_) : zero / c.normal_stiffness) + rounded;
+    return touching(contacts_[k], standing_[k], zero, contacts_[k].normal.magnitude(u_));
   }
 
   /// Rows in force: of all contacts that are not apart.
@@ -196,7 +143,7 @@ class Path {
 
   /// Rates of everything along the stage, and the states that go with them.
   void find_rates() {
-    const double zero = zero_force();
+    const double zero = zero_force(standing_);
     const std::vector<HeldRow> rows = make_rows(zero);
     const HeldRows held(stiffness_, rows);
     if (!held.regular()) refuse_motion(held);
@@ -227,86 +174,25 @@ class Path {
         rates += (*z)[j] * size * answers[static_cast<std::size_t>(j)].first;
         forces += (*z)[j] * size * answers[static_cast<std::size_t>(j)].second;
       }
-      take_states(unknowns, share(rows, unknowns, *z * size, forces, rates));
+      std::vector<double> conditions;
+      for (const Unknown& unknown : unknowns) conditions.push_back(condition(unknown, forces));
+      const Share shared = least_share(
+          {stiffness_, map_, rows, unknowns, conditions, *z * size, forces.cwiseAbs().maxCoeff()}, rates);
+      if (!shared.undetermined.empty()) doubt(shared);
+      take_states(unknowns, shared.z);
     }
     u_rate_ = std::move(rates);
     take_rates(forces);
   }
 
-  /// A row along which a contact may move at this moment: how far the rates take it, and which way it may.
-  struct Loose {
-    std::size_t row, contact;
-    double rate;
-    Way way;
-  };
-  static std::vector<Loose> loose_rows(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
-                                       const Eigen::VectorXd& z, const std::vector<bool>& may) {
-    std::vector<Loose> loose;
-    for (std::size_t j = 0; j < unknowns.size(); ++j) {
-      if (!may[j]) continue;
-      const auto row = static_cast<std::size_t>(unknowns[j].row);
-      const double rate = unknowns[j].sign * z[static_cast<Eigen::Index>(j)] / rows[row].stiffness;
-      if (!loose.empty() && loose.back().row == row) {  // the two ways of a slip stand together
-        loose.back().rate += rate;
-        loose.back().way = Way::both;
-      } else {
-        loose.push_back({row, unknowns[j].contact, rate, unknowns[j].sign > 0 ? Way::forth : Way::back});
-      }
-    }
-    return loose;
-  }
-
-  /// Where motions that nothing resists leave open how far each contact goes, the least of all slips and
-  /// openings: adds it to the rates. Forces stay as they are. z: of the unknowns, forces; so is the answer.
-  Eigen::VectorXd share(const std::vector<HeldRow>& rows, const std::vector<Unknown>& unknowns,
-                        Eigen::VectorXd z, const Vector& forces, Vector& rates) {
-    const double zero = same_rate * std::max(forces.cwiseAbs().maxCoeff(), z.cwiseAbs().maxCoeff());
-    std::vector<bool> may;
-    for (std::size_t j = 0; j < unknowns.size(); ++j)
-      may.push_back(z[static_cast<Eigen::Index>(j)] > 0.0 || condition(unknowns[j], forces) <= zero);
-    const std::vector<Loose> loose = loose_rows(rows, unknowns, z, may);
-    std::vector<LineSpring> stay;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (std::none_of(loose.begin(), loose.end(), [&](const Loose& l) { return l.row == i; }))
-        stay.push_back({rows[i].form, rows[i].stiffness});
-    const SparseMatrix held = with_springs(stiffness_, stay);
-    if (loose.empty() || !may_have_null_motions(held)) return z;
-    const Eigen::MatrixXd motions = null_motions(held);
-    if (motions.cols() == 0) return z;
-
-    Eigen::MatrixXd b(static_cast<Eigen::Index>(loose.size()), motions.cols());
-    Eigen::VectorXd g(b.rows());
-    std::vector<Way> ways;
-    for (Eigen::Index i = 0; i < b.rows(); ++i) {
-      const Loose& l = loose[static_cast<std::size_t>(i)];
-      for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) = rows[l.row].form.dot(motions.col(j));
-      g[i] = l.rate;
-      ways.push_back(l.way);
-    }
-    Eigen::VectorXd r = least_motion(b, g, ways, Eigen::VectorXd::Zero(b.cols()));
-    rates += motions * least_squares(b, Eigen::VectorXd(r - g));
-    const bool moves = r.cwiseAbs().maxCoeff() > same_rate * greatest_translation(rates, map_);
-    if (moves && is_one_of_many(b, r, ways)) doubt(loose, motions);
-    for (double& rate : r)
-      if (std::abs(rate) <= same_rate * r.cwiseAbs().maxCoeff()) rate = 0.0;
-    for (std::size_t j = 0; j < unknowns.size(); ++j)
-      for (std::size_t i = 0; i < loose.size() && may[j]; ++i)
-        if (loose[i].row == static_cast<std::size_t>(unknowns[j].row))
-          z[static_cast<Eigen::Index>(j)] = std::max(
-              0.0, unknowns[j].sign * r[static_cast<Eigen::Index>(i)] * rows[loose[i].row].stiffness);
-    return z;
-  }
-
-  void doubt(const std::vector<Loose>& loose, const Eigen::MatrixXd& motions) {
+  void doubt(const Share& shared) {
     std::vector<std::string> names;
-    for (const Loose& l : loose)
-      if (names.empty() || names.back() != contacts_[l.contact].name)
-        names.push_back(contacts_[l.contact].name);
+    for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(
         "stage '{}': nothing resists the {} where {} {} at the limit, so that the data do not say how far "
-        "each "
-        "of them goes; the start takes the least",
-        stage_->name, describe_motion(motions.col(0), map_), listed(names), names.size() == 1 ? "is" : "are");
+        "each of them "
+        "goes; the start takes the least",
+        stage_->name, describe_motion(shared.motion, map_), listed(names), names.size() == 1 ? "is" : "are");
     if (std::find(found_.doubts.begin(), found_.doubts.end(), sentence) == found_.doubts.end())
       found_.doubts.push_back(sentence);
   }
@@ -372,7 +258,7 @@ class Path {
   /// To the end of the step or to the next change of a state.
   void advance(double end) {
     double step = end - part_;
-    const double zero = zero_force();
+    const double zero = zero_force(standing_);
     const auto fall = [&](double value, double rate, bool there) {
       if (rate < 0.0 && !there) step = std::min(step, std::max(0.0, -value / rate));
     };

@@ -1,0 +1,95 @@
+#include "model/statics/least_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/motion_names.hpp"
+#include "model/statics/least_motion.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+// Rates that differ by less, of the greatest at hand, are one, which one solve has found; where they are one, what
+// is not at its limit hardly leaves it. Chosen.
+constexpr double same_rate = 1e-9;
+
+/// A row along which a contact may move at this moment: how far the rates take it, and which way it may.
+struct Loose {
+  std::size_t row, contact;
+  double rate;
+  Way way;
+};
+
+std::vector<Loose> loose_rows(const SharedOut& given, const std::vector<bool>& may) {
+  std::vector<Loose> loose;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j) {
+    if (!may[j]) continue;
+    const Unknown& unknown = given.unknowns[j];
+    const auto row = static_cast<std::size_t>(unknown.row);
+    const double rate = unknown.sign * given.z[static_cast<Eigen::Index>(j)] / given.rows[row].stiffness;
+    if (!loose.empty() && loose.back().row == row) {  // the two ways of a slip stand together
+      loose.back().rate += rate;
+      loose.back().way = Way::both;
+    } else {
+      loose.push_back({row, unknown.contact, rate, unknown.sign > 0 ? Way::forth : Way::back});
+    }
+  }
+  return loose;
+}
+
+/// Motions that neither the structure nor the rows that stay resist.
+Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& loose) {
+  std::vector<LineSpring> stay;
+  for (std::size_t i = 0; i < given.rows.size(); ++i)
+    if (std::none_of(loose.begin(), loose.end(), [&](const Loose& l) { return l.row == i; }))
+      stay.push_back({given.rows[i].form, given.rows[i].stiffness});
+  const SparseMatrix held = with_springs(given.stiffness, stay);
+  if (loose.empty() || !may_have_null_motions(held)) return {given.stiffness.rows(), 0};
+  return null_motions(held);
+}
+
+}  // namespace
+
+Share least_share(const SharedOut& given, Vector& rates) {
+  Share share{given.z, {}, {}};
+  const double zero = same_rate * std::max(given.greatest_force, given.z.cwiseAbs().maxCoeff());
+  std::vector<bool> may;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j)
+    may.push_back(given.z[static_cast<Eigen::Index>(j)] > 0.0 || given.conditions[j] <= zero);
+  const std::vector<Loose> loose = loose_rows(given, may);
+  const Eigen::MatrixXd motions = free_motions(given, loose);
+  if (motions.cols() == 0) return share;
+
+  Eigen::MatrixXd b(static_cast<Eigen::Index>(loose.size()), motions.cols());
+  Eigen::VectorXd g(b.rows());
+  std::vector<Way> ways;
+  for (Eigen::Index i = 0; i < b.rows(); ++i) {
+    const Loose& l = loose[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < b.cols(); ++j) b(i, j) = given.rows[l.row].form.dot(motions.col(j));
+    g[i] = l.rate;
+    ways.push_back(l.way);
+  }
+  Eigen::VectorXd r = least_motion(b, g, ways, Eigen::VectorXd::Zero(b.cols()));
+  rates += motions * least_squares(b, Eigen::VectorXd(r - g));
+  const bool moves = r.cwiseAbs().maxCoeff() > same_rate * greatest_translation(rates, given.map);
+  if (moves && is_one_of_many(b, r, ways)) {
+    share.motion = motions.col(0);
+    for (const Loose& l : loose)
+      if (share.undetermined.empty() || share.undetermined.back() != l.contact)
+        share.undetermined.push_back(l.contact);
+  }
+  for (double& rate : r)
+    if (std::abs(rate) <= same_rate * r.cwiseAbs().maxCoeff()) rate = 0.0;
+  for (std::size_t j = 0; j < given.unknowns.size(); ++j) {
+    const Unknown& unknown = given.unknowns[j];
+    for (std::size_t i = 0; i < loose.size() && may[j]; ++i)
+      if (loose[i].row == static_cast<std::size_t>(unknown.row))
+        share.z[static_cast<Eigen::Index>(j)] = std::max(
+            0.0, unknown.sign * r[static_cast<Eigen::Index>(i)] * given.rows[loose[i].row].stiffness);
+  }
+  return share;
+}
+
+}  // namespace signorini

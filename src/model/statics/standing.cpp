@@ -1,0 +1,53 @@
+#include "model/statics/standing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+// Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
+// sixteen digits. Chosen.
+constexpr double same_force = 1e-11;
+
+}  // namespace
+
+Standing undeformed(const Contact& contact) {
+  Standing s;
+  const State pressed = contact.has_friction() ? State::stick : State::closed;
+  if (contact.is_pressed()) {
+    s.N = -contact.normal_force.value(0.0);
+    s.state = s.N == 0.0 ? State::open : pressed;
+  } else {
+    s.gap = std::max(0.0, contact.gap);
+    s.state = s.gap > 0.0 ? State::open : pressed;
+  }
+  return s;
+}
+
+double friction_of(const Contact& contact, const Standing& standing) {
+  const Friction& f = contact.friction;
+  return slip_sign(standing.state) != 0 ? f.kinetic : f.static_;
+}
+
+double margin_of(const Contact& contact, const Standing& standing, int s) {
+  return friction_of(contact, standing) * std::abs(standing.N) - s * standing.T;
+}
+
+double zero_force(const std::vector<Standing>& standing) {
+  double most = 0.0;
+  for (const Standing& s : standing) most = std::max({most, std::abs(s.N), std::abs(s.T)});
+  return same_force * most;
+}
+
+bool touching(const Contact& contact, const Standing& standing, double zero, double travelled) {
+  if (!contact.has_gap() || std::abs(standing.N) > zero) return false;
+  if (!is_open(standing.state)) return true;
+  const double rounded = rounding::of_many * (contact.gap + travelled);
+  return standing.gap <=
+         (contact.takes_impulses() ? same_force * travelled : zero / contact.normal_stiffness) + rounded;
+}
+
+}  // namespace signorini

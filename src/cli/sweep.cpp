@@ -85,6 +85,17 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
       fmt::format("{} {}, seed {}", count_of(sample.count, "sample"), options.sequence, sample.seed);
 }
 
+/// The state that the runs go on from, which stands in the files of another run.
+std::string text_of_state(const Scene& scene) {
+  std::string text;
+  if (!scene.run.initial.saved) return text;
+  const SavedState& state = *scene.run.initial.saved;
+  for (const auto& [name, value] : state.motions) text += fmt::format("{}={} ", name, value);
+  for (const auto& [name, value] : state.shears) text += fmt::format("{}={} ", name, value);
+  for (const auto& [name, value] : state.slips) text += fmt::format("{}={} ", name, value);
+  return text;
+}
+
 /// What the sweep is, with everything wrong that can be told before it starts: a path that no row can take is
 /// a wrong command line, a value that only some rows cannot take is a row.
 SweepSpec specify(const SweepOptions& options) {
@@ -102,7 +113,7 @@ SweepSpec specify(const SweepOptions& options) {
     changes.insert(changes.end(), point.begin(), point.end());
     try {
       const Scene scene = read_scene(options.scene, changes);
-      spec.fingerprint = fingerprint_of(scene.resolved);
+      spec.fingerprint = fingerprint_of(scene.resolved + text_of_state(scene));
       spec.title = scene.title;
       spec.units = scene.units;
       if (options.responses.empty()) return spec;
@@ -260,6 +271,8 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   for (std::size_t index = 0; index < directory.points().size(); ++index)
     if (spec.share.holds(index) && !directory.rows().contains(index)) tasks.push_back(index);
   const std::size_t kept = directory.rows().size();
+  if (kept > 0 && options.keep && !options.quiet)
+    print_note("--keep: rows that are there already keep what they have; --force computes them again");
   if (kept > 0 && !options.quiet)
     print_note(fmt::format("{} of {} there already, {} to go", count_of(kept, "row"), kept + tasks.size(),
                            tasks.size()));

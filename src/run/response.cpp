@@ -63,6 +63,27 @@ double magnitude_of(const Output& output, double t, Side side, const Point& poin
   return sum;
 }
 
+/// Of displacements and velocities alone.
+bool is_of_motion(const Output& output) { return output.a.terms.empty() && output.forces.empty(); }
+
+double fastest_of(const History& history) {
+  double omega = 0.0;
+  for (const Piece& piece : history.pieces())
+    if (piece.amplitude != 0.0) omega = std::max(omega, std::abs(piece.omega));
+  return omega;
+}
+
+/// rad per time.
+double fastest_of(const Model& model) {
+  double omega = model.omega_max;
+  for (const Load& load : model.loads) omega = std::max(omega, fastest_of(load.history));
+  for (const Contact& contact : model.contacts)
+    omega = std::max({omega, fastest_of(contact.normal_force), fastest_of(contact.surface_motion)});
+  for (const Output& output : model.outputs)
+    for (const History& given : output.given) omega = std::max(omega, fastest_of(given));
+  return omega;
+}
+
 }  // namespace
 
 double value_of(const Output& output, double t, Side side, const Point& point,
@@ -77,10 +98,11 @@ double value_of(const Output& output, double t, Side side, const Point& point,
   return sum;
 }
 
-ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder)
+ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense)
     : model_(model),
       recorder_(recorder),
-      radian_(model.omega_max > 0.0 ? 1.0 / model.omega_max : t_end),
+      radian_(1.0 / std::max(fastest_of(model), 1.0 / t_end)),
+      dense_(dense),
       extremes_(model.outputs.size()),
       magnitudes_(model.outputs.size()),
       samples_(model.outputs.size()) {}
@@ -138,7 +160,19 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
 void ResponseWatch::inside(Stepper& engine, double begin, double end) {
   if (!any() || !(end > begin)) return;
   std::vector<char> open;
-  for (const Output& output : model_.outputs) open.push_back(output.loss ? 0 : 1);
+  bool at_end = false;
+  for (const Output& output : model_.outputs) {
+    const bool between = !output.loss && (dense_ || is_of_motion(output));
+    open.push_back(between ? 1 : 0);
+    at_end = at_end || (!output.loss && !between);
+  }
+  if (at_end) {
+    engine.evaluate(end, point_);
+    engine.accelerate(end, point_);
+    for (std::size_t i = 0; i < open.size(); ++i)
+      if (open[i] == 0 && !model_.outputs[i].loss)
+        see(i, end, value_of(model_.outputs[i], end, Side::before, point_, none_));
+  }
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
   double from = begin;
   for (double k = 1.0; k <= pieces; ++k) {

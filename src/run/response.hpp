@@ -9,7 +9,8 @@
 //             else more points, else both halves, until no motion turns by more than a radian in a part
 //
 // The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average
-// acceleration in `newmark`. Losses only grow, so their extremes stand in rows.
+// acceleration in `newmark`, which is in equilibrium at the ends of its steps only: there stand its extremes of
+// forces and accelerations. Losses only grow, so their extremes stand in rows.
 #pragma once
 
 #include <vector>
@@ -26,7 +27,8 @@ namespace signorini {
 class ResponseWatch {
  public:
   /// Both must outlive it. Nothing is done where the model has no outputs.
-  ResponseWatch(const Model& model, double t_end, Recorder& recorder);
+  /// dense: between the ends of a step, too, forces and accelerations are in equilibrium with the motion.
+  ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense);
 
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
   /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.
@@ -57,7 +59,8 @@ class ResponseWatch {
 
   const Model& model_;
   Recorder& recorder_;
-  double radian_;  // of the fastest motion
+  double radian_;  // of the fastest motion or load
+  bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
   std::vector<double> values_, last_, before_, none_;

@@ -62,7 +62,7 @@ class Loop {
         samples_(model, spec, auditor_, recorder),
         motion_(model, spec.t_end, recorder),
         curves_(model, spec.t_end, recorder),
-        response_(model, spec.t_end, recorder),
+        response_(model, spec.t_end, recorder, name_of(spec.engine).accuracy != Accuracy::step),
         touches_(model.contacts.size()),
         standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),

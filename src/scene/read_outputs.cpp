@@ -50,7 +50,7 @@ void read_motion(Table& table, OutputSpec& output, const Space& space) {
 
 void read_quantity(Table& table, OutputSpec& output, const char* known) {
   if (!table.has("quantity")) table.fail("quantity", fmt::format("missing, expected one of {}", known));
-  const std::string word = table.choice("quantity");
+  const std::string word = table.text("quantity");
   constexpr std::pair<const char*, OutputQuantity> words[] = {
       {"N", OutputQuantity::N},      {"V", OutputQuantity::V},     {"M", OutputQuantity::M},
       {"T", OutputQuantity::T},      {"gap", OutputQuantity::gap}, {"slip", OutputQuantity::slip},

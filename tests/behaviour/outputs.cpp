@@ -662,6 +662,69 @@ stiffness = [[1.0, 0.0], [0.0, {:.17g}]]
   }
 }
 
+TEST_CASE("outputs: extremes that a load makes which is faster than every mode") {
+  const std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 10.0
+output_dt = 10.0
+[nodes]
+A = [0.0, 0.0]
+B = [1.0, 0.0]
+[[masses]]
+node = "A"
+mass = 1.0
+[[masses]]
+node = "B"
+mass = 1.0
+[[supports]]
+node = "A"
+fix = ["ux", "uy"]
+[[supports]]
+node = "B"
+fix = ["uy"]
+[[springs]]
+node = "B"
+direction = [1.0, 0.0]
+stiffness = 1.0
+[[loads]]
+node = "A"
+direction = [0.0, 1.0]
+amplitude = 1.0
+history = { type = "harmonic", omega = 100.0 }
+[[loads]]
+node = "A"
+direction = [0.0, 1.0]
+amplitude = 1.0
+history = { type = "harmonic", omega = 101.3, phase = 1.0 }
+)" + output("R", "reaction", "at = \"A\"\ndirection = [0.0, 1.0]");
+  double greatest = -10.0;
+  for (double t = 0.0; t <= 10.0; t += 1e-5)
+    greatest = std::max(greatest, -std::sin(100.0 * t) - std::sin(101.3 * t + 1.0));
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    const Computed c = compute(text, engine);
+    CHECK(std::abs(c.extremes("R").maximum - greatest) < 1e-6);  // the grid's own spacing squared
+  }
+}
+
+TEST_CASE(
+    "outputs: with newmark, too, a free end has no moment, and its extremes are those of rows at all steps") {
+  const std::string text = beam(clamped_at_A,
+                                "[[loads]]\nnode = \"B\"\ndirection = [0.0, -1.0]\namplitude = 7.0\n"
+                                "history = { type = \"half_sine\", start = 0.0, duration = 0.03 }\n" +
+                                    cut("end", "M", 1.0) + cut("M", "M", 0.4) +
+                                    output("u", "displacement", "at = \"B\"\ndirection = [0.0, 1.0]"));
+  const Computed c = compute(text, "newmark", {{"run.dt", "1e-4"}});
+  const Computed all = compute(text, "newmark", {{"run.dt", "1e-4"}, {"run.output_dt", "1e-4"}});
+  CHECK(c.extremes("M").minimum < -50.0);
+  CHECK(std::abs(c.extremes("end").maximum) < 1e-9);
+  CHECK(std::abs(c.extremes("end").minimum) < 1e-9);
+  double least = 0.0;
+  for (const auto& row : all.result.responses) least = std::min(least, row.values[all.index("M")]);
+  CHECK(c.extremes("M").minimum == doctest::Approx(least).epsilon(1e-10));
+}
+
 TEST_CASE("outputs: a scene turned, or in other units, has the same member forces") {
   const std::string wanted = cut("N", "N", 0.4) + cut("V", "V", 0.4) + cut("M", "M", 0.4);
   const auto scene = [&](const std::string& units, double L, double F, double c, double s) {

@@ -533,6 +533,34 @@ TEST_CASE("cli sweep: what is wrong with queries and samples is told before anyt
           "expected a number");
 }
 
+TEST_CASE(
+    "cli sweep: another state to go on from is another sweep; a row beyond the last is none of its own") {
+  const Shell shell;
+  std::string scene = sliding_block;
+  shell.write("first.toml", scene);
+  const std::string initial = "initial = { block = { vx = 1.0 } }";
+  scene.replace(scene.find(initial), initial.size(), "initial = { run = \"before\" }");
+  shell.write("then.toml", scene);
+  const auto before = [&](const char* t_end) {
+    return shell.run({"run", "first.toml", "-o", "before", "--force", "--no-plots", "--set",
+                      std::string("run.t_end=") + t_end});
+  };
+  const std::vector<std::string> sweep{"sweep",      "then.toml", "--vary", "contacts.floor.friction=0.2,0.3",
+                                       "--no-plots", "--quiet",   "-o",     "swept"};
+  REQUIRE(before("0.1").code == 0);
+  REQUIRE(shell.run(sweep).code == 0);
+  CHECK(shell.run(sweep).code == 0);
+  REQUIRE(before("0.05").code == 0);
+  const Ending other = shell.run(sweep);
+  CHECK(other.code == 6);
+  CHECK_MESSAGE(has(other.err, "has another content now"), other.err);
+  REQUIRE(before("0.1").code == 0);
+  shell.write("swept/rows/000021.json", shell.read("swept/rows/000001.json"));
+  const Ending beyond = shell.run(sweep);
+  CHECK(beyond.code == 6);
+  CHECK_MESSAGE(has(beyond.err, "000021.json: is no row of this sweep, which has 2"), beyond.err);
+}
+
 TEST_CASE("cli sweep: what another key would overwrite is refused, under whichever name") {
   const Shell shell;
   shell.write("block.toml", sliding_block);

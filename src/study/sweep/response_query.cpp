@@ -116,10 +116,10 @@ void Answers::sample(const Sample& sample) {
 
 double Answers::value(const ResponseQuery& query, std::size_t i, const Report& report) const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const bool done = report.outcome.kind == Outcome::Kind::done;
+  if (report.outcome.kind != Outcome::Kind::done) return none;  // of a part of the motion
   if (query.kind == Kind::count) return counts_[i];
   if (query.kind == Kind::residual) {
-    if (!done || last_slip_.empty()) return none;
+    if (last_slip_.empty()) return none;
     const std::size_t k = index_of(query.name, model_);
     return last_slip_[k] - first_slip_[k];
   }
@@ -145,7 +145,7 @@ double Answers::value(const ResponseQuery& query, std::size_t i, const Report& r
     case Kind::tmin:
       return e.t_minimum;
     default:
-      return done ? e.last : none;
+      return e.last;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <system_error>
 #include "base/json.hpp"
 
+#include "base/number.hpp"
 #include "base/version.hpp"
 #include "result/csv.hpp"
 #include "result/run_directory.hpp"
@@ -153,6 +154,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     remove_old(path_);
   }
   create(path_ / "rows");
+  check_rows();
   write_file(path_ / "sweep.json", json_text(spec_json(spec_)));
   read_rows();
 }
@@ -163,6 +165,14 @@ fs::path SweepDirectory::row_file(std::size_t index) const {
 
 fs::path SweepDirectory::run_directory(std::size_t index) const {
   return path_ / "runs" / fmt::format("{:06}", index + 1);
+}
+
+void SweepDirectory::check_rows() const {
+  for (const fs::path& file : old_rows(path_ / "rows")) {
+    const std::optional<long long> number = parse_integer(file.stem().string());
+    if (file.extension() == ".json" && number && static_cast<std::size_t>(*number) > points_.size())
+      throw FileError(file.string(), fmt::format("is no row of this sweep, which has {}", points_.size()));
+  }
 }
 
 void SweepDirectory::read_rows() {

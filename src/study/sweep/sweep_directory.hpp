@@ -66,6 +66,8 @@ class SweepDirectory {
 
  private:
   void read_rows();
+  /// Refuses rows beyond the last one.
+  void check_rows() const;
 
   std::filesystem::path path_;
   SweepSpec spec_;

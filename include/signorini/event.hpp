@@ -67,6 +67,9 @@ struct Event {
   /// How far t may be off, from one instant's error of the guard: delta / |g'|, or what higher derivatives
   /// give where the guard grazes. Errors carried along from earlier events are not in it.
   std::optional<double> t_uncertainty;
+  /// Of a rigid contact that touched: the speed with which it was to leave over that below which it rests
+  /// (capture_velocity, or flights lower than rounding). Above one it flew. No column of events.csv.
+  std::optional<double> departure;
 };
 
 struct EventColumn {

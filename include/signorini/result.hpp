@@ -170,6 +170,8 @@ struct Report {
   std::vector<OutputExtremes> response;        ///< one an output
   std::map<std::string, long> events_by_type;
   long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
+  /// When the first of them took states that fail by more than their rounding; empty: never.
+  std::optional<double> forgiven_at;
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration without reading and assembling
 };

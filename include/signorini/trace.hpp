@@ -44,7 +44,7 @@ using RoundListener = std::function<void(const Round&)>;
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               const RoundListener& listener);
 
-/// Why no mode was found, or none that is the only one.
+/// Why no mode was found, or none that is the only one; or why finding them does not get on.
 struct Refusal {
   enum class Kind : unsigned char {
     none,       ///< there is no refusal
@@ -54,6 +54,7 @@ struct Refusal {
     ambiguous,  ///< Painleve: several motions that differ do
     impact,     ///< an impact has no solution
     endless,    ///< rounds do not end, or no combination of states is consistent
+    standstill  ///< every instant has its states, but instant follows instant in no time
   } kind = Kind::none;
   std::string reason;                 ///< one sentence
   std::vector<std::size_t> contacts;  ///< concerned

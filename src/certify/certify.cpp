@@ -74,7 +74,7 @@ class CompanionTask {
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
   [[nodiscard]] Track track() {
-    Track track{std::move(tracker_.events), report_.outcome.t, ""};
+    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
@@ -162,7 +162,7 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   std::vector<std::string> names;
   for (const Contact& contact : model.contacts) names.push_back(contact.name);
   for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
-  const Track track{std::move(own.events), report.outcome.t, ""};
+  const Track track{std::move(own.events), report.outcome.t, "", report.forgiven_at};
   Verdict verdict = judge(track, tracks, plan.factor, names);
   BoundSettings settings{plan.factor, tolerance_of(model, run)};
   if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};

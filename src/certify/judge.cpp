@@ -27,6 +27,13 @@ struct Horizon {
 
 using Rows = std::vector<std::size_t>;
 
+/// What is known of a contact from its events before.
+struct Past {
+  double off = 0.0;                                                   // of the event before
+  std::vector<double> speeds = std::vector<double>(remembered, 0.0);  // differences R of the last ones
+  std::size_t next = 0;
+};
+
 /// Rows of the changes of each contact.
 std::vector<Rows> by_contact(const std::vector<TimedEvent>& events, std::size_t contacts) {
   std::vector<Rows> rows(contacts);
@@ -62,15 +69,20 @@ class Judge {
     const std::vector<Rows> other = by_contact(companion.events, names_.size());
     for (std::size_t k = 0; k < own.size(); ++k) {
       const std::size_t longest = std::max(own[k].size(), other[k].size());
-      double before = 0.0;  // by how much the partners of the event before differ
-      for (std::size_t i = 0; i < longest && pair(own[k], other[k], i, companion, before); ++i) {
+      Past past;
+      for (std::size_t i = 0; i < longest && pair(own[k], other[k], i, companion, past); ++i) {
       }
     }
+    for (const Track* track : {&run_, &companion})
+      if (track->forgiven_at)
+        horizon_.at(
+            *track->forgiven_at,
+            fmt::format("at t = {:.9g} rounding left several states of contacts open", *track->forgiven_at));
     if (companion.reached < run_.reached)
       horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
   }
 
-  bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, double& before) {
+  bool pair(const Rows& own, const Rows& other, std::size_t i, const Track& companion, Past& past) {
     const TimedEvent* a = i < own.size() ? &run_.events[own[i]] : nullptr;
     const TimedEvent* b = i < other.size() ? &companion.events[other[i]] : nullptr;
     if (a == nullptr || b == nullptr) {
@@ -80,11 +92,12 @@ class Judge {
                                           : "the companion has an event more, " + describe(*b));
       return false;
     }
-    const double off = b->t - a->t, change = std::abs(off - before);
-    before = off;
+    const double off = b->t - a->t, change = std::abs(off - past.off);
+    past.off = off;
     // The time since the contact's event before: errors that both share shift no event past another.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
     if (same(*a, *b) && factor_ * change <= 0.5 * since) {
+      if (!flies_or_rests(*a, *b, past)) return false;
       deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
       return true;
     }
@@ -96,6 +109,19 @@ class Judge {
     }
     horizon_.at(std::min(a->t, b->t),
                 fmt::format("{} stands against {} in the companion", describe(*a), describe(*b)));
+    return false;
+  }
+
+  /// False: by less than its speed may be off.
+  bool flies_or_rests(const TimedEvent& a, const TimedEvent& b, Past& past) {
+    const double r = a.departure, other = b.departure;
+    if (std::isnan(r) || std::isnan(other)) return true;
+    past.speeds[past.next++ % remembered] = std::abs(r - other) / std::max({r, other, 1.0});
+    const double off = factor_ * *std::max_element(past.speeds.begin(), past.speeds.end()) * std::max(r, 1.0);
+    if (off < std::abs(r - 1.0)) return true;
+    horizon_.at(std::min(a.t, b.t),
+                fmt::format("{} is left at {:.6g} of the slowest speed that flies, which is off by {:.2g}",
+                            describe(a), r, off));
     return false;
   }
 
@@ -169,7 +195,8 @@ TimedEvent timed(const Event& event) {
           event.type,
           event.from,
           event.to,
-          event.guard_rate.has_value()};
+          event.guard_rate.has_value(),
+          event.departure.value_or(none)};
 }
 
 Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,

@@ -7,11 +7,19 @@
 //
 //   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| > (t_i - t_i-1) / 2
 //
+// Or where a contact that touched rests or flies on by less than its speed may be off, r being that speed over
+// the slowest that flies (Event::departure), R_k the greatest of the contact's last five differences:
+//
+//   c R_k max(r, 1) >= |r - 1|        R: |r - r'| / max(r, r', 1)
+//
+// Both runs may decide such a thing alike, and wrongly. Or where rounding left several states open.
+//
 // Events of jumps of loads happen at a time that is known: their error is rounding, and D knows nothing of
 // them.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +40,7 @@ struct TimedEvent {
   EventType type = EventType::time;
   State from = State::open, to = State::open;
   bool fell = false;  ///< a guard fell; else a jump of a load changed the state
+  double departure = std::numeric_limits<double>::quiet_NaN();  ///< Event::departure; NaN: there is none
 
   /// Of a contact's state; else a load jumped.
   [[nodiscard]] bool is_change() const { return contact >= 0 && type != EventType::time; }
@@ -43,6 +52,8 @@ struct Track {
   std::vector<TimedEvent> events;
   double reached = 0.0;
   std::string stop;  ///< why it reached no more; empty at t_end
+  /// When rounding first left several states open (Report::forgiven_at).
+  std::optional<double> forgiven_at = {};
 };
 
 struct Verdict {

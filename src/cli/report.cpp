@@ -242,12 +242,15 @@ std::string certification(const Model& model, const CertifiedReport& run) {
     if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
   const std::string beside =
       fmt::format("beside {}, {:.2f} s and {:.2f} s of waiting", c.companion, c.wall_time, c.wait);
-  if (c.complete && c.t_errors.empty()) return fmt::format("certain to the end: no event ({})\n", beside);
+  const std::string to_end =
+      run.report.outcome.kind == Outcome::Kind::done
+          ? "certain to the end"
+          : fmt::format("certain to t = {:.9g} {}, where the run ended", c.until, model.units.time);
+  if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
   const std::string times = fmt::format("times within {:.1e} {}", greatest, model.units.time);
   std::string text =
       c.complete
-          ? fmt::format("certain to the end: all {} rows of events, {} ({})\n", c.t_errors.size(), times,
-                        beside)
+          ? fmt::format("{}: all {} rows of events, {} ({})\n", to_end, c.t_errors.size(), times, beside)
           : fmt::format("certain until t = {:.9g} {}: {} of {} rows of events, {} ({}); then {}\n", c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)

@@ -19,9 +19,11 @@ using Eigen::VectorXd;
 
 // How far a solution may miss its conditions, of the problem's size.
 constexpr double misses = rounding::of_elimination;
-// Responses that differ by less, of the problem's size, are the same. Chosen: above what a condition of 1e6
-// makes of `misses`, far below what differs in Painleve's paradox.
+// Responses that differ by less, of the problem's size, are the same; or by what the condition of their own
+// equations makes of `misses`. Chosen: far below what differs in Painleve's paradox.
 constexpr double same_solution = 1e-9;
+// Up to this condition; what is worse is not decided by equality.
+constexpr double most_amplified = 1e8;
 
 /// The problem in units that make the diagonal of W one.
 struct Scaled {
@@ -231,6 +233,12 @@ bool fulfils(const CoulombProblem& p, const Scaled& s, const VectorXd& x, const 
   return true;
 }
 
+/// By how many times its size what a combination misses may move its solution.
+double amplification(const MatrixXd& equations) {
+  const VectorXd values = singular_values(equations);
+  return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
+}
+
 /// Items that slip although their coefficient is still the static one.
 bool mark_slipping(const CoulombProblem& p, const Scaled& s, const VectorXd& x, std::vector<bool>& kinetic) {
   const VectorXd r = s.b + s.W * x;
@@ -261,6 +269,7 @@ Enumerated all_solutions(const CoulombProblem& p) {
     combinations *= options.back().size();
   }
   double least = std::numeric_limits<double>::infinity();
+  std::vector<double> conditions;  // of those found
   std::vector<Try> states(p.items.size());
   for (std::size_t code = 0; code < combinations; ++code) {
     std::size_t rest = code;
@@ -275,13 +284,18 @@ Enumerated all_solutions(const CoulombProblem& p) {
     least = std::min(least, tried.miss);
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
-    const bool known = std::any_of(found.begin(), found.end(), [&](const CoulombSolution& other) {
-      const double size =
-          s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other.response).cwiseAbs().maxCoeff();
-      return inverse.cwiseProduct(solution.response - other.response).cwiseAbs().maxCoeff() <=
-             same_solution * size;
-    });
-    if (!known) found.push_back(std::move(solution));
+    // Two at the limit of friction are one motion: close to Painleve's limit what they miss moves them far.
+    const double condition = std::min(amplification(equations_of(p, s, states, kinetic).A), most_amplified);
+    bool known = false;
+    for (std::size_t k = 0; k < found.size() && !known; ++k) {
+      const VectorXd& other = found[k].response;
+      const double size = s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other).cwiseAbs().maxCoeff();
+      const double same = std::max(same_solution, misses * std::max(condition, conditions[k]));
+      known = inverse.cwiseProduct(solution.response - other).cwiseAbs().maxCoeff() <= same * size;
+    }
+    if (known) continue;
+    found.push_back(std::move(solution));
+    conditions.push_back(condition);
   }
   all.least_miss = found.empty() ? least / rounding::eps : 0.0;
   return all;
@@ -300,10 +314,7 @@ std::optional<CoulombSolution> solve(const CoulombProblem& p) {
   return std::move(all.solutions.front());
 }
 
-double condition_of(const CoulombProblem& p) {
-  const VectorXd values = singular_values(scaled(p).W);
-  return values.size() > 0 ? values[0] / values[values.size() - 1] : 1.0;
-}
+double condition_of(const CoulombProblem& p) { return amplification(scaled(p).W); }
 
 bool may_have_many(const CoulombProblem& p) {
   const Scaled s = scaled(p);

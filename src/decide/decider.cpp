@@ -41,16 +41,6 @@ std::string what_makes_unique(const Model& model, const std::vector<std::size_t>
                            : "law = \"compliant\"";
 }
 
-/// "'first' stick, 'second' slip+": of the contacts in question.
-std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
-                         const Mode& mode) {
-  std::string text;
-  for (const Enumeration::Choice& choice : choices)
-    text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
-                        to_string(mode[choice.contact].state));
-  return text;
-}
-
 }  // namespace
 
 struct Decider::Course {
@@ -221,16 +211,15 @@ Refusal Decider::enumerate(std::size_t block, Course& course) {
   refusal.residual = best->forgiveness;
   if (!best->rival.empty()) {
     refusal.kind = Refusal::Kind::ambiguous;
-    refusal.reason = fmt::format(
-        "several motions continue this one, as {} and as {}; guards that fail in the last that was tried: {}",
-        named_states(model_, choices, best->mode), named_states(model_, choices, best->rival),
-        names_of(model_, course.failed));
+    refusal.reason = fmt::format("{}; guards that fail in the last that was tried: {}",
+                                 several_motions(model_, choices, *best), names_of(model_, course.failed));
   }
   if (!best->acceptable()) return refusal;
   course.mode = best->mode;
   for (const std::size_t c : blocks_[block]) course.found.known[c] = course.found.known[c].of_motion();
   course.undecided.push_back(block);
   course.decision.undecided = true;
+  course.decision.forgiven = std::max(course.decision.forgiven, best->forgiveness);
   return {};
 }
 
@@ -274,7 +263,7 @@ void Decider::note_hits(Course& course) const {
 }
 
 /// The next mode, from the guards that failed in the last one.
-Refusal Decider::try_next(Course& course) {
+Refusal Decider::propose(Course& course) {
   Decision& d = course.decision;
   const std::vector<Block> jointly = react(course);
   course.found.hit = false;
@@ -292,7 +281,21 @@ Refusal Decider::try_next(Course& course) {
   if (again && !(course.instant.start && d.rounds == 1))
     if (Refusal why = leave_circle(course)) return why;
   course.seen.push_back(course.mode);
+  return {};
+}
+
+/// The next mode, and its motion. A slider that has come to rest beside what sticks need not stick: where the
+/// rows of both are dependent they are decided together.
+Refusal Decider::try_next(Course& course) {
+  const Mode last = course.mode;
+  if (Refusal why = propose(course)) return why;
   if (evaluate(course.after, course.mode, course)) return {};
+  if (!course.found.hit && !std::exchange(course.found.sliders, true)) {
+    course.seen.pop_back();
+    course.mode = last;
+    if (Refusal why = propose(course)) return why;
+    if (evaluate(course.after, course.mode, course)) return {};
+  }
   Refusal why = dependent_rows(contacts_of(course.failed));
   why.reason += fmt::format(" (after {}); {} makes them so", names_of(model_, course.failed),
                             what_makes_unique(model_, why.contacts));
@@ -333,6 +336,7 @@ bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardSta
 void Decider::finish(Course& course) const {
   Decision& d = course.decision;
   d.consistent = true;
+  d.departures = course.found.departures;
   d.slides_after = slides(course.after, d);
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
@@ -382,6 +386,11 @@ Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& 
   instant.low_flights = true;
   Decision flying = attempt(instant, before, after, grounded);
   return flying.refusal ? decision : flying;
+}
+
+Refusal Decider::standstill(const Decision& last, std::vector<std::size_t> contacts, std::string reason) {
+  const double condition = Enumeration(systems_, jets_).condition(contacts, last.mode);
+  return {Refusal::Kind::standstill, std::move(reason), std::move(contacts), condition, last.forgiven};
 }
 
 Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing& forcing) {

@@ -28,6 +28,10 @@ class Decider {
   /// forces and accelerations that follow from them, the same before and after.
   [[nodiscard]] Decision adopt(const Instant& instant, const Mode& mode, const Forcing& forcing);
 
+  /// Why a run ends whose instants take no time, the last of them decided like this.
+  [[nodiscard]] Refusal standstill(const Decision& last, std::vector<std::size_t> contacts,
+                                   std::string reason);
+
   /// Hears of every mode that is tried.
   void trace(RoundListener listener) { listener_ = std::move(listener); }
 
@@ -43,6 +47,7 @@ class Decider {
   void stop(const std::vector<std::size_t>& turning, Course& course) const;
   [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);
   void note_hits(Course& course) const;
+  [[nodiscard]] Refusal propose(Course& course);
   [[nodiscard]] Refusal try_next(Course& course);
   static bool blur(Course& course);
   [[nodiscard]] Refusal leave_circle(Course& course);

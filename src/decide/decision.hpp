@@ -42,12 +42,14 @@ struct Decision {
   std::vector<bool> visited;         ///< contacts that changed state in between, one a contact
   std::vector<bool> jumped;          ///< contacts whose N or T jumps
   std::vector<Impulse> impulses;     ///< one a contact, where rigid contacts were hit; else empty
+  std::vector<double> departures;    ///< Findings::departures
   double impact_loss = 0.0;          ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;  ///< that moving surfaces do in them
   bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
   /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
   /// friction.
   bool undecided = false;
+  double forgiven = 0.0;  ///< by how many of their roundings those states fail
   int rounds = 0;
 };
 

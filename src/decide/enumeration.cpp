@@ -1,10 +1,14 @@
 #include "decide/enumeration.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "contact/motion.hpp"
 #include "decide/delassus.hpp"
+#include "decide/places.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
@@ -23,7 +27,23 @@ void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mo
   }
 }
 
+/// "'first' stick, 'second' slip+": of the contacts in question.
+std::string named_states(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                         const Mode& mode) {
+  std::string text;
+  for (const Enumeration::Choice& choice : choices)
+    text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", model.contacts[choice.contact].name,
+                        to_string(mode[choice.contact].state));
+  return text;
+}
+
 }  // namespace
+
+std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                            const Enumeration::Best& best) {
+  return fmt::format("several motions continue this one, as {} and as {}",
+                     named_states(model, choices, best.mode), named_states(model, choices, best.rival));
+}
 
 bool Enumeration::Best::acceptable() const {
   return rival.empty() && forgiveness <= std::max(1.0, condition);
@@ -76,17 +96,18 @@ std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, c
   return result;
 }
 
-/// Of what the forces do to the accelerations when all of them are open.
-double Enumeration::condition(const std::vector<Choice>& choices, Mode mode) {
-  std::vector<std::size_t> contacts;
-  CoulombProblem problem;
-  for (const Choice& choice : choices) {
-    contacts.push_back(choice.contact);
-    mode[choice.contact] = {State::open, 0.0};
+double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mode) {
+  std::vector<Eigen::Index> rows;  // those of forces that there are
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = model_.contacts[contacts[i]];
+    if (contact.has_gap()) rows.push_back(normal_place(i));
+    if (contact.has_friction()) rows.push_back(tangent_place(i));
+    mode[contacts[i]] = {State::open, 0.0};
   }
   const ModeSystemPtr system = systems_.of(mode);
-  if (!system) return 1.0;
-  problem.W = delassus(model_, *system, contacts).W;
+  if (!system) return std::numeric_limits<double>::quiet_NaN();
+  CoulombProblem problem;
+  problem.W = delassus(model_, *system, contacts).W(rows, rows);
   problem.b = Eigen::VectorXd::Zero(problem.W.rows());
   return condition_of(problem);
 }
@@ -116,7 +137,10 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
   for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
     if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest))
       best->rival = holding[i].first;
-  if (best) best->condition = condition(choices, mode);
+  if (!best) return best;
+  std::vector<std::size_t> contacts;
+  for (const Choice& choice : choices) contacts.push_back(choice.contact);
+  best->condition = condition(contacts, mode);
   return best;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "decide/touching.hpp"
 
@@ -45,6 +46,9 @@ class Enumeration {
                                                   const Block& block, const std::vector<Choice>& choices,
                                                   const std::vector<KnownGuards>& known, const Mode& mode);
 
+  /// Of W of the forces that these contacts can bear, all of them open. NaN: unknown.
+  [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, Mode mode);
+
  private:
   struct Weighed {
     double forgiveness = 0.0;
@@ -53,11 +57,13 @@ class Enumeration {
   [[nodiscard]] std::optional<Weighed> weigh(const Instant& instant, const Forcing& forcing,
                                              const Block& block, const std::vector<KnownGuards>& known,
                                              const Mode& mode);
-  [[nodiscard]] double condition(const std::vector<Choice>& choices, Mode mode);
-
   const Model& model_;
   ModeSystems& systems_;
   JetMaker& jets_;
 };
+
+/// "several motions continue this one, as 'first' stick, 'second' slip+ and as ...": of a best that has a rival.
+[[nodiscard]] std::string several_motions(const Model& model, const std::vector<Enumeration::Choice>& choices,
+                                          const Enumeration::Best& best);
 
 }  // namespace signorini

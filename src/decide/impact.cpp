@@ -57,6 +57,7 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
           Eigen::VectorXd(2 * m),
           {},
           Eigen::VectorXd(m),
+          {},
           {}};
   hit.problem.W = hit.d.W;
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -79,6 +80,7 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
 /// Velocities after; rebounds slower than capture_velocity are none. False: there is no solution.
 bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const {
   const Eigen::Index m = hit.restitution.size();
+  hit.rebound = Eigen::VectorXd::Constant(m, std::numeric_limits<double>::quiet_NaN());
   for (bool captured = true; captured;) {  // ends: each round captures one more contact
     captured = false;
     hit.problem.b = hit.before;
@@ -90,9 +92,9 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];
       const double slowest = contact.capture_velocity.value_or(capture_velocity_);
-      if (hit.restitution[i] == 0.0 || !(hit.before[normal_place(i)] < 0.0) ||
-          hit.after[normal_place(i)] >= slowest)
-        continue;
+      if (hit.restitution[i] == 0.0 || !(hit.before[normal_place(i)] < 0.0)) continue;
+      hit.rebound[i] = hit.after[normal_place(i)] / slowest;
+      if (hit.after[normal_place(i)] >= slowest) continue;
       hit.restitution[i] = 0.0;
       captured = true;
     }
@@ -133,6 +135,7 @@ void Impacts::balance(const Forcing& forcing, double t, const Mode& mode,
     impulse.hit = n > 0.0 && mode[c].is_open();
     impulse.normal = n;
     impulse.tangent = k;
+    impulse.rebound = hit.rebound[i];
     const double normal = 0.5 * n * (hit.before[normal_place(i)] + hit.after[normal_place(i)]);
     const double tangent = 0.5 * k * (hit.before[tangent_place(i)] + hit.after[tangent_place(i)]);
     impact.loss -= normal + tangent;

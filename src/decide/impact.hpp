@@ -11,6 +11,8 @@
 // Source: Newton 1687; Moreau 1988 for the simultaneous problem; Glocker 2001, chapter 8.
 #pragma once
 
+#include <limits>
+
 #include "decide/coulomb_problem.hpp"
 #include "decide/delassus.hpp"
 #include "motion/forcing.hpp"
@@ -24,6 +26,8 @@ struct Impulse {
   bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
   double normal = 0.0, tangent = 0.0;
   bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
+  /// Its rebound over capture_velocity; less than one: it was captured. NaN: it has none.
+  double rebound = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Impact {
@@ -52,6 +56,7 @@ class Impacts {
     Delassus d;
     CoulombProblem problem;
     Eigen::VectorXd before, size, after, restitution;  // size: sum of the terms of `before`
+    Eigen::VectorXd rebound;                           // Impulse::rebound, one a contact that touches
     std::optional<CoulombSolution> solution;
   };
   [[nodiscard]] Hit meet(const Forcing& forcing, double t, const ModeSystem& system,

@@ -32,7 +32,9 @@ struct Instant {
   bool jump = false;   ///< the forcing is not smooth here
   double blur = 1.0;   ///< times the noise of a jet, below which its entries are zero
   bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
-  /// A flight lower than the rounding of its gap is flown, not taken as rest: a series knows it all the same.
+  /// Flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
+  bool knows_low_flights = false;
+  /// Flights are flown that would be taken as rest, since they are slower than capture_velocity or not known.
   bool low_flights = false;
 
   [[nodiscard]] bool has_fired(std::size_t contact, Guard guard) const { return has(fired, contact, guard); }

@@ -18,6 +18,8 @@ const char* to_string(Refusal::Kind kind) {
       return "impact";
     case Refusal::Kind::endless:
       return "endless";
+    case Refusal::Kind::standstill:
+      return "standstill";
   }
   return "?";
 }

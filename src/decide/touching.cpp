@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/rounding.hpp"
 
@@ -41,19 +42,24 @@ double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const 
 }
 
 /// A contact with g = 0 that is pulled back stays where its flight would be shorter than the clock resolves.
-/// It is low where that would be lower than the rounding of its gap, or a lift below capture_velocity.
-Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, const Instant& instant) const {
+/// It is low where the lift is below capture_velocity, or the flight lower than the rounding of its gap and
+/// nobody knows such flights. fell: its acceleration towards the ground before; where all that touch fall freely
+/// together nothing seems to pull it back.
+Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, double fell,
+                                        const Instant& instant) const {
   const Contact& contact = model_.contacts[c];
   const ContactMotion &m = free.motion[0], &noise = free.noise[0];
-  const double pull = -m.an;
+  const double pull = std::max(-m.an, fell);
   // What stands still moves by the rounding of its equilibrium, not of its velocity.
   const double rounding =
       instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
-  if (m.vn <= rounding) return Departure::stays;
-  if (!(pull > 0.0)) return Departure::leaves;
-  const double low =
-      std::max(std::sqrt(2.0 * pull * noise.gap), contact.capture_velocity.value_or(capture_velocity_));
-  return m.vn <= rounding + low ? Departure::low : Departure::leaves;
+  if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::How::stays : Departure::How::leaves};
+  double low = contact.capture_velocity.value_or(capture_velocity_);
+  if (!instant.knows_low_flights)
+    low = std::max(low, std::sqrt(2.0 * pull * std::max(noise.gap, std::abs(m.gap))));
+  const double ratio = m.vn / (rounding + low);
+  if (m.vn <= rounding) return {Departure::How::stays, ratio};
+  return {m.vn <= rounding + low ? Departure::How::low : Departure::How::leaves, ratio};
 }
 
 /// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
@@ -181,9 +187,13 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     const ContactMotion &m = free[c].motion[0], &noise = free[c].noise[0];
     const Impulse struck = met.hit ? decision.impulses[c] : Impulse{};
     if (!struck.rests && !found.stays[c]) {
-      const Departure how = departure(c, free[c], instant);
-      if (how == Departure::leaves || (how == Departure::low && instant.low_flights)) continue;
-      found.grounded = found.grounded || how == Departure::low;
+      using How = Departure::How;
+      const bool open = instant.mode[c].is_open();
+      const double fell = open ? -decision.before[c].an : 0.0;
+      const auto [how, ratio] = departure(c, free[c], fell, instant);
+      found.departures[c] = ratio;
+      if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
+      found.grounded = found.grounded || how == How::low;
     }
     found.stays[c] = true;
     const double zero =
@@ -199,17 +209,66 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
   }
 }
 
-/// Sliders whose friction has let go or has stopped them.
-void Touching::add_sliders(const Block& block, const Decision& decision, Findings& found) const {
+/// Sliders whose friction has let go or has stopped them, where they join; and those that a hit has stopped.
+void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                           const Mode& mode, const Decision& decision, Findings& found) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (contact.has_gap() || !contact.sticks_rigidly() || !decision.visited[c]) continue;
+    if (contact.has_gap() || !contact.sticks_rigidly()) continue;
+    const double vt = contact.tangent.dot(instant.v) - forcing.surface(c, instant.t, 1);
+    const bool stopped =
+        met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
+    if (!stopped && !(found.sliders && decision.visited[c])) continue;
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
     who.kinetic = found.kinetic[c];
     found.known[c] = found.known[c].of_motion();
     found.participants.push_back(who);
   }
+}
+
+/// Sliders that stick rigidly and would be held besides: what must be found may need them to let go. False:
+/// there are none.
+bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const {
+  std::vector<Participant> all;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::copy_if(found.participants.begin(), found.participants.end(), std::back_inserter(all),
+                 [&](const Participant& who) { return who.block == b; });
+    for (const std::size_t c : blocks[b]) {
+      const Contact& contact = model_.contacts[c];
+      const bool takes_part =
+          std::any_of(all.begin(), all.end(), [&](const Participant& who) { return who.contact == c; });
+      if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].state != State::stick || takes_part)
+        continue;
+      Participant who{c};
+      who.sliding_friction = sliding_friction(contact, 0.0);
+      who.kinetic = found.kinetic[c];
+      who.block = b;
+      all.push_back(who);
+    }
+  }
+  const bool some = all.size() > found.participants.size();
+  if (some) found.participants = std::move(all);
+  return some;
+}
+
+/// Where no motion goes on, several do, or rows are dependent, as long as sliders beside are held, they are
+/// decided with the rest.
+Refusal Touching::solve_levels(const Instant& instant, const Forcing& forcing,
+                               const std::vector<Block>& blocks, const Mode& old, Findings& found,
+                               Mode& mode) {
+  const Mode held = mode;
+  const std::vector<KnownGuards> known = found.known;
+  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  const bool painleve = refusal.kind == Refusal::Kind::paradox || refusal.kind == Refusal::Kind::ambiguous;
+  const bool dependent = refusal ? refusal.kind == Refusal::Kind::dependent : systems_.of(mode) == nullptr;
+  if (!(painleve || dependent) || !add_sticking(blocks, held, found)) return refusal;
+  mode = held;
+  found.known = known;
+  for (const Participant& who : found.participants)
+    if (!model_.contacts[who.contact].has_gap()) found.known[who.contact] = known[who.contact].of_motion();
+  const Refusal together = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  return together ? refusal : Refusal{};
 }
 
 Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::vector<MotionJet>& jets,
@@ -248,12 +307,12 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
     add_staying(instant, forcing, all[b], free, decision, found);
     while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
       if (!slide_anew(instant, forcing, all[b], found)) break;
-    if (found.sliders) add_sliders(blocks[b], decision, found);
+    add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
   decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
-  Refusal refusal = levels_.decide(instant, forcing, found.participants, old, mode, found.known);
+  Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
   for (const Participant& who : found.participants) {
     found.decided[who.contact] = true;
     if (mode[who.contact] != old[who.contact]) decision.visited[who.contact] = true;

@@ -10,6 +10,8 @@
 // Blocks of contacts that nothing couples are decided each on its own, at the price of one motion for all.
 #pragma once
 
+#include <limits>
+
 #include "decide/decision.hpp"
 #include "decide/guard_signs.hpp"
 #include "decide/levels.hpp"
@@ -22,13 +24,20 @@ using Block = std::vector<std::size_t>;
 /// What is known at an instant of the contacts whose forces may jump; lists: one entry a contact.
 struct Findings {
   explicit Findings(std::size_t n)
-      : decided(n, false), kinetic(n, false), stays(n, false), rests(n, false), known(n) {}
-  bool hit = false;                       ///< the last decision began with an impact
-  bool sliders = false;                   ///< sliders that stick rigidly take part
-  bool grounded = false;                  ///< a flight was taken as rest for its height alone
-  std::vector<bool> decided;              ///< took part
-  std::vector<bool> kinetic;              ///< its slip has begun: the static coefficient is gone
-  std::vector<bool> stays, rests;         ///< vn, vt count as zero
+      : decided(n, false),
+        kinetic(n, false),
+        stays(n, false),
+        rests(n, false),
+        departures(n, std::numeric_limits<double>::quiet_NaN()),
+        known(n) {}
+  bool hit = false;                ///< the last decision began with an impact
+  bool sliders = false;            ///< sliders that stick rigidly take part
+  bool grounded = false;           ///< a flight was taken as rest for its height alone
+  std::vector<bool> decided;       ///< took part
+  std::vector<bool> kinetic;       ///< its slip has begun: the static coefficient is gone
+  std::vector<bool> stays, rests;  ///< vn, vt count as zero
+  /// The speed of leaving over that below which a contact stays; NaN: nobody asked.
+  std::vector<double> departures;
   std::vector<KnownGuards> known;         ///< of those that touch
   std::vector<Participant> participants;  ///< of the last decision
 };
@@ -59,7 +68,8 @@ class Touching {
                                Findings& found, Decision& decision, Mode& mode);
   void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
                    const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
-  void add_sliders(const Block& block, const Decision& decision, Findings& found) const;
+  void add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
+                   const Mode& mode, const Decision& decision, Findings& found) const;
   void follow_velocity(const Instant& instant, const Forcing& forcing, const Block& block,
                        const std::vector<ContactMotion>& before, Mode& mode) const;
   [[nodiscard]] bool settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
@@ -68,9 +78,17 @@ class Touching {
                                 Findings& found) const;
   [[nodiscard]] double rounding_of_slide(std::size_t contact, const Forcing& forcing,
                                          const Instant& instant) const;
-  /// What becomes of a contact with g = 0 by its g'.
-  enum class Departure : unsigned char { stays, low, leaves };  // low: it would, but below its rounding
-  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, const Instant& instant) const;
+  [[nodiscard]] bool add_sticking(const std::vector<Block>& blocks, const Mode& mode, Findings& found) const;
+  [[nodiscard]] Refusal solve_levels(const Instant& instant, const Forcing& forcing,
+                                     const std::vector<Block>& blocks, const Mode& old, Findings& found,
+                                     Mode& mode);
+  /// What becomes of a contact with g = 0 by its g', and that over the greatest with which it would stay.
+  struct Departure {
+    enum class How : unsigned char { stays, low, leaves } how;  // low: it would, but below its rounding
+    double ratio = std::numeric_limits<double>::quiet_NaN();    // NaN: no speed is too low
+  };
+  [[nodiscard]] Departure departure(std::size_t contact, const MotionJet& free, double fell,
+                                    const Instant& instant) const;
 
   const Model& model_;
   ModeSystems& systems_;

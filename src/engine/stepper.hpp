@@ -63,6 +63,10 @@ class Stepper {
   [[nodiscard]] virtual double guard_error(const Form& form, const ContactMotion& motion,
                                            std::size_t contact) const = 0;
 
+  /// Whether a flight that begins with g = 0 and stays lower than the rounding of its gap is known: to a
+  /// series. Else its landing is as late as that rounding makes it, and it lands faster than it left.
+  [[nodiscard]] virtual bool knows_low_flights() const { return false; }
+
   /// Times inside the last step where N, T, g or ut of a contact turns beyond all its values before.
   [[nodiscard]] virtual const std::vector<double>& turning_points() const {
     static const std::vector<double> none;

@@ -20,6 +20,19 @@ bool is_hit(const Decision& decision, std::size_t k) {
   return !decision.impulses.empty() && decision.impulses[k].hit;
 }
 
+/// What decided between rest and flight: the ratio that is nearest to one, of the rebound and of what came
+/// after.
+std::optional<double> departure_of(const Decision& decision, std::size_t k) {
+  const auto known = [](double ratio) { return std::isfinite(ratio) && ratio > 0.0; };
+  const double rebound =
+      decision.impulses.empty() ? std::numeric_limits<double>::quiet_NaN() : decision.impulses[k].rebound;
+  const double left =
+      decision.departures.empty() ? std::numeric_limits<double>::quiet_NaN() : decision.departures[k];
+  if (!known(rebound)) return known(left) ? std::optional(left) : std::nullopt;
+  if (!known(left) || rebound < 1.0) return rebound;
+  return std::abs(std::log(left)) < std::abs(std::log(rebound)) ? left : rebound;
+}
+
 /// What the decision knows of a contact; the guard is left out.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool has_gap) {
   const Decision& decision = *now.decision;
@@ -43,6 +56,7 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool
   event.vn_after = after.vn;
   event.vt = decision.slides_before[k].vt;
   event.vt_after = decision.slides_after[k].vt;
+  event.departure = departure_of(decision, k);
   return event;
 }
 

@@ -96,6 +96,7 @@ Sample physical(Sample sample, const Factors& of) {
 Report physical(Report report, const Factors& of) {
   const ToScene convert(of);
   convert(unit::time, {&report.outcome.t});
+  if (report.forgiven_at) convert(unit::time, {&*report.forgiven_at});
   convert(report.audit);
   for (Peak& peak : report.peaks) {
     convert(unit::length, {&peak.horizontal, &peak.vertical});

@@ -100,6 +100,7 @@ class Loop {
     now.v = model_.v0;
     now.resolution = resolution_at(0.0, 0.0);
     now.start = true;
+    now.knows_low_flights = engine_->knows_low_flights();
     now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     const Mode guessed = now.mode;
     decision_ = decider_.decide(std::move(now), forcing_, forcing_);
@@ -171,11 +172,10 @@ class Loop {
     if (response_.any()) engine_->accelerate(t_, point_);  // under the forcing before
     Instant now;
     now.resolution = resolution_;
+    now.knows_low_flights = engine_->knows_low_flights();
     now.u = point_.u;
     now.v = point_.v;
     now.mode = decision_.mode;
-    std::vector<std::size_t> changed;
-    for (const Fired& f : fired) changed.push_back(f.contact);
     motion_.before(t_, auditor_, forcing_, decision_.mode, point_);
     if (curves_.wanted()) add_curves(t_, t_);
     now.fired = std::move(fired);
@@ -185,8 +185,9 @@ class Loop {
     const bool load_jumps = !adopted && pass_breakpoints(now);
     now.t = t_;
     if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
-    if (const auto why = standstill_.count(t_, resolution_))
-      return stop(*why + "; last: " + names_of(model_, now.fired));
+    std::vector<std::size_t> changed = concerned(now, adopted);
+    auto stands = standstill_.count(t_, resolution_, changed);
+    if (stands) *stands += "; last: " + names_of(model_, now.fired);
     std::optional<Forcing> before;
     const bool all = now.jump;
     if (all) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
@@ -194,9 +195,10 @@ class Loop {
     const std::vector<Fired> observed = observer_ ? now.fired : std::vector<Fired>{};
     Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
-    if (!next.consistent) {
+    if (!next.consistent || stands) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
-      return refuse(next.refusal);
+      return refuse(!next.consistent ? next.refusal
+                                     : decider_.standstill(next, standstill_.contacts(), std::move(*stands)));
     }
     if (observer_)
       observer_->instant(
@@ -212,6 +214,16 @@ class Loop {
       if (decision_.mode[k].state != old_mode[k].state) changed.push_back(k);
     take_decision(all ? std::nullopt : std::optional(std::move(changed)));
     return true;
+  }
+
+  /// Contacts whose guards fell, or whose states the engine has changed.
+  [[nodiscard]] std::vector<std::size_t> concerned(const Instant& now,
+                                                   const std::optional<Mode>& adopted) const {
+    std::vector<std::size_t> contacts;
+    for (const Fired& f : now.fired) contacts.push_back(f.contact);
+    for (std::size_t k = 0; adopted && k < adopted->size(); ++k)
+      if ((*adopted)[k].state != now.mode[k].state) contacts.push_back(k);
+    return contacts;
   }
 
   /// Puts the clock on the breakpoints of this instant, if any. True: a load jumps at one of them.
@@ -230,6 +242,7 @@ class Loop {
   /// changed: contacts whose states or velocities have; absent: perhaps all.
   void take_decision(const std::optional<std::vector<std::size_t>>& changed) {
     if (decision_.undecided) ++report_.undecided;
+    if (decision_.forgiven > 0.0 && !report_.forgiven_at) report_.forgiven_at = t_;
     point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);

@@ -54,7 +54,8 @@ TEST_SUITE("behaviour/awkward") {
   }
 
   TEST_CASE("a million tonnes on a rigid floor") {
-    const Result exact = run("point-1e9kg", "exact");
+    // Rebounds rest below a velocity that follows rtol, in exact, too.
+    const Result exact = run("point-1e9kg", "exact", {{"run.rtol", "1e-10"}});
     CHECK(exact.events.size() > 10);
     check_events(exact, run("point-1e9kg", "ida", {{"run.rtol", "1e-10"}}), 1e-6);
   }

@@ -183,4 +183,135 @@ TEST_CASE("scales do not turn with the scene") {
   }
 }
 
+// Flights lower than the rounding of n . u, two metres along, ended a thousand times above capture_velocity.
+TEST_CASE("a ball that slides while it bounces to rest has all its hits at every angle") {
+  const auto ball = [](double degrees) {
+    const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+    return fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n"
+        "gravity = [{:.17g}, {:.17g}]\n[run]\nt_end = 1.2\noutput_dt = 0.4\ninitial = {{ P = {{ ux = "
+        "{:.17g}, "
+        "uy = {:.17g}, vx = {:.17g}, vy = {:.17g} }} }}\n[nodes]\nP = [0.0, 0.0]\n[[masses]]\nnode = \"P\"\n"
+        "mass = 1.0\n[[contacts]]\nname = \"F\"\nnode = \"P\"\nlaw = \"rigid\"\nnormal = [{:.17g}, {:.17g}]\n"
+        "friction = 0.05\nrestitution = 0.5\ncapture_velocity = 1e-9\n",
+        9.81 * s, -9.81 * c, -0.5 * s, 0.5 * c, 2.0 * c, 2.0 * s, -s, c);
+  };
+  const double v = std::sqrt(9.81);  // of the first hit; each takes half: 2^-32 of it is below 1e-9
+  const double last = v / 9.81 * (1.0 + 2.0 * (1.0 - std::exp2(-31.0)));
+  for (const double degrees : {0.0, 1e-7, 17.3, 45.0, 133.0})
+    for (const std::string& engine : engines) {
+      CAPTURE(degrees);
+      CAPTURE(engine);
+      const Result result = run_text(ball(degrees), engine);
+      std::vector<Event> hits;
+      for (const Event& event : result.events)
+        if (event.type == EventType::impact) hits.push_back(event);
+      REQUIRE(hits.size() == 32);
+      CHECK(hits.back().t == doctest::Approx(last).epsilon(1e-10));
+      CHECK(hits.back().to != State::open);
+      // What decided that: half of the last hit, over the slowest that flies.
+      REQUIRE(hits.back().departure);
+      CHECK(*hits.back().departure == doctest::Approx(v * std::exp2(-32.0) / 1e-9).epsilon(1e-4));
+      REQUIRE(hits[30].departure);
+      CHECK(*hits[30].departure > 1.0);
+    }
+}
+
+TEST_CASE("a slider beside a landing lets go where no motion goes on with it held") {
+  // By hand, all combinations of c1 and c2 from the forces just before: c1 sticks, c2 slips in the negative
+  // direction, N = -26.95, T = -0.162; no other holds.
+  const Result result = run_scene("slider-must-let-go", "exact");
+  CAPTURE(result.report.outcome.reason);
+  CHECK(result.report.outcome.t > 1.513);
+  const auto stick = std::find_if(result.events.begin(), result.events.end(), [](const Event& event) {
+    return event.t > 1.5123 && event.t < 1.5124 && event.contact == 1;
+  });
+  REQUIRE(stick != result.events.end());
+  CHECK(stick->t == doctest::Approx(1.5123855970672047).epsilon(1e-9));
+  CHECK(stick->to == State::stick);
+  CHECK(stick->N_after == doctest::Approx(-26.95).epsilon(1e-3));
+  CHECK(std::abs(stick->T_after) == doctest::Approx(0.162).epsilon(1e-2));
+  const auto slip = std::find_if(result.events.begin(), result.events.end(), [&](const Event& event) {
+    return event.t == stick->t && event.contact == 2;
+  });
+  REQUIRE(slip != result.events.end());
+  CHECK(slip->to == State::slip_minus);
+}
+
+TEST_CASE("sliders that a hit has stopped are decided with it: forces that are not unique are refused") {
+  for (const std::string& engine : engines)
+    for (const char* capture : {"1e-4", "1e-7", "1e-12"}) {
+      CAPTURE(engine);
+      CAPTURE(capture);
+      const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/stopped-by-a-hit.toml",
+                                     {{"run.engine", engine}, {"contacts.c0.capture_velocity", capture}});
+      const Result result = simulate(build_model(scene), scene.run);
+      CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
+      CHECK(result.report.outcome.t == doctest::Approx(0.74863).epsilon(1e-4));
+      CHECK(result.report.outcome.refusal.kind == Refusal::Kind::dependent);
+    }
+}
+
+TEST_CASE("a belt that turns under a block which stands on a floor turns its friction, and nothing else") {
+  // 10 N on the floor bear 5 N, the belt's 2 N 0.6 N: the block stands. The belt turns at (k pi - 0.5)/5.
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "gravity = [0.0, -10.0]\n[run]\nt_end = 3.0\noutput_dt = 0.5\n[nodes]\nP = [0.0, 0.0]\n[[masses]]\n"
+      "node = \"P\"\nmass = 1.0\n[[contacts]]\nname = \"floor\"\nnode = \"P\"\nlaw = \"rigid\"\n"
+      "normal = [0.0, 1.0]\nfriction = 0.5\n[[contacts]]\nname = \"belt\"\nnode = \"P\"\nlaw = \"slider\"\n"
+      "tangent = [1.0, 0.0]\nnormal_force = 2.0\nfriction = 0.3\n"
+      "surface_velocity = { type = \"harmonic\", amplitude = 0.1, omega = 5.0, phase = 0.5 }\n";
+  for (const std::string& engine : locating_engines) {
+    CAPTURE(engine);
+    const Result result = run_text(text, engine);
+    CAPTURE(result.report.outcome.reason);
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    std::vector<Event> turns;
+    for (const Event& event : result.events)
+      if (event.contact == 1) turns.push_back(event);
+    REQUIRE(turns.size() == 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+      CHECK(turns[k].type == EventType::reversal);
+      CHECK(turns[k].t == doctest::Approx((static_cast<double>(k + 1) * M_PI - 0.5) / 5.0).epsilon(1e-9));
+      CHECK(std::abs(turns[k].T_after) == doctest::Approx(0.6));
+      CHECK(turns[k].T_after == doctest::Approx(-turns[k].T));
+    }
+    for (const Result::Row& row : result.rows) CHECK(row.contacts[0].state == State::stick);
+  }
+}
+
+// Its acceleration towards the beam was looked for with the beam's feet let go: both fall alike, and hits
+// injected by the rounding of the gap what restitution took, for ever.
+TEST_CASE("newmark: a ball comes to rest on what rests") {
+  const Scene scene = read_scene(SIGNORINI_TEST_DATA "/scenes/decisions/ball-on-beam-turned.toml",
+                                 {{"run.engine", "newmark"}});
+  const Result result = simulate(build_model(scene), scene.run);
+  CAPTURE(result.report.outcome.reason);
+  CHECK(result.report.outcome.kind == Outcome::Kind::done);
+  CHECK(result.events.size() < 400);
+}
+
+TEST_CASE("ida: slips slower than its tolerance are named with the key that finds them") {
+  const std::string path = SIGNORINI_TEST_DATA "/scenes/decisions/slow-slips.toml";
+  const auto run = [&](std::vector<Override> changes) {
+    const Scene scene = read_scene(path, std::move(changes));
+    return simulate(build_model(scene), scene.run);
+  };
+  const Result exact = run({{"run.engine", "exact"}});
+  CHECK(exact.events.size() > 40);
+  const Result coarse = run({{"run.engine", "ida"}, {"run.rtol", "1e-8"}});
+  CHECK(coarse.events.size() < exact.events.size());
+  const auto said = [](const std::string& warning) {
+    return warning.find("slip rate returns to zero") != std::string::npos &&
+           warning.find("whether it does is told by a smaller run.atol.velocity (") != std::string::npos;
+  };
+  CHECK(std::count_if(coarse.report.warnings.begin(), coarse.report.warnings.end(), said) == 1);
+  const Result fine = run({{"run.engine", "ida"}, {"run.rtol", "1e-8"}, {"run.atol.velocity", "1e-14"}});
+  REQUIRE(fine.events.size() == exact.events.size());
+  for (std::size_t i = 0; i < fine.events.size(); ++i) {
+    CHECK(fine.events[i].type == exact.events[i].type);
+    CHECK(fine.events[i].t == doctest::Approx(exact.events[i].t).epsilon(1e-6));
+  }
+}
+
 TEST_SUITE_END();

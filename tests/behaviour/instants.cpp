@@ -131,4 +131,96 @@ TEST_CASE("contacts whose forces are not unique stop the run and are named") {
   CHECK(result.report.outcome.reason.find("linearly dependent") != std::string::npos);
 }
 
+/// Two masses of 1 on sliders that bear 3, pushed by histories of 6.
+std::string two_pushed(const std::string& first, const std::string& second) {
+  const auto load = [](int dof, const std::string& history) {
+    return fmt::format("[[loads]]\ndirection = {{ d{} = 1.0 }}\namplitude = 6.0\nhistory = {{ {} }}\n", dof,
+                       history);
+  };
+  return matrix_scene(
+      "t_end = 1.5\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+      "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 3.0\nfriction = 1.0",
+      "[[contacts]]\nname = \"q\"\nlaw = \"slider\"\ntangent = { d1 = 1.0 }\nnormal_force = 3.0\n"
+      "friction = 1.0\n" +
+          load(0, first) + load(1, second));
+}
+
+TEST_CASE("a load that begins one rounding before another one's end: both are what they are") {
+  // 0.1 + 0.2 = 0.30000000000000004. Slip where 6 sin = 3, a sixth of the pulse; at its end the velocity is
+  // 6/w (1 + cos(pi/6)) - 3 (0.2 - 0.2/6), w = 5 pi, and goes down by 3.
+  const std::string text = two_pushed("type = \"half_sine\", start = 0.1, duration = 0.2",
+                                      "type = \"half_sine\", start = 0.3, duration = 0.2");
+  const double left = 6.0 / (5.0 * M_PI) * (1.0 + std::sqrt(0.75)) - 0.5;
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Result result = run_text(text, engine);
+    std::vector<double> times[2];
+    for (const Event& event : result.events)
+      if (event.type != EventType::time) times[event.contact].push_back(event.t);
+    for (const int k : {0, 1}) {
+      REQUIRE(times[k].size() == 2);
+      const double start = k == 0 ? 0.1 : 0.3;
+      CHECK(times[k][0] == doctest::Approx(start + 0.2 / 6.0).epsilon(1e-9));
+      CHECK(times[k][1] == doctest::Approx(start + 0.2 + left / 3.0).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("loads that jump within some roundings of each other all jump") {
+  for (const int roundings : {1, 2, 8, 40, 300}) {
+    CAPTURE(roundings);
+    const double later = 0.25 * (1.0 + roundings * 0x1p-52);
+    const auto rectangle = [](double start) {
+      return fmt::format("type = \"rectangle\", start = {:.17g}, end = 0.5", start);
+    };
+    for (const bool swapped : {false, true})
+      for (const std::string& engine : locating_engines) {
+        CAPTURE(engine);
+        const Result result = run_text(swapped ? two_pushed(rectangle(later), rectangle(0.25))
+                                               : two_pushed(rectangle(0.25), rectangle(later)),
+                                       engine);
+        int slips = 0;
+        for (const Event& event : result.events) {
+          if (event.type == EventType::slip) {
+            CHECK(event.t == doctest::Approx(0.25).epsilon(1e-12));
+            ++slips;
+          }
+          // 6 against 3 for 0.25, then 3: as long again.
+          if (event.type == EventType::stick) CHECK(event.t == doctest::Approx(0.75).epsilon(1e-9));
+        }
+        CHECK(slips == 2);
+      }
+  }
+}
+
+TEST_CASE("instants that take no time: the refusal names the contacts, and that their states are known") {
+  std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\ngravity = [0.0, "
+      "-10.0]\n[run]\nt_end = 2.0\nmax_events_at_once = 2\n[nodes]\n";
+  const char* names[] = {"A", "B", "C", "far"};
+  for (const char* name : names) text += fmt::format("{} = [0.0, 0.0]\n", name);
+  for (int i = 0; i < 4; ++i) {
+    const double gap = i == 3 ? 0.5 : 1.0 + 8.0 * i * 0x1p-52;
+    text += fmt::format(
+        "[[masses]]\nnode = \"{0}\"\nmass = {2}\n[[contacts]]\nname = \"{0}\"\nnode = \"{0}\"\n"
+        "law = \"rigid\"\nnormal = [0.0, 1.0]\ngap = {1:.17g}\nrestitution = 0.5\n",
+        names[i], gap, i + 1);
+  }
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Result result = run_text(text, engine);
+    const Refusal& refusal = result.report.outcome.refusal;
+    CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
+    CHECK(refusal.kind == Refusal::Kind::standstill);
+    CHECK(refusal.reason == result.report.outcome.reason);
+    CHECK(refusal.reason.find("2 events at one instant") != std::string::npos);
+    CHECK(refusal.contacts == std::vector<std::size_t>{0, 1, 2});
+    CHECK(refusal.condition == doctest::Approx(1.0));  // nothing couples them
+    CHECK(refusal.residual == 0.0);
+    // The energy at the stop is that of the fall.
+    CHECK(balanced(result, 1e-6));
+  }
+}
+
 TEST_SUITE_END();

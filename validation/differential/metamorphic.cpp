@@ -125,8 +125,10 @@ struct Metamorphic::Members {
   Deviation spread;
   std::map<double, Deviation> spreads;  ///< ida: by delta
 
-  /// Runs of the same scene, off by one rounding.
+  /// Runs of the same scene, its data off by one rounding; and its motion, since a turn makes of a small
+  /// displacement the sum of two great ones, each with its own rounding.
   void disturb() {
+    spread.include(spread_of(eps));
     for (int j = 0; j < settings.disturbances; ++j) {
       const Scene other = disturbed(scene, static_cast<std::uint64_t>(j));
       const Track track = run_scene(other, means, settings.bounds);

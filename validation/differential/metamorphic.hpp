@@ -2,7 +2,8 @@
 //
 //   exact, newmark
 //           the same events, |t' - t| <= 10 spread(t) + least_time
-//           spread: how far runs of the same scene lie apart when all its data are off by one rounding
+//           spread: how far runs of the same scene lie apart when all its data are off by one rounding, or
+//           its motion, each displacement and velocity by that of the greatest of its kind (neighbour.hpp)
 //   ida     the same events, |t' - t| <= spread(t) + blur t_uncertainty + least_time
 //           spread: exact runs of neighbours as far off as ida's steps may be (neighbour.hpp)
 //

@@ -38,6 +38,7 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] double guard_error(const Form&, const ContactMotion&, std::size_t) const override {
     return 0.0;
   }
+  [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
   [[nodiscard]] Expansion expansion() const override { return {&series_, degree_, end_x_}; }
 

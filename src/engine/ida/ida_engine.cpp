@@ -6,10 +6,28 @@
 #include <cmath>
 #include <utility>
 
+#include "contact/friction.hpp"
 #include "engine/ida/locate.hpp"
 #include "motion/clock.hpp"
+#include "scene/quantities.hpp"
 
 namespace signorini {
+namespace {
+
+/// "run.atol.velocity (1e-09 m/s here)": the tolerance of a guard's value, as the scene has it.
+std::string tolerance_in_force(Guard guard, const Tolerance& tolerance, const Model& model) {
+  const auto said = [&](const char* key, double value, const Unit& unit, const std::string& name) {
+    return fmt::format("run.atol.{} ({:.2g} {} here)", key, value * factor_of(unit, model.unit), name);
+  };
+  const Units& units = model.units;
+  if (guard == Guard::sliding)
+    return said("velocity", tolerance.velocity, unit::velocity, units.length + "/" + units.time);
+  if (guard == Guard::closing || guard == Guard::clearing)
+    return said("displacement", tolerance.displacement, unit::length, units.length);
+  return said("force", tolerance.force, unit::force, units.force);
+}
+
+}  // namespace
 
 IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems& systems,
                      const Tolerance& tolerance, int max_order, double t_end, double flight_tolerances)
@@ -45,6 +63,12 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   const double tolerance = flight_tolerances_ * (tolerance_.rtol * size + absolute * tolerance_.displacement);
   size = std::max(size, absolute * model_.scales.displacement);
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
+}
+
+/// Short flights are taken by their series where friction is linear while they last.
+bool IdaEngine::knows_low_flights() const {
+  return std::none_of(model_.contacts.begin(), model_.contacts.end(),
+                      [](const Contact& contact) { return friction_varies(contact); });
 }
 
 void IdaEngine::start(const Segment& segment) {
@@ -143,9 +167,10 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     if (!std::exchange(touched_, true))
       warnings.push_back(fmt::format(
           "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than the tolerances of "
-          "its steps; it was taken not to fall there, nor where it does so again",
+          "its steps; it was taken not to fall there, nor where it does so again; whether it does is told by "
+          "a smaller {}, or by engine exact",
           model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind),
-          c.time * model_.unit.time));
+          c.time * model_.unit.time, tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;
   });
   if (candidates.empty()) return std::nullopt;

@@ -30,6 +30,7 @@ class IdaEngine final : public Stepper {
   void count() override { bdf_.count(); }
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
                                    std::size_t contact) const override;
+  [[nodiscard]] bool knows_low_flights() const override;
 
  private:
   struct Located {

@@ -146,3 +146,36 @@ TEST_CASE("judge: jumps of loads are known, and leave what was remembered") {
   CHECK(verdict.t_errors[3] == 2.0 * 0x1p-52 * 3.0);
   CHECK(verdict.t_errors[4] == doctest::Approx(0x1p-9).epsilon(1e-10));
 }
+
+TEST_CASE("judge: rest or flight by less than the speed may be off is not certain, alike in both or not") {
+  const auto leaving = [](double first, double second) {
+    Track result = track({1.0, 2.0, 3.0});
+    result.events[1].departure = first;
+    result.events[2].departure = second;
+    return result;
+  };
+  // Off by 2^-10 of itself, twice that counts.
+  const double off = 0x1p-10;
+  const Track companion = leaving(4.0 * (1.0 - off), 1.0 + 2.0 * off);
+  CHECK(judge(leaving(4.0, 1.0 + 3.0 * off), {companion}, 2.0, names).reason.empty());
+  const Verdict close = judge(leaving(4.0, 1.0 + 1.5 * off), {companion}, 2.0, names);
+  CHECK(close.until == 3.0);
+  CHECK(certain(close) == 2);
+  CHECK(close.reason.find("of the slowest speed that flies") != std::string::npos);
+  // Below one it rests: speeds far below are rounding, and may differ by any part of themselves.
+  CHECK(judge(leaving(4.0, 1e-7), {leaving(4.0, 5e-9)}, 2.0, names).reason.empty());
+  const Verdict rests = judge(leaving(4.0, 1.0 - 1.5 * off), {leaving(4.0, 1.0 - 2.5 * off)}, 2.0, names);
+  CHECK(rests.until == 3.0);
+}
+
+TEST_CASE("judge: nothing is certain from where rounding left several states open, in either run") {
+  Track run = track({1.0, 2.0, 3.0}), companion = run;
+  run.forgiven_at = 2.5;
+  const Verdict own = judge(run, {companion}, 2.0, names);
+  CHECK(own.until == 2.5);
+  CHECK(certain(own) == 2);
+  CHECK(own.reason.find("left several states") != std::string::npos);
+  run.forgiven_at.reset();
+  companion.forgiven_at = 1.5;
+  CHECK(judge(run, {companion}, 2.0, names).until == 1.5);
+}

@@ -222,4 +222,21 @@ TEST_CASE("Painleve's rod: no state where the sliding contact digs in, two where
   CHECK(may_have_many(p));
 }
 
+TEST_CASE("just below Painleve's limit, and at that of friction: sticking and slipping are one motion") {
+  // Slipping, g'' = b_n + (1 - 0.9 f) l with a factor of 1e-6 and less; l = 1 and T = -f hold either way.
+  for (const double below : {1e-6, 1e-7}) {
+    const double f = (1.0 - below) / 0.9;
+    CoulombProblem p{MatrixXd(2, 2), VectorXd(2), {{Kind::frictional, f, f, 0.0, 1}}};
+    p.W << 1.0, 0.9, 0.9, 1.2;
+    for (const double off : {-2e-14, 0.0, 2e-14}) {
+      CAPTURE(below);
+      CAPTURE(off);
+      p.b = -p.W * Eigen::Vector2d(1.0, -f * (1.0 + off));
+      const Enumerated all = all_solutions(p);
+      REQUIRE(all.solutions.size() == 1);
+      CHECK(all.solutions[0].force[0] == doctest::Approx(1.0).epsilon(1e-5));
+    }
+  }
+}
+
 TEST_SUITE_END();

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contact/slots.hpp"
 #include "decide/driven_states.hpp"
 
 using namespace signorini;
@@ -174,6 +175,25 @@ TEST_CASE("a refusal says what kind it is") {
   model.contacts.push_back(model.contacts[0]);
   CHECK(start(model).refusal.kind == Refusal::Kind::dependent);
   CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).refusal.kind == Refusal::Kind::none);
+}
+
+TEST_CASE("what a decision took for rest at the limit of friction is rounding to an engine") {
+  // Two blocks, tied by their mass, pushed at their limits but for k roundings: where they are taken to rest,
+  // no guard may seem to have fallen already.
+  int resting = 0;
+  for (int k = -400; k <= 400; ++k) {
+    CAPTURE(k);
+    const double push = 0.4 * (1.0 + k * 0x1p-52);
+    const Decision d = start(blocks({{2.0, 0.9}, {0.9, 1.0}}, {push, push}, 0.4));
+    REQUIRE(d.consistent);
+    for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
+      const GuardStart& guard = d.guards[slot];
+      if (guard.kind != Guard::slip_plus || !guard.at_zero || guard.leading >= 0) continue;
+      ++resting;
+      CHECK(guard.form.value(d.after[contact_of_guard(slot)]) >= -guard.noise);
+    }
+  }
+  CHECK(resting > 100);
 }
 
 TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of its rate") {

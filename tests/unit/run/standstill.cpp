@@ -28,4 +28,22 @@ TEST_CASE("standstill: ten thousand events may take a hundred thousandth of the 
   CHECK(after(1.99e-5) == "10000 events within 1.99e-05 of time; the motion does not get on");
 }
 
+TEST_CASE("standstill: contacts are those of the instants that were too many") {
+  Standstill watch(1.0, 2);
+  CHECK_FALSE(watch.count(0.25, 1e-9, {7}));  // long ago
+  CHECK_FALSE(watch.count(0.5, 1e-9, {4}));
+  CHECK_FALSE(watch.count(0.5, 1e-9, {1, 4}));
+  CHECK(watch.count(0.5, 1e-9, {3}));
+  CHECK(watch.contacts() == std::vector<std::size_t>{1, 3, 4});
+}
+
+TEST_CASE("standstill: contacts of ten thousand events are those since the last look") {
+  Standstill watch(2.0, 100000);
+  for (int i = 0; i < 10000; ++i) CHECK_FALSE(watch.count(0.5 + 1e-9 * i, 0.0, {9}));
+  for (int i = 1; i < 10000; ++i)
+    CHECK_FALSE(watch.count(0.6 + 1e-9 * i, 0.0, {static_cast<std::size_t>(i % 2)}));
+  CHECK(watch.count(0.6 + 1e-5, 0.0, {5}));
+  CHECK(watch.contacts() == std::vector<std::size_t>{0, 1, 5});
+}
+
 TEST_SUITE_END();

@@ -1,0 +1,72 @@
+#include "decide/enumeration.hpp"
+
+#include <doctest/doctest.h>
+
+#include "behaviour/one_mass.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+TEST_SUITE_BEGIN("unit/decide/enumeration");
+
+TEST_CASE("two combinations that go on otherwise are rivals, and are named") {
+  // Painleve's rod: while it slips g'' = b + (W_nn - f W_nt) l with a negative factor, so with b > 0 it may
+  // press or let go.
+  const Scene scene = parse_scene(
+      matrix_scene(
+          "t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [1.0, 0.0] }",
+          "mass = [[0.34847735667203295, 0.2532986927066816], [0.2532986927066816, 0.9015226433279672]]\n"
+          "stiffness = [[0.0, 0.0], [0.0, 0.0]]",
+          "law = \"rigid\"\nnormal = { d1 = -1.0 }\ntangent = { d0 = 1.0 }\nfriction = 4.0",
+          "[[loads]]\ndirection = { d0 = 0.2532986927066816, d1 = 0.9015226433279672 }\namplitude = "
+          "-10.0\n"),
+      "rod.toml");
+  const Model model = build_model(scene);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  JetMaker jets(systems);
+  Enumeration enumeration(systems, jets);
+  const Forcing forcing(model, 0.0, Side::after);
+  Instant instant;
+  instant.u = model.u0;
+  instant.v = model.v0;
+  instant.mode = {{State::open, 0.0}};
+  Participant who{0};
+  who.slipping = true;
+  who.sign = 1;
+  const std::vector<Enumeration::Choice> choices{enumeration.choice(who)};
+  KnownGuards known;
+  known.touches = true;
+  known.closing.zeros = 2;
+  const auto best = enumeration.least_failing(instant, forcing, {0}, choices, {known}, instant.mode);
+  REQUIRE(best);
+  CHECK(best->forgiveness == 0.0);
+  REQUIRE(!best->rival.empty());
+  CHECK_FALSE(best->acceptable());
+  CHECK(several_motions(model, choices, *best) ==
+        "several motions continue this one, as 'c' open and as 'c' slip+");
+}
+
+TEST_CASE("the condition is that of the forces that contacts can bear") {
+  // Two masses that move each other: a frictionless floor under one, a slider under the other.
+  const Scene scene = parse_scene(
+      matrix_scene(
+          "t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+          "mass = [[2.0, 1.0], [1.0, 2.0]]\nstiffness = [[1.0, 0.0], [0.0, 1.0]]",
+          "law = \"rigid\"\nnormal = { d0 = 1.0 }\nrestitution = 0.5",
+          "[[contacts]]\nname = \"s\"\nlaw = \"slider\"\ntangent = { d1 = 1.0 }\nnormal_force = 1.0\n"
+          "friction = 0.3\n"),
+      "two.toml");
+  const Model model = build_model(scene);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  JetMaker jets(systems);
+  Enumeration enumeration(systems, jets);
+  const Mode mode{{State::open, 0.0}, {State::stick, 0.0}};
+  // M^-1 = [[2, -1], [-1, 2]] / 3: scaled by its diagonal [[1, -1/2], [-1/2, 1]].
+  CHECK(enumeration.condition({0, 1}, mode) == doctest::Approx(3.0));
+  CHECK(enumeration.condition({0}, mode) == doctest::Approx(1.0));
+  CHECK(enumeration.condition({1}, mode) == doctest::Approx(1.0));
+}
+
+TEST_SUITE_END();

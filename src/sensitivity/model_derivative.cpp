@@ -105,7 +105,7 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   });
   for (LoadRates& load : d.loads) visit_rates(load.history, visit);
   for (ContactRates& c : d.contacts) {
-    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction})
+    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction, &c.static_friction, &c.stribeck_velocity})
       visit(*x);
     visit_rates(c.normal_force, visit);
     visit_rates(c.surface_motion, visit);
@@ -140,6 +140,8 @@ ContactRates numbers_of(const Contact& contact) {
   c.initial_shear = contact.initial_shear;
   c.restitution = contact.restitution;
   c.kinetic_friction = kinetic_friction(contact);
+  c.static_friction = static_friction(contact);
+  c.stribeck_velocity = contact.friction.stribeck_velocity.value_or(0.0);
   c.normal_force = numbers_of(contact.normal_force);
   c.surface_motion = numbers_of(contact.surface_motion);
   for (const State state : all_states) {
@@ -206,11 +208,13 @@ std::vector<double> sizes_of(ModelDerivative data) {
 
 class Differences {
  public:
-  Differences(const SceneReader& read, const Model& model, const std::string& path, double value)
+  Differences(const SceneReader& read, const Model& model, const std::string& path, double value,
+              bool start_follows)
       : read_(read),
         model_(model),
         path_(path),
         value_(value),
+        start_follows_(start_follows),
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
@@ -281,6 +285,10 @@ class Differences {
     return *std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; });
   }
 
+  /// Of all numbers, those before u0 and v0 where these follow from the others.
+  [[nodiscard]] std::size_t judged(std::size_t count) const {
+    return start_follows_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
+  }
   static bool is_straight(double a, double b, double c) {
     return std::abs(a - 2.0 * b + c) <= 8.0 * rounding::eps * (std::abs(a) + 2.0 * std::abs(b) + std::abs(c));
   }
@@ -295,7 +303,7 @@ class Differences {
   [[nodiscard]] bool is_linear() {
     const Moved &up = at_point(1), &down = at_point(-1);
     const std::vector<double> here = values_of(base_);
-    for (std::size_t i = 0; i < here.size(); ++i)
+    for (std::size_t i = 0; i < judged(here.size()); ++i)
       if (!is_straight(up.values[i], here[i], down.values[i])) return false;
     return is_straight(up.data.mass, base_.mass, down.data.mass) &&
            is_straight(up.data.damping, base_.damping, down.data.damping) &&
@@ -308,7 +316,7 @@ class Differences {
     const std::vector<double> least = sizes_of(base_);
     const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 come last
     const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < judged(count); ++i) {
       double better = 0.0, check = 0.0, size = least[i];
       for (std::size_t k = 0; k < stencil.points.size(); ++k) {
         const double x = at_point(stencil.points[k]).values[i];
@@ -382,6 +390,7 @@ class Differences {
   const Model& model_;
   const std::string& path_;
   double value_, step_ = 0.0;
+  bool start_follows_;  // u0 is found from the other data (static_rates.hpp)
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;
@@ -392,16 +401,23 @@ class Differences {
 
 ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
                            double size) {
-  Differences differences(read, model, path, value);
-  double h = first_step * size;
-  for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter)
-    if (auto d = differences.at(h)) {
-      if (model.static_start && !model.statics.frictional)
-        if (auto w = static_rate(model, *d)) d->u0 = std::move(*w);
+  std::string why = "the data of the model do not depend smoothly on it at its value";
+  const bool follows = model.static_start && !model.statics.frictional;
+  for (const bool start_follows : {true, false}) {
+    if (start_follows && !follows) continue;
+    Differences differences(read, model, path, value, start_follows);
+    double h = first_step * size;
+    for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter) {
+      auto d = differences.at(h);
+      if (!d) continue;
+      if (!start_follows) return *d;
+      auto w = static_rate(model, *d);
+      if (!w) break;
+      d->u0 = std::move(*w);
       return *d;
     }
-  std::string why = "the data of the model do not depend smoothly on it at its value";
-  if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
+    if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
+  }
   throw UsageError(fmt::format("--parameter {}: {}", path, why));
 }
 

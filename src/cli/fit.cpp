@@ -7,8 +7,8 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/owned_folder.hpp"
 #include "cli/keyed.hpp"
+#include "cli/owned_folder.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"

@@ -10,8 +10,8 @@
 #include "cli/command.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/owned_folder.hpp"
 #include "cli/keyed.hpp"
+#include "cli/owned_folder.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
@@ -33,9 +33,10 @@ struct SensitivityOptions : KeyedOptions {
 /// "columns-1.csv" and so on are removed by number.
 const OwnedFolder& sensitivity_folder() {
   static const OwnedFolder folder = [] {
-    OwnedFolder f{"sensitivities",
-                  "sensitivity.json",
-                  {"events.csv", "sensitivities.csv", "figures.csv", "sequence.csv", "spread.csv", "report.html"}};
+    OwnedFolder f{
+        "sensitivities",
+        "sensitivity.json",
+        {"events.csv", "sensitivities.csv", "figures.csv", "sequence.csv", "spread.csv", "report.html"}};
     constexpr int most_parameters = 1000;
     for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
     return f;

@@ -117,8 +117,8 @@ class Loop {
       if (step.kind == Step::Kind::failed) return stop(step.reason);
       resolution_ = step.resolution;
       if (observer_)
-        observer_->step({step, engine_->expansion(), decision_, forcing_, engine_->turning_points(),
-                         engine_->modes()});
+        observer_->step(
+            {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
       pass(step);
       if (step.kind == Step::Kind::event) return instant(std::move(step.fired), std::move(step.adopted));
       auditor_.observe(forcing_, t_, decision_.mode, point_);

@@ -11,15 +11,16 @@
 namespace signorini {
 namespace {
 
-constexpr double longest_decay = 4.0;     // alpha t of a part: as engine/exact/modal/oscillators.hpp asks
-constexpr double most_still = 4096.0;     // of a mode's place, its p/l that is taken out of the motion: three digits
-constexpr double nothing_left = 1e-13;    // of C_p, what is the rounding of C_p - alpha M_p
+constexpr double longest_decay = 4.0;  // alpha t of a part: as engine/exact/modal/oscillators.hpp asks
+constexpr double most_still =
+    4096.0;  // of a mode's place, its p/l that is taken out of the motion: three digits
+constexpr double nothing_left = 1e-13;                   // of C_p, what is the rounding of C_p - alpha M_p
 constexpr std::size_t most_kept = std::size_t{1} << 28;  // bytes of states
 
 /// Forces of one contact in its state, and what a parameter makes of them at fixed motion.
 struct LawRates {
-  ForceLaw law;                     // N = N_gap g + N_constant, ...
-  ForceLaw rates;                   // of its numbers
+  ForceLaw law;                      // N = N_gap g + N_constant, ...
+  ForceLaw rates;                    // of its numbers
   double gap = 0.0, gap_rate = 0.0;  // g0 and g0_p
   double surface = 0.0, surface_rate = 0.0;
 };
@@ -38,11 +39,10 @@ LawRates law_rates(const Contact& contact, std::size_t c, const ContactState& st
                    by.normal.constant);
   d.T_gap = -(by.tangent.N * result.law.N_gap + row.tangent.N * d.N_gap);
   d.T_ut = -by.tangent.ut;
-  d.T_constant =
-      -(by.tangent.N * result.law.N_constant + row.tangent.N * d.N_constant + by.tangent.constant);
+  d.T_constant = -(by.tangent.N * result.law.N_constant + row.tangent.N * d.N_constant + by.tangent.constant);
   if (state.state == State::stick && contact.tangential_stiffness)
-    d.T_constant -= rates.tangential_stiffness * state.anchor +
-                    *contact.tangential_stiffness * source.start->anchors[c];
+    d.T_constant -=
+        rates.tangential_stiffness * state.anchor + *contact.tangential_stiffness * source.start->anchors[c];
   result.gap = contact.gap;
   result.gap_rate = rates.gap;
   result.surface = forcing.surface(c, t, 0);
@@ -444,8 +444,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
   void add_contacts(std::size_t p, Square<S>& b) const {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const ContactRates& rates = derivatives_[p]->contacts[c];
-      const LawRates at =
-          law_rates(model_.contacts[c], c, mode_[c], rates, forcing_, begin_, sources_[p]);
+      const LawRates at = law_rates(model_.contacts[c], c, mode_[c], rates, forcing_, begin_, sources_[p]);
       const Seen n{listed<S>(state_->from_normal[c]), listed<S>(state_->normal[c])};
       const Seen t{listed<S>(state_->from_tangent[c]), listed<S>(state_->tangent[c])};
       add_outer(n.from, n.row, at.rates.N_gap, b);
@@ -518,7 +517,8 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
     }
     work_.driven.resize(n * n);
     work_.driven_rate.resize(n * n);
-    const auto drive = [&](const std::vector<S>& place, const std::vector<S>& rate, Square<S>& y, Square<S>& y_rate) {
+    const auto drive = [&](const std::vector<S>& place, const std::vector<S>& rate, Square<S>& y,
+                           Square<S>& y_rate) {
       y.resize(n * n);
       y_rate.resize(n * n);
       std::vector<S> tail(n);
@@ -555,7 +555,8 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
     to.rate.pair.resize(count);
     const auto one = [&](auto z, auto r, auto f, std::size_t k, auto& place, auto& rate) {
       place = part<decltype(z)>(z * pairs.c(k) + r * pairs.s(k) + f * pairs.h(k));
-      rate = part<decltype(z)>(r * (pairs.c(k) - pairs.s(k) * alpha) - z * (l_[k] * pairs.s(k)) + f * pairs.s(k));
+      rate = part<decltype(z)>(r * (pairs.c(k) - pairs.s(k) * alpha) - z * (l_[k] * pairs.s(k)) +
+                               f * pairs.s(k));
     };
     for (std::size_t k = 0; k < reals; ++k)
       one(from.z.real[k], from.rate.real[k], force.real[k], k, to.z.real[k], to.rate.real[k]);
@@ -699,8 +700,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
       const double gap_p = contact.normal.dot(w.u) + rates.normal.dot(m.u) + at.gap_rate;
       const double ut_p = contact.tangent.dot(w.u) + rates.tangent.dot(m.u) - at.surface_rate;
       w.forces[n] = law.N_gap * gap_p + by.N_gap * gap + by.N_constant;
-      w.forces[n + 1] =
-          law.T_gap * gap_p + by.T_gap * gap + law.T_ut * ut_p + by.T_ut * ut + by.T_constant;
+      w.forces[n + 1] = law.T_gap * gap_p + by.T_gap * gap + law.T_ut * ut_p + by.T_ut * ut + by.T_constant;
       const double vn = contact.normal.dot(m.v), vt = contact.tangent.dot(m.v);
       const double vn_p = contact.normal.dot(w.v) + rates.normal.dot(m.v);
       const double vt_p = contact.tangent.dot(w.v) + rates.tangent.dot(m.v);

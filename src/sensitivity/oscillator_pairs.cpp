@@ -16,12 +16,8 @@ constexpr double small_angle = 0.25;   // up to which sin(x)/x is a series of se
 
 double sine_of(double a) { return std::sin(a); }
 double cosine_of(double a) { return std::cos(a); }
-Complex sine_of(Complex a) {
-  return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)};
-}
-Complex cosine_of(Complex a) {
-  return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)};
-}
+Complex sine_of(Complex a) { return {std::sin(a.re) * std::cosh(a.im), std::cos(a.re) * std::sinh(a.im)}; }
+Complex cosine_of(Complex a) { return {std::cos(a.re) * std::cosh(a.im), -std::sin(a.re) * std::sinh(a.im)}; }
 double square_root(double a) { return std::sqrt(a); }
 Complex square_root(Complex a) { return root_of(a); }
 
@@ -108,8 +104,7 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
   t_ = t;
   decay_ = std::exp(-0.5 * alpha * t);
   m_.resize(n);
-  for (std::vector<S>* list :
-       {&w_, &inverse_w_, &sine_, &cosine_, &half_sine_, &half_cosine_, &c_, &s_})
+  for (std::vector<S>* list : {&w_, &inverse_w_, &sine_, &cosine_, &half_sine_, &half_cosine_, &c_, &s_})
     list->assign(n, S(0.0));
   turns_.assign(n, 0);
   slow_.assign(n, 0);
@@ -137,9 +132,9 @@ void OscillatorPairs<S>::fill(const std::vector<S>& l, double alpha, double t) {
   big_s_.resize(n * n);
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t j = 0; j <= k; ++j) {
-      const Both both = (turns_[k] & turns_[j]) != 0  ? turning(k, j)
+      const Both both = (turns_[k] & turns_[j]) != 0 ? turning(k, j)
                         : (slow_[k] & slow_[j]) != 0 ? near_zero(k, j)
-                                               : apart(k, j);
+                                                     : apart(k, j);
       big_c_[k * n + j] = big_c_[j * n + k] = both.c;
       big_s_[k * n + j] = big_s_[j * n + k] = both.s;
     }
@@ -152,7 +147,8 @@ S OscillatorPairs<S>::h_of(std::size_t k) const {
   if (size_of(l_[k]) * square > 1.0) return (S(1.0) - c_[k]) * inverse(l_[k]);
   S a(0.0), b(0.0), sum(0.0), force(square);  // coefficients j and j + 1
   for (int j = 0; j < most_time_terms; ++j) {
-    const S next = (force - a * l_[k] * square) * (1.0 / ((j + 1.0) * (j + 2.0))) - b * (alpha_ * t_ / (j + 2.0));
+    const S next =
+        (force - a * l_[k] * square) * (1.0 / ((j + 1.0) * (j + 2.0))) - b * (alpha_ * t_ / (j + 2.0));
     force = S(0.0);
     sum += next;
     if (j > 2 && largest(next) + largest(b) <= 1e-3 * rounding::eps * largest(sum)) break;
@@ -175,7 +171,8 @@ S OscillatorPairs<S>::h_pair(std::size_t k, std::size_t l) const {
     const S w2 = (w0 * l_[k] + y0) * (-square * pull) - w1 * drag;
     force = S(0.0);
     sum += w2;
-    if (j > 4 && largest(w2) + largest(w1) + square * largest(y2) <= 1e-3 * rounding::eps * largest(sum)) break;
+    if (j > 4 && largest(w2) + largest(w1) + square * largest(y2) <= 1e-3 * rounding::eps * largest(sum))
+      break;
     y0 = y1;
     y1 = y2;
     w0 = w1;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr int most_halvings = 30;
 constexpr int fewest_tangent_levels = 12;
-constexpr double bolder = 1.5;  // than the last part that converged
+constexpr double bolder = 1.5;             // than the last part that converged
 constexpr Eigen::Index fewest_modal = 16;  // as run/choose_flow.hpp: below, the series is as fast
 constexpr int most_turn_steps = 6;
-constexpr std::size_t forcing_terms = 6;   // of a constant all but the first are zero
+constexpr std::size_t forcing_terms = 6;  // of a constant all but the first are zero
 
 Vector force_bends(const Series& series, std::size_t degree, double x) {
   Vector sum = Vector::Zero(series.forces.rows());
@@ -314,8 +314,7 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
 void TangentRun::observe_series(const ObservedStep& step) {
   const Expansion& e = step.expansion;
   std::vector<Output> wanted = outputs(step);
-  for (Output& output : wanted)
-    output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
+  for (Output& output : wanted) output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
   for (const Output& output : wanted) {
     samples.push_back({output.t, step.forcing, step.decision.mode,

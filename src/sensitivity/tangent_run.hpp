@@ -93,7 +93,8 @@ class TangentRun final : public MotionObserver {
   [[nodiscard]] SeriesPoint just_before(const ObservedInstant& instant);
   [[nodiscard]] std::vector<Output> outputs(const ObservedStep& step);
   [[nodiscard]] std::vector<double> turns_in_modes(const ObservedStep& step) const;
-  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which, const ObservedStep& step) const;
+  [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which,
+                                 const ObservedStep& step) const;
   void advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& outputs,
                std::vector<TangentSample>& samples, std::size_t parameter);
   [[nodiscard]] ModeSystemPtr system_at(const ModeSystem& system, const Series& series);
@@ -114,7 +115,7 @@ class TangentRun final : public MotionObserver {
   std::unique_ptr<ExactEngine> series_engine_;
   Way way_ = Way::unknown;
   Stretches stretches_;
-  Decision decision_;              ///< of the stretch that is followed at its end, without guards
+  Decision decision_;  ///< of the stretch that is followed at its end, without guards
   std::optional<Forcing> forcing_;
   SeriesPoint end_;  ///< the motion just before the next instant
 };

@@ -100,8 +100,8 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
   friction_.clear();
   for (const std::size_t c : system.factorised().by_rate)
-    friction_.emplace_back(model_.contacts[c], derivative_.contacts[c], c,
-                           slip_sign(system.mode()[c].state), motion);
+    friction_.emplace_back(model_.contacts[c], derivative_.contacts[c], c, slip_sign(system.mode()[c].state),
+                           motion);
   u_.col(0) = start.u;
   for (Eigen::Index i = 0; i < start.u.size(); ++i)
     if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
@@ -225,10 +225,8 @@ void TangentSeries::add_friction(int k) {
       slip += rates.tangent.dot(motion_->u.col(k + 1)) -
               forcing_.surface[c * forcing_.count + static_cast<std::size_t>(k) + 1];
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    x_[system_->unknowns().tangent(c)] -=
-        friction.known(k, to_velocity * slip, [&](std::size_t i) {
-          return forces_(row, static_cast<Eigen::Index>(i));
-        });
+    x_[system_->unknowns().tangent(c)] -= friction.known(
+        k, to_velocity * slip, [&](std::size_t i) { return forces_(row, static_cast<Eigen::Index>(i)); });
   }
 }
 

@@ -246,10 +246,12 @@ TEST_CASE("the pipeline in modes, along the series and with `ida`: the same deri
                                        "damping.alpha_over_omega1",
                                        "loads.1.history.end"};
   const auto with = [&](const std::string& engine, const std::string& flow) {
-    return rates_of_model("pipeline", paths,
-                          {{"run.engine", engine}, {"run.flow", flow}, {"run.t_end", "0.19"}, {"run.output_dt", "0.01"}});
+    return rates_of_model(
+        "pipeline", paths,
+        {{"run.engine", engine}, {"run.flow", flow}, {"run.t_end", "0.19"}, {"run.output_dt", "0.01"}});
   };
-  const Sensitivities modes = with("exact", "modal"), series = with("exact", "taylor"), ida = with("ida", "auto");
+  const Sensitivities modes = with("exact", "modal"), series = with("exact", "taylor"),
+                      ida = with("ida", "auto");
   std::size_t peaks = 0;
   const auto agree = [&](const Sensitivities& a, double part) {
     REQUIRE(a.events.size() == series.events.size());
@@ -284,11 +286,11 @@ TEST_CASE("the pipeline in modes, along the series and with `ida`: the same deri
 }
 
 TEST_CASE("friction that depends on the slip rate, by its constants and by the belt, against differences") {
-  const SceneReader belt = reader_of_text(
-      matrix_scene("t_end = 20.0\noutput_dt = 5.0\nengine = \"ida\"\nrtol = 1e-10\ninitial = { u = [0.0], v = [0.0] }",
-                   "mass = [[1.0]]\nstiffness = [[1.0]]",
-                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nsurface_velocity = 0.3\n"
-                   "friction = { static = 0.6, kinetic = 0.4, stribeck_velocity = 0.5 }"));
+  const SceneReader belt = reader_of_text(matrix_scene(
+      "t_end = 20.0\noutput_dt = 5.0\nengine = \"ida\"\nrtol = 1e-10\ninitial = { u = [0.0], v = [0.0] }",
+      "mass = [[1.0]]\nstiffness = [[1.0]]",
+      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nsurface_velocity = 0.3\n"
+      "friction = { static = 0.6, kinetic = 0.4, stribeck_velocity = 0.5 }"));
   for (const char* path :
        {"contacts.c.friction.static", "contacts.c.friction.kinetic", "contacts.c.friction.stribeck_velocity",
         "contacts.c.surface_velocity", "contacts.c.normal_force"}) {
@@ -313,7 +315,8 @@ TEST_CASE("friction that depends on the slip rate, by its constants and by the b
 }
 
 TEST_CASE("data of the pipeline that move its matrices and its static start, against differences") {
-  const std::vector<Override> shorter{{"run.engine", "exact"}, {"run.t_end", "0.01"}, {"run.output_dt", "0.01"}};
+  const std::vector<Override> shorter{
+      {"run.engine", "exact"}, {"run.t_end", "0.01"}, {"run.output_dt", "0.01"}};
   const SceneReader read = reader_of(std::string(SIGNORINI_MODELS) + "/pipeline.toml", shorter);
   check_differences(read, "sections.pipe.EI", 1e-7, 1e-5);
   check_differences(read, "contacts.first.normal_stiffness", 1e-7, 1e-5);

@@ -120,7 +120,8 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     json["settings"]["flow"] = method.flow;
     json["settings"]["flow_reason"] = method.flow_reason;
   }
-  json["stretches"] = {{"modes", s.stretches.modes}, {"series", s.stretches.series}, {"followed", s.stretches.followed}};
+  json["stretches"] = {
+      {"modes", s.stretches.modes}, {"series", s.stretches.series}, {"followed", s.stretches.followed}};
   json["wall_time"] = s.report.wall_time;
   json["parameters"] = Json::array();
   const std::vector<Swap> swaps = least_swaps(s);
@@ -134,8 +135,9 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     row["sequence_changes"] = Json::array();
     for (const Swap& swap : swaps)
       if (swap.parameter == p)
-        row["sequence_changes"].push_back(
-            {{"change", swap.change}, {"events", {swap.first + 1, swap.second + 1}}, {"kind", kind_of(swap)}});
+        row["sequence_changes"].push_back({{"change", swap.change},
+                                           {"events", {swap.first + 1, swap.second + 1}},
+                                           {"kind", kind_of(swap)}});
     if (spreads) {
       row["sigma"] = sigmas[p];
       row["reach"] = json_number(spreads->reach[p]);

@@ -81,7 +81,8 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
     }
     if (size > 0.0) sizes.emplace_back(size, &r);
   }
-  std::stable_sort(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(sizes.begin(), sizes.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<const Response*> list;
   for (std::size_t i = 0; i < std::min(sizes.size(), most_figures); ++i) list.push_back(sizes[i].second);
   return list;
@@ -91,9 +92,10 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
 std::string wide_margin() { return "set lmargin at screen 0.3\n"; }
 
 std::string bars_plot(const std::string& table) {
-  return plot_command({fmt::format("'{0}' skip 1 using (0.5*$2):1:(0.5*abs($2)):(0.36):($2 < 0 ? {1} : {2}) with boxxyerror "
-                                   "fillstyle solid 0.75 noborder linecolor rgb variable notitle",
-                                   table, "0xc0182b", "0x2166ac")});
+  return plot_command(
+      {fmt::format("'{0}' skip 1 using (0.5*$2):1:(0.5*abs($2)):(0.36):($2 < 0 ? {1} : {2}) with boxxyerror "
+                   "fillstyle solid 0.75 noborder linecolor rgb variable notitle",
+                   table, "0xc0182b", "0x2166ac")});
 }
 
 std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder) {
@@ -102,22 +104,28 @@ std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path
   const PlottedRun run = facts_of(s);
   const auto bars_each = static_cast<int>(std::min(s.parameters.size(), most_bars));
   const int each = 70 + 26 * bars_each, height = 110 + (each + 50) * static_cast<int>(figures.size());
-  std::string text = begin_script(
-      run, {"tornado", sigmas.empty() ? "What one per cent of each key does, in per cent" : "What the standard deviation of each key does",
-            height, false});
+  std::string text = begin_script(run, {"tornado",
+                                        sigmas.empty() ? "What one per cent of each key does, in per cent"
+                                                       : "What the standard deviation of each key does",
+                                        height, false});
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Response& r = *figures[i];
     std::vector<Bar> bars;
     for (std::size_t p = 0; p < s.parameters.size(); ++p)
-      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x)) bars.push_back({s.parameters[p].path, x});
+      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x))
+        bars.push_back({s.parameters[p].path, x});
     sort_bars(bars);
     const std::string table = fmt::format("tornado-{}.csv", i + 1);
     write_file(folder / table, bar_table(bars));
     const auto [bottom, top] = stacked(i, figures.size(), height, 60.0, 64.0);
     text += panel(run, bottom, top, "", true) + wide_margin();
     text += "set xlabel " +
-            quoted(r.name + " of '" + s.contacts[static_cast<std::size_t>(r.contact)] + fmt::format("' = {:.6g}", r.value)) + "\n";
-    text += "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange [*:*]\n";
+            quoted(r.name + " of '" + s.contacts[static_cast<std::size_t>(r.contact)] +
+                   fmt::format("' = {:.6g}", r.value)) +
+            "\n";
+    text +=
+        "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange "
+        "[*:*]\n";
     text += bar_ticks(bars) + bars_plot(table);
   }
   return text + end_script();
@@ -166,18 +174,21 @@ std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder)
   int arrow = 2;
   for (const Swap& swap : least_swaps(s))
     if (swap.parameter == p)
-      text += fmt::format("set arrow {0} from {1}, graph 0 to {1}, graph 1 nohead dashtype 2 linecolor '{2}'\n",
-                          arrow++, shortest(parameter.value + swap.change), falling);
+      text +=
+          fmt::format("set arrow {0} from {1}, graph 0 to {1}, graph 1 nohead dashtype 2 linecolor '{2}'\n",
+                      arrow++, shortest(parameter.value + swap.change), falling);
   std::vector<std::string> elements;
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), event_looks.size());
   for (std::size_t c = 0; c <= count; ++c) {
     const std::string title = c == 0 ? "" : s.contacts[c - 1];
-    elements.push_back(fmt::format(
-        "'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 linecolor '{}' {}", name,
-        c, c == 0 ? "#808080" : event_looks[(c - 1) % event_looks.size()].colour,
-        c == 0 ? "notitle" : "title " + quoted(title)));
+    elements.push_back(
+        fmt::format("'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 "
+                    "linecolor '{}' {}",
+                    name, c, c == 0 ? "#808080" : event_looks[(c - 1) % event_looks.size()].colour,
+                    c == 0 ? "notitle" : "title " + quoted(title)));
   }
-  elements.push_back(fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
+  elements.push_back(
+      fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
   return text + plot_command(elements) + end_script();
 }
 
@@ -207,7 +218,8 @@ std::string sequence(const Sensitivities& s, const fs::path& folder) {
   text += "set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\nset xrange [*:*]\n" +
           bar_ticks(bars);
   const std::string point =
-      "'sequence.csv' skip 1 using ($2 {0} 0 ? abs($2) : NaN):1 with points pointtype 7 pointsize 1.4 linecolor '{1}' "
+      "'sequence.csv' skip 1 using ($2 {0} 0 ? abs($2) : NaN):1 with points pointtype 7 pointsize 1.4 "
+      "linecolor '{1}' "
       "title '{2}'";
   return text +
          plot_command({fmt::format(fmt::runtime(point), ">", rising, "upwards"),

@@ -40,7 +40,9 @@ class ExactEngine final : public Stepper {
   }
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
-  [[nodiscard]] Expansion expansion() const override { return {&series_, degree_, end_x_}; }
+  [[nodiscard]] Expansion expansion() const override {
+    return {&series_, degree_, end_x_, taylor_.system().get()};
+  }
 
  private:
   [[nodiscard]] double growth_of(const ModeSystemPtr& system);

@@ -290,13 +290,13 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
   };
 
   void put(const Vector& u, const Vector& v, ModalPoint& out) const {
-    spectrum_.to_modes(modes_.amplitudes(u), out.z);
-    spectrum_.to_modes(modes_.amplitudes(v), out.rate);
+    spectrum_.to_modes(modes_.basis().amplitudes(u), out.z);
+    spectrum_.to_modes(modes_.basis().amplitudes(v), out.rate);
   }
   /// Phi^T x
   [[nodiscard]] Vector shown(const Combination& form) const {
     Vector q = Vector::Zero(model_.size());
-    for (const auto& [dof, factor] : form.terms) q += factor * modes_.shapes().row(dof).transpose();
+    for (const auto& [dof, factor] : form.terms) q += factor * modes_.basis().shapes().row(dof).transpose();
     return q;
   }
 
@@ -392,7 +392,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
       Vector q;
       spectrum_.from_modes({&unit}, {&q});
       for (std::size_t i = 0; i < shown_.size(); ++i)
-        out(static_cast<Eigen::Index>(i), k) = modes_.shapes().row(shown_[i]).dot(q);
+        out(static_cast<Eigen::Index>(i), k) = modes_.basis().shapes().row(shown_[i]).dot(q);
     }
   }
   void add_column(const std::vector<Vector>& q, std::size_t k, S factor, Square<S>& out) const {
@@ -469,7 +469,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
   void set_constant(std::size_t p, Followed& f) const {
     const TangentSource& source = sources_[p];
     Vector q = Vector::Zero(model_.size());
-    if (source.forcing.loaded) q += modes_.shapes().transpose() * source.forcing.load.col(0);
+    if (source.forcing.loaded) q += modes_.basis().shapes().transpose() * source.forcing.load.col(0);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p]->contacts[c];
@@ -618,7 +618,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
       out.a = Vector::Zero(model_.size());
     }
     spectrum_.from_modes(from, to);
-    modes_.motions(modal, in);
+    modes_.basis().motions(modal, in);
   }
 
   /// Of the degrees of freedom that are shown.
@@ -740,7 +740,7 @@ ModalTangents::~ModalTangents() = default;
 bool ModalTangents::start(ModalSystem& modes, const Decision& decision, const Forcing& forcing,
                           std::vector<TangentSource> sources) {
   stretch_.reset();
-  if (!modes.failure().empty() || forcing.varies()) return false;
+  if (!modes.basis().failure().empty() || forcing.varies()) return false;
   for (const TangentSource& source : sources)
     if (source.start != nullptr && !stands_still(source.forcing)) return false;
   std::shared_ptr<const StateModes> state = modes.state(decision.mode);
@@ -750,7 +750,7 @@ bool ModalTangents::start(ModalSystem& modes, const Decision& decision, const Fo
     for (const ModelDerivative* d : derivatives_) {
       Store::Open& open = store_->open.emplace_back();
       const auto in_modes = [&](const SparseMatrix& a) {
-        return Eigen::MatrixXd(modes.shapes().transpose() * (a * modes.shapes()));
+        return Eigen::MatrixXd(modes.basis().shapes().transpose() * (a * modes.basis().shapes()));
       };
       if (d->stiffness.nonZeros() > 0) open.stiffness = in_modes(d->stiffness);
       if (d->mass.nonZeros() > 0) open.mass = in_modes(d->mass);

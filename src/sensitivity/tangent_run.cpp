@@ -110,6 +110,7 @@ bool TangentRun::starts_in_modes(const ObservedStep& step) {
   if (modes == nullptr) {
     if (!modal_engine_) modal_engine_ = std::make_unique<ModalEngine>(model_, structure_, systems_, t_end_);
     modes = modal_engine_->modes();
+    if (modes == nullptr) return false;
   }
   std::vector<TangentSource> sources(states_.size());
   for (std::size_t p = 0; p < states_.size(); ++p) {

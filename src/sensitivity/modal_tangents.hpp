@@ -37,7 +37,7 @@ struct TangentSource {
 
 class ModalTangents {
  public:
-  /// Both must outlive it; of models that modes can follow (modal_refusal). usual: how far apart most times
+  /// Both must outlive it; of models that modes can follow (proportional_refusal). usual: how far apart most times
   /// are that are asked for; what follows from it alone is kept.
   ModalTangents(const Model& model, const std::vector<const ModelDerivative*>& derivatives, double usual);
   ~ModalTangents();

@@ -207,10 +207,24 @@ fs::path output_directory(const CompareOptions& options) {
   return (by_engine(options) ? first.stem() : first.filename()).string() + "-compare";
 }
 
+/// Limits of outputs that no run has are told before any runs.
+void check_outputs(const std::vector<Limit>& limits, const std::vector<OutputSpec>& outputs) {
+  const std::string response = "response:";
+  std::vector<std::string> names;
+  for (const OutputSpec& output : outputs) names.push_back(output.name);
+  for (const Limit& limit : limits) {
+    const std::string name = limit.name.starts_with(response) ? limit.name.substr(response.size()) : "";
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError(fmt::format("--limit {}: no [[output]] is called \"{}\"{}", limit.name, name,
+                                   suggestion(name, names)));
+  }
+}
+
 ExitCode compare(const CompareOptions& options, const std::vector<std::string>& command_line) {
   const std::vector<Limit> limits = parse_limits(options.limits);
   const TableStyle style = table_style_of(options.table, options);
   check_sources(options);
+  if (by_engine(options)) check_outputs(limits, read_scene(options.sources.front()).outputs);
   const fs::path path = output_directory(options);
   check_folder(path, compare_folder(), options.force, by_engine(options) ? options.sources.front() : "");
   Outcomes outcomes =

@@ -88,11 +88,13 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
 /// The state that the runs go on from, which stands in the files of another run.
 std::string text_of_state(const Scene& scene) {
   std::string text;
-  if (!scene.run.initial.saved) return text;
-  const SavedState& state = *scene.run.initial.saved;
+  if (!scene.initial.saved) return text;
+  const SavedState& state = *scene.initial.saved;
   for (const auto& [name, value] : state.motions) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.shears) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.slips) text += fmt::format("{}={} ", name, value);
+  if (state.scales)
+    for (const double scale : *state.scales) text += fmt::format("{} ", scale);
   return text;
 }
 

@@ -189,7 +189,7 @@ constexpr Key table_of_keys[] = {
     {"output[]", "at", KeyType::against, "", "", "", "A node; relative and member_force: two nodes [A, B]; contact: the name of a contact."},
     {"output[]", "direction", direction, "", "", "", "Along which; it is made a unit vector with [nodes], taken as given with [matrices], where it says all and `at` is left out."},
     {"output[]", "rotation", flag, "", "false", "", "Of the node, counter-clockwise, instead of along a direction; reaction and spring: the moment."},
-    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss", "member_force: N (tension is positive), V or M; contact: N, T, gap, slip or loss (the work of its friction)."},
+    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss", "member_force: N (tension is positive), V or M; contact: N, T, gap, slip or loss (the work of its friction, but for that in impacts)."},
     {"output[]", "station", fraction, "", "0.0", "", "member_force: where, from A (0) to B (1); on a node between two finite elements the one towards B."},
     {"output[]", "spring", count, "", "", "", "spring: its number in the file, from 1 on."},
     {"output[]", "terms", table, "", "", "", "combination: factors of outputs that stand before it, all of one unit."},

@@ -717,7 +717,7 @@ TEST_CASE(
                                     output("u", "displacement", "at = \"B\"\ndirection = [0.0, 1.0]"));
   const Computed c = compute(text, "newmark", {{"run.dt", "1e-4"}});
   const Computed all = compute(text, "newmark", {{"run.dt", "1e-4"}, {"run.output_dt", "1e-4"}});
-  CHECK(c.extremes("M").minimum < -50.0);
+  CHECK(c.extremes("M").minimum < -40.0);  // some of it
   CHECK(std::abs(c.extremes("end").maximum) < 1e-9);
   CHECK(std::abs(c.extremes("end").minimum) < 1e-9);
   double least = 0.0;

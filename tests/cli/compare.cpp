@@ -46,6 +46,12 @@ TEST_CASE("cli compare: response quantities have differences and limits; tables 
             .run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "third", "--no-plots", "--quiet",
                   "--limit", "response:y=1"})
             .code == 5);
+  const Ending unknown = shell.run(
+      {"compare", "belt.toml", "--engines", "ida,exact", "-o", "unknown", "--limit", "response:x_blok=1"});
+  CHECK(unknown.code == 2);
+  CHECK(has(unknown.err, "no [[output]] is called \"x_blok\""));
+  CHECK(has(unknown.err, "x_block"));
+  CHECK_FALSE(exists(shell, "unknown"));
   CHECK(shell.run({"compare", "belt-compare/ida", "belt-compare/exact", "-o", "fourth", "--table", "html"})
             .code == 2);
 }

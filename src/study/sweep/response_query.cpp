@@ -62,7 +62,12 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   query.kind = row->kind;
   query.text = text;
   const std::string rest = text.substr(colon + 1);
-  const std::size_t at = rest.find('@');
+  const std::vector<std::string> contacts = names_of(model.contacts);
+  std::size_t at = rest.find('@');
+  if (query.kind != Kind::count) {  // a name may have an @ of its own
+    at = rest.rfind('@');
+    if (std::find(contacts.begin(), contacts.end(), rest) != contacts.end()) at = std::string::npos;
+  }
   query.name = rest.substr(0, at);
   const std::string behind = at == std::string::npos ? "" : rest.substr(at + 1);
   if (query.of_output()) {
@@ -70,7 +75,6 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
     query.name = rest;
     return query;
   }
-  const std::vector<std::string> contacts = names_of(model.contacts);
   if (query.kind == Kind::count) {
     check_known(option, "event", query.name, names_of(all_event_types));
     for (const EventTypeName& type : all_event_types)

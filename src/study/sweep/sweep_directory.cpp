@@ -168,9 +168,11 @@ fs::path SweepDirectory::run_directory(std::size_t index) const {
 }
 
 void SweepDirectory::check_rows() const {
-  for (const fs::path& file : old_rows(path_ / "rows")) {
-    const std::optional<long long> number = parse_integer(file.stem().string());
-    if (file.extension() == ".json" && number && static_cast<std::size_t>(*number) > points_.size())
+  for (const auto& entry : fs::directory_iterator(path_ / "rows")) {
+    if (!is_row_file(entry)) continue;
+    const fs::path& file = entry.path();
+    const auto number = parse_integer(file.stem().string());
+    if (number && static_cast<std::size_t>(*number) > points_.size())
       throw FileError(file.string(), fmt::format("is no row of this sweep, which has {}", points_.size()));
   }
 }

@@ -54,4 +54,18 @@ direction = [1.0, 0.0]
   }
 }
 
+TEST_CASE("answers: a contact's name may have an @") {
+  Model model;
+  model.contacts.resize(2);
+  model.contacts[0].name = "a@2";
+  model.contacts[1].name = "b";
+  CHECK(parse_query("residual:a@2", model).name == "a@2");
+  CHECK(parse_query("impulse:a@2", model).number == 0);
+  CHECK(parse_query("impulse:a@2@3", model).name == "a@2");
+  CHECK(parse_query("impulse:a@2@3", model).number == 3);
+  CHECK(parse_query("count:stick@a@2", model).name == "a@2");
+  CHECK(parse_query("impulse:b@2", model).number == 2);
+  CHECK_THROWS_AS((void)parse_query("residual:b@2", model), UsageError);
+}
+
 TEST_SUITE_END();

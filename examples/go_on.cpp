@@ -7,18 +7,8 @@ int main() {
   auto scene = signorini::read_scene("models/belt.toml", {{"run.t_end", "10"}, {"run.engine", "exact"}});
   const auto model = signorini::build_model(scene);
   const auto first = signorini::simulate(model, scene.run);
-  const auto& last = first.rows.back();
-
-  signorini::SavedState state;
-  for (int i = 0; i < model.size(); ++i) {
-    const auto& dof = model.dofs[static_cast<std::size_t>(i)];
-    state.motions.emplace_back(dof.displacement, last.u[i]);
-    state.motions.emplace_back(dof.velocity, last.v[i]);
-  }
-  for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    state.shears.emplace_back(model.contacts[k].name, last.contacts[k].T);
   scene.initial = {};
-  scene.initial.saved = state;
+  scene.initial.saved = signorini::last_state(model, first);
   const auto second = signorini::simulate(signorini::build_model(scene), scene.run);
 
   const auto whole_scene =

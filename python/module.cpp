@@ -61,6 +61,10 @@ class Kept : public Result {
   void curves(const Curves& curves) override {
     if (directory_) directory_->curves(curves);
   }
+  void response(double t, const std::vector<double>& values) override {
+    Result::response(t, values);
+    if (directory_) directory_->response(t, values);
+  }
   bool progress(double t) override {
     if (directory_) directory_->progress(t);
     return go_on();
@@ -172,6 +176,23 @@ py::dict energy_table(const std::vector<Result::Row>& rows) {
   return table;
 }
 
+/// The outputs of the scene; none: no column but t.
+py::dict response_table(const Model& model, const std::vector<Result::Response>& rows) {
+  py::dict table;
+  table["t"] = column(rows, [](const auto& row) { return row.t; });
+  for (std::size_t i = 0; i < model.outputs.size(); ++i)
+    table[model.outputs[i].name.c_str()] = column(rows, [&](const auto& row) { return row.values[i]; });
+  return table;
+}
+
+py::dict response_units(const Model& model) {
+  py::dict units;
+  units["t"] = model.units.time;
+  for (const Output& output : model.outputs)
+    units[output.name.c_str()] = unit_text(output.unit, model.units);
+  return units;
+}
+
 /// Units of the columns of history, by name.
 py::dict history_units(const Model& model) {
   py::dict units;
@@ -210,6 +231,8 @@ py::dict run(const std::string& text, const std::string& file, const Settings& s
   result["contacts"] = contact_tables(*model, kept->rows);
   result["energy"] = energy_table(kept->rows);
   result["history_units"] = history_units(*model);
+  result["response"] = response_table(*model, kept->responses);
+  result["response_units"] = response_units(*model);
   result["summary"] = summary;
   result["toml"] = scene.resolved;
   return result;

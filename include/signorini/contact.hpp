@@ -17,17 +17,21 @@
 // With a shear element (kt and ct side by side) p is an unknown: ct (ut' - p') + kt (ut - p) = T, and p' = 0
 // in stick.
 // A slider has N = -normal_force(t) instead, no gap, and without kt the row t.v' = surface acceleration.
+// A compliant contact may have a law of one's own in place of all this: own_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "signorini/form.hpp"
 #include "signorini/history.hpp"
+#include "signorini/own_law.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
@@ -81,6 +85,7 @@ struct Contact {
   History surface_motion;                  ///< integral of the surface velocity from t = 0
   double initial_shear = 0.0;
   int initial_slip = 0;  ///< sign of the slip at t = 0, which T alone does not tell below the static limit
+  std::shared_ptr<const OwnLaw> own;  ///< compliant: what stands in place of its rows and guards
 
   [[nodiscard]] bool has_gap() const { return signorini::has_gap(law); }
   [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }
@@ -100,32 +105,14 @@ struct Contact {
   [[nodiscard]] const Combination& body_tangent() const { return shear ? shear->body : tangent; }
 };
 
-/// inside: open with g < 0, where a dashpot has let go before the gap opened.
-enum class State : unsigned char { open, inside, closed, stick, slip_plus, slip_minus };
-
-/// "open" (inside too), "closed", "stick", "slip+", "slip-".
-[[nodiscard]] const char* to_string(State state);
-/// Without a force.
-[[nodiscard]] constexpr bool is_open(State state) { return state == State::open || state == State::inside; }
-/// +1, -1 while slipping, else 0.
-[[nodiscard]] int slip_sign(State state);
-
 /// State and memory of one contact: what a switch changes.
 struct ContactState {
   State state = State::open;
-  double anchor = 0.0;  ///< p; meaningful in stick with tangential stiffness
+  /// p; meaningful in stick with tangential stiffness. Of a law of one's own: its memory.
+  double anchor = 0.0;
 
   [[nodiscard]] bool is_open() const { return signorini::is_open(state); }
   friend bool operator==(const ContactState&, const ContactState&) = default;
-};
-
-/// One contact at one instant (or a time derivative of it).
-struct ContactMotion {
-  double N = 0.0, T = 0.0;                     ///< force
-  double gap = 0.0, ut = 0.0;                  ///< length; ut relative to the surface
-  double vn = 0.0, vt = 0.0;                   ///< g', ut'
-  double an = 0.0, at = 0.0;                   ///< g'', ut''
-  double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
 };
 
 }  // namespace signorini

@@ -57,8 +57,8 @@ struct Event {
   double t = 0.0;
   int contact = -1;  ///< index into Model::contacts
   EventType type = EventType::time;
-  State from = State::open, to = State::open;
-  std::optional<double> gap;  ///< absent for sliders
+  State from = State::open, to = State::open;  ///< of a law of one's own: its states (number_of)
+  std::optional<double> gap;                   ///< absent for sliders
   double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
   double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
   std::optional<double> impulse_n, impulse_t;  ///< at hits of rigid contacts only

@@ -1,17 +1,28 @@
 // history.hpp: functions of time in closed form, piece by piece.
 //
 //   f(t) = sum_j c_j (t - t0)^j + a sin(w (t - t0) + phi)      on [start_i, start_{i+1})
+//        + sum_r b_r F^(r)(s (t - t0))                          F: a function of one's own
 //
 // Every load history, compression and surface velocity is such a function. It is right-continuous;
 // between its breakpoints it is smooth, and a Piece continues smoothly past both of its ends, so that
-// an integrator that evaluates it on the breakpoint itself sees the piece that it came from.
+// an integrator that evaluates it on the breakpoint itself sees the piece that it came from. So has F to.
+//
+//   History({1.0}, {Piece::of(smooth([](auto t) { return 3.0 * sin(t * t); })), Piece{}})     smooth.hpp
+//
+// `ida` and `newmark` take functions of one's own; what needs a closed form refuses them by name.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
 namespace signorini {
+
+/// The derivative of this order at t, of a function of one's own; order 0: its value. Decisions ask for
+/// orders up to 8, of motions of supports up to 10; where less is known, 0 in their place leaves to rounding
+/// what they would have told. Pure: the same for the same t, whoever asks and when.
+using Function = std::function<double(double t, int order)>;
 
 /// One smooth piece. Units: those of f; times in the scene's unit of time.
 struct Piece {
@@ -20,7 +31,16 @@ struct Piece {
   double amplitude = 0.0;            ///< a
   double omega = 0.0;                ///< w, rad per time
   double phase = 0.0;                ///< phi, rad
+  Function function = {};            ///< F; empty: none
+  double stretch = 1.0;              ///< s, the function's time over this one
+  std::vector<double> rates = {};    ///< b_r
 
+  [[nodiscard]] static Piece of(Function function) {
+    Piece piece;
+    piece.function = std::move(function);
+    piece.rates = {1.0};
+    return piece;
+  }
   /// The derivative of the given order at t (order 0: the value).
   [[nodiscard]] double value(double t, int order = 0) const;
   /// out[k] = scale^k / k! times the derivative of order k at t, 0 <= k < count.
@@ -54,15 +74,19 @@ class History {
   [[nodiscard]] std::vector<Breakpoint> breakpoints() const;
   /// offset + factor * f.
   [[nodiscard]] History scaled(double factor, double offset = 0.0) const;
-  /// F(t) = integral of f from 0 to t, continuous.
+  /// F(t) = integral of f from 0 to t, continuous. With functions of one's own: std::invalid_argument.
   [[nodiscard]] History integrated() const;
   /// c0 f + c1 f' + c2 f'', piece by piece: what f does at a jump has no derivative here.
   [[nodiscard]] History with_rates(double c0, double c1, double c2) const;
   /// f(t - dt). Where rounding merges starts: std::invalid_argument, here and in repeated().
   [[nodiscard]] History shifted(double dt) const;
+  /// This before t, `next` from t on.
+  [[nodiscard]] History then(double t, const History& next) const;
   /// f on [from, from + period), again and again, `rounds` times; before and after as f is.
   [[nodiscard]] History repeated(double from, double period, int rounds) const;
   [[nodiscard]] bool is_constant() const;
+  /// No function of one's own is in it.
+  [[nodiscard]] bool has_closed_form() const;
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const std::vector<double>& starts() const { return starts_; }
 

@@ -68,6 +68,16 @@ struct Curves {
   std::vector<std::vector<double>> rows;  ///< a value a name; t ascends, and may repeat
 };
 
+/// What whoever follows a run may change in it.
+class Steering {
+ public:
+  virtual ~Steering() = default;
+  /// From the present instant on the load of this name ("load 1", or its own) is another function of the time
+  /// of the run, amplitude included. Errors: SceneError for a name that is no force or moment, for a history
+  /// that the engine refuses, and where outputs hold the loads (reactions, members' forces).
+  virtual void set_load(const std::string& name, const History& history) = 0;
+};
+
 class Recorder {
  public:
   virtual ~Recorder() = default;
@@ -83,6 +93,11 @@ class Recorder {
   virtual void curves(const Curves& /*curves*/) {}
   /// The model's outputs, at output times and on both sides of every instant; t ascends, and may repeat.
   virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
+  /// Whether `steer` is of use: it ends no step, but makes a sample at each.
+  [[nodiscard]] virtual bool steers() const { return false; }
+  /// At the start, at the end of every step of the engine, and after every event and breakpoint: the state
+  /// there. What is changed holds from there on, as after a jump of a load. Return false to end the run.
+  virtual bool steer(const Sample& /*now*/, Steering& /*run*/) { return true; }
   /// Called often with the time reached; return false to ask for a stop (an interrupt).
   virtual bool progress(double /*t*/) { return true; }
 };
@@ -132,8 +147,8 @@ struct Counters {
 
 /// Peak of |u(t) - u(0)| over all steps, at the node of a contact.
 struct Peak {
-  double horizontal = 0.0, vertical = 0.0;  ///< along tangent and normal
-  double N = 0.0, T = 0.0;                  ///< greatest |N|, |T|
+  double tangential = 0.0, normal = 0.0;  ///< along the contact's tangent and normal
+  double N = 0.0, T = 0.0;                ///< greatest |N|, |T|
 };
 
 /// One stay of a contact on its ground; a hit that rebounds at once has start = end.

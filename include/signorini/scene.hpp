@@ -9,6 +9,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,8 @@
 
 #include "signorini/engine.hpp"
 #include "signorini/error.hpp"
+#include "signorini/history.hpp"
+#include "signorini/own_law.hpp"
 
 namespace signorini {
 
@@ -55,6 +58,8 @@ struct HistorySpec {
   double period = 0.0;                ///< > 0: the shape begins anew every so long, `rounds` times
   int rounds = 1;
   SourcePlace place;
+  /// Of scenes made in code: this history is the shape, whatever the type and its keys say.
+  std::optional<History> in_code = {};
 
   [[nodiscard]] static HistorySpec zero() {
     HistorySpec spec;
@@ -264,6 +269,8 @@ struct ContactSpec {
   SourcePlace place;
   std::string table = {};  ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
+  /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.
+  std::shared_ptr<const OwnLaw> own = {};
 
   /// In messages: "contacts.first.gap", "stops.guide.direction".
   [[nodiscard]] std::string key(const std::string& of) const {

@@ -41,4 +41,8 @@ namespace signorini {
 /// The same, kept in memory.
 [[nodiscard]] Result simulate(const Model& model, const RunSpec& settings);
 
+/// Where a run stands at its last row, for Scene::initial.saved: displacements, velocities, shears of contacts.
+/// Memories of laws of one's own are not in it. Errors: std::invalid_argument without a row.
+[[nodiscard]] SavedState last_state(const Model& model, const Result& result);
+
 }  // namespace signorini

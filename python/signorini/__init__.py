@@ -77,7 +77,8 @@ class Result:
     """What a run yields. Tables are dicts of NumPy arrays; texts (contact, event, state) are arrays of strings.
 
     events, history, energy    tables;   contacts[name]: a table each
-    units                      of the columns of history, by name;   scene_units: force, mass, length, time
+    response                   the outputs of the scene ([[output]]), on both sides of every instant
+    units                      of the columns of history and response, by name;   scene_units: force, mass, length, time
     summary                    summary.json: outcome, settings, counters, audit, certified, ...
     toml                       the scene with every default filled in
     """
@@ -90,7 +91,8 @@ class Result:
         self.history = table(raw["history"])
         self.energy = table(raw["energy"])
         self.contacts = {name: table(columns) for name, columns in raw["contacts"].items()}
-        self.units = raw["history_units"]
+        self.response = table(raw["response"])
+        self.units = {**raw["response_units"], **raw["history_units"]}
         self.summary = json.loads(raw["summary"])
         self.scene_units = self.summary["units"]
         self.toml = raw["toml"]
@@ -101,12 +103,12 @@ class Result:
         return self.summary["outcome"]["kind"]
 
     def frame(self, table="history"):
-        """events, history, energy, or the name of a contact as a pandas.DataFrame, with its units in attrs."""
+        """events, history, energy, response, or the name of a contact as a pandas.DataFrame, with its units in attrs."""
         import pandas
 
-        columns = getattr(self, table) if table in ("events", "history", "energy") else self.contacts[table]
+        columns = getattr(self, table) if table in ("events", "history", "energy", "response") else self.contacts[table]
         frame = pandas.DataFrame(columns)
-        frame.attrs["units"] = self.units if table == "history" else self.scene_units
+        frame.attrs["units"] = self.units if table in ("history", "response") else self.scene_units
         return frame
 
     def __repr__(self):

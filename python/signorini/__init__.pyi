@@ -23,6 +23,7 @@ class Result:
     events: Table
     history: Table
     energy: Table
+    response: Table
     contacts: dict[str, Table]
     units: dict[str, str]
     scene_units: dict[str, str]

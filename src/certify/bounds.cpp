@@ -146,8 +146,8 @@ void bound_extremes(Certificate& certificate, const Kept& run, const std::vector
       return bound(own.peaks[k].*figure, atol,
                    [&](std::size_t i) { return companions[i].report->peaks[k].*figure; });
     };
-    certificate.peaks[k] = Peak{of(&Peak::horizontal, length), of(&Peak::vertical, length),
-                                of(&Peak::N, force), of(&Peak::T, force)};
+    certificate.peaks[k] = Peak{of(&Peak::tangential, length), of(&Peak::normal, length), of(&Peak::N, force),
+                                of(&Peak::T, force)};
   }
   certificate.landings.resize(own.landings.size());
   for (std::size_t k = 0; k < own.landings.size(); ++k) {

@@ -35,7 +35,7 @@ ExitCode plot(const fs::path& directory, const PlotWindow& window, const Picture
 struct PlotOptions {
   std::string directory;
   PlotWindow window;
-  std::optional<std::string> size, formats;
+  std::optional<std::string> size, formats, language;
   bool no_title = false;
 };
 
@@ -54,6 +54,8 @@ void add_plot(Program& program) {
       ->option_text("WxH");
   command->add_option("--format", options->formats, "svg, png, pdf, several with commas (default: svg,png)")
       ->option_text("NAME,...");
+  command->add_option("--language", options->language, "of labels and legends: en, de or ru (default: en)")
+      ->option_text("NAME");
   command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
   command->callback([&program, options] {
     program.action = [options] {
@@ -61,6 +63,7 @@ void add_plot(Program& program) {
       look.title = !options->no_title;
       if (options->size) read_size(*options->size, look);
       if (options->formats) read_formats(*options->formats, look);
+      if (options->language) read_language(*options->language, look);
       return plot(fs::path(options->directory), options->window, look);
     };
   });

@@ -162,7 +162,7 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
     const bool at_rest = model.static_start && k < model.statics.reactions.size();
     const auto& work = report.audit.friction_work;
     table.row({model.contacts[k].name, at_rest ? number(model.statics.reactions[k]) : "",
-               number(peak.horizontal), number(peak.vertical), number(peak.N), number(peak.T),
+               number(peak.tangential), number(peak.normal), number(peak.N), number(peak.T),
                k < work.size() ? number(work[k]) : ""});
   }
   if (model.contacts.size() > most) {

@@ -10,6 +10,7 @@ namespace signorini {
 Violations violations(const Contact& contact, State state, const ContactMotion& m) {
   const bool closed = !is_open(state);
   Violations v;
+  if (contact.own) return v;  // it has conditions of its own: its guards
   v.tension = m.N;
   if (contact.has_spring()) {
     // The surface in contact: the element's own length, which a dashpot may leave short (inside).

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "contact/form.hpp"
+#include "signorini/contact.hpp"
 
 namespace signorini {
 

@@ -5,7 +5,7 @@
 namespace signorini {
 
 const char* to_string(State state) {
-  switch (state) {
+  switch (kind_of(state)) {
     case State::open:
     case State::inside:
       return "open";
@@ -37,6 +37,12 @@ const char* to_string(Guard guard) {
       return "friction limit (-)";
     case Guard::sliding:
       return "slip rate";
+    case Guard::own_1:
+      return "first guard of its own law";
+    case Guard::own_2:
+      return "second guard of its own law";
+    case Guard::own_3:
+      return "third guard of its own law";
   }
   return "?";
 }
@@ -53,12 +59,29 @@ const char* to_string(Law law) {
   return "?";
 }
 
-int slip_sign(State state) { return state == State::slip_plus ? 1 : state == State::slip_minus ? -1 : 0; }
+int slip_sign(State state) {
+  const State kind = kind_of(state);
+  return kind == State::slip_plus ? 1 : kind == State::slip_minus ? -1 : 0;
+}
+
+namespace {
+
+const OwnState& state_in(const Contact& contact, const ContactState& state) {
+  return contact.own->states[is_own(state.state) ? number_of(state.state) : 0];
+}
+
+Form with_memory(const OwnForm& own, double memory) {
+  Form form = own.form;
+  form.constant += own.memory * memory;
+  return form;
+}
+
+}  // namespace
 
 Form slip_rate(const Contact& contact, int s) {
   Form form;
   form.vt = 1.0;
-  if (!contact.tangential_stiffness) return form;
+  if (!contact.tangential_stiffness || contact.own) return form;
   const double ratio = s * kinetic_friction(contact) / *contact.tangential_stiffness;
   if (contact.has_spring()) {
     form.vn = ratio * contact.normal_stiffness;
@@ -70,6 +93,10 @@ Form slip_rate(const Contact& contact, int s) {
 }
 
 Rows rows(const Contact& contact, const ContactState& state) {
+  if (contact.own) {
+    const OwnState& own = state_in(contact, state);
+    return {with_memory(own.normal, state.anchor), with_memory(own.tangent, state.anchor)};
+  }
   Rows result;
   result.normal.N = 1.0;
   result.tangent.T = 1.0;
@@ -107,6 +134,13 @@ Rows rows(const Contact& contact, const ContactState& state) {
 
 std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
   std::array<GuardForm, guards_per_contact> result;
+  if (contact.own) {
+    constexpr std::array kinds = {Guard::own_1, Guard::own_2, Guard::own_3};
+    const OwnState& own = state_in(contact, state);
+    for (std::size_t i = 0; i < own.guards.size(); ++i)
+      result[i] = {kinds[i], with_memory(own.guards[i].positive, state.anchor)};
+    return result;
+  }
   const bool slider = contact.is_pressed();
   if (state.is_open()) {
     if (!slider) {

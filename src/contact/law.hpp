@@ -17,6 +17,7 @@
 //              p' = ut' - s fk q'/kt            slider with kt
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
+// A law of one's own has the rows and guards that it names (signorini/own_law.hpp).
 // A guard is positive while its state is valid; the event is the first one to fall to zero. All are
 // smooth past their zero, so that a root finder may look a little beyond the event.
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
@@ -24,13 +25,24 @@
 
 #include <array>
 
-#include "contact/form.hpp"
 #include "contact/slots.hpp"
+#include "signorini/contact.hpp"
 
 namespace signorini {
 
 /// What a guard stands for.
-enum class Guard : unsigned char { none, closing, clearing, separation, slip_plus, slip_minus, sliding };
+enum class Guard : unsigned char {
+  none,
+  closing,
+  clearing,
+  separation,
+  slip_plus,
+  slip_minus,
+  sliding,
+  own_1,
+  own_2,
+  own_3
+};
 [[nodiscard]] const char* to_string(Guard guard);
 /// "compliant", "slider": as in a scene file.
 [[nodiscard]] const char* to_string(Law law);

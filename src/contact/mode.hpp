@@ -11,7 +11,9 @@ namespace signorini {
 using Mode = std::vector<ContactState>;
 
 /// The state that has the same rows: what is open has the same wherever it is.
-[[nodiscard]] constexpr State state_of_rows(State state) { return is_open(state) ? State::open : state; }
+[[nodiscard]] constexpr State state_of_rows(State state) {
+  return is_open(state) && !is_own(state) ? State::open : state;
+}
 
 /// What of a mode stands in the matrix of its system: anchors are constants of rows.
 [[nodiscard]] inline std::vector<State> states_of(const Mode& mode) {

@@ -30,7 +30,7 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
 
 /// p: where the anchor of a contact lies that sticks from now on. Of increments: that of p.
 [[nodiscard]] inline double slip_of(const Contact& contact, double ut, double T) {
-  return contact.tangential_stiffness ? ut - T / *contact.tangential_stiffness : ut;
+  return contact.tangential_stiffness && !contact.own ? ut - T / *contact.tangential_stiffness : ut;
 }
 [[nodiscard]] inline double slip_of(const Contact& contact, const ContactMotion& m) {
   return slip_of(contact, m.ut, m.T);

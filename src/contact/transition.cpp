@@ -37,8 +37,16 @@ State let_go(const Contact& contact, double gap) {
   return contact.normal_damping > 0.0 && gap < 0.0 ? State::inside : State::open;
 }
 
+ContactState state_in(const OwnLaw& law, std::size_t i, double memory) {
+  return {own_state(i, law.states[i].kind), memory};
+}
+
 ContactState next_state(const Contact& contact, const ContactState& now, Guard failed, const MotionJet& jet) {
   const ContactMotion& m = jet.motion[0];
+  const auto next_of_own = [&](std::size_t i) {
+    const OwnGuard& guard = contact.own->states[number_of(now.state)].guards[i];
+    return state_in(*contact.own, guard.next, guard.memory ? guard.memory->value(m) : now.anchor);
+  };
   switch (failed) {
     case Guard::none:
       return now;
@@ -56,6 +64,12 @@ ContactState next_state(const Contact& contact, const ContactState& now, Guard f
     }
     case Guard::sliding:
       return {State::stick, slip_of(contact, m)};
+    case Guard::own_1:
+      return next_of_own(0);
+    case Guard::own_2:
+      return next_of_own(1);
+    case Guard::own_3:
+      return next_of_own(2);
   }
   return now;
 }

@@ -18,6 +18,7 @@ struct ContactPath {
   double time = 0.0;                            ///< dt
 };
 
+/// Of a law of one's own `friction` is all that it takes, stored or lost, and the path's slip is d ut.
 /// Unit: energy, but pressing: force * time. By time where the path is.
 struct ContactWork {
   double friction = 0.0, surface = 0.0, damping = 0.0, pressing = 0.0;

@@ -18,6 +18,10 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
   Mode mode;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
+    if (contact.own) {
+      mode.push_back(state_in(*contact.own, 0, 0.0));
+      continue;
+    }
     ContactState s;
     ContactMotion m;
     set_place(contact, u, forcing.surface(c, t, 0), m);
@@ -48,6 +52,7 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
   const double t = instant.t;
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
+    if (contact.own) continue;
     ContactState& s = mode[c];
     const bool massless = std::any_of(
         contact.tangent.terms.begin(), contact.tangent.terms.end(),

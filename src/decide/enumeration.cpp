@@ -42,6 +42,12 @@ Enumeration::Choice Enumeration::choice(const Participant& who) const {
 Enumeration::Choice Enumeration::choice(std::size_t c, const ContactState& state,
                                         const ContactMotion& before) const {
   const Contact& contact = model_.contacts[c];
+  if (contact.own) {
+    Choice own{c, {}};
+    for (std::size_t i = 0; i < contact.own->states.size(); ++i)
+      own.states.push_back(state_in(*contact.own, i, state.anchor));
+    return own;
+  }
   // What stuck keeps its anchor, what slipped sticks where it is.
   const double anchor = state.state == State::stick ? state.anchor : slip_of(contact, before);
   Choice result{c, {}};

@@ -49,6 +49,9 @@ struct KnownGuards {
         return sliding;
       case Guard::none:
       case Guard::clearing:
+      case Guard::own_1:
+      case Guard::own_2:
+      case Guard::own_3:
         break;
     }
     return {};

@@ -3,7 +3,6 @@
 //   tol(x) = rtol |x| + atol,   atol = rtol * scale of the scene where the scene gives none
 #pragma once
 
-#include "contact/form.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {

@@ -152,6 +152,8 @@ Model build_model(const Scene& scene) {
   try {
     Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine), machine);
     model.machine = machine;
+    for (std::size_t k = 0; k < scene.contacts.size(); ++k)  // it never was in the machine's units
+      model.contacts[k].own = scene.contacts[k].own;
     return model;
   } catch (const SceneError&) {
     static_cast<void>(assembled(scene, {}));  // refuses it with numbers in the scene's units

@@ -33,21 +33,7 @@ class Rescaling {
     for (auto& [i, factor] : form.terms) factor *= length / of_dof(i);
   }
   void operator()(History& history, const Unit& of) const {
-    std::vector<double> starts = history.starts();
-    for (double& t : starts) (*this)(t, unit::time);
-    std::vector<Piece> pieces = history.pieces();
-    const double value = factor_of(of, factors_);
-    for (Piece& piece : pieces) {
-      (*this)(piece.origin, unit::time);
-      double c = value;
-      for (double& coefficient : piece.coefficients) {
-        coefficient *= c;
-        c /= factors_.time;
-      }
-      piece.amplitude *= value;
-      (*this)(piece.omega, unit::rate);
-    }
-    history = History(std::move(starts), std::move(pieces));
+    visit_numbers(history, of, [this](double& x, const Unit& unit) { (*this)(x, unit); });
   }
 
   /// Displacements from displacements.
@@ -78,6 +64,43 @@ class Rescaling {
     (*this)(o.constant, of);
   }
 
+  /// A form whose value is turned into this unit of it.
+  void operator()(Form& form, const Unit& value) const {
+    const double of = factor_of(value, factors_);
+    const auto times = [&](double& coefficient, const Unit& unit) {
+      coefficient *= of / factor_of(unit, factors_);
+    };
+    times(form.N, unit::force);
+    times(form.T, unit::force);
+    times(form.gap, unit::length);
+    times(form.ut, unit::length);
+    times(form.vn, unit::velocity);
+    times(form.vt, unit::velocity);
+    form.constant *= of;
+  }
+  void operator()(OwnForm& own) const {
+    const Unit of = unit_of(own.form);
+    (*this)(own.form, of);
+    own.memory *= factor_of(of, factors_) / factors_.length;
+  }
+  /// Forces of rows are in their unit, lengths of memories in theirs.
+  void operator()(OwnLaw& law) const {
+    for (OwnState& state : law.states) {
+      (*this)(state.normal);
+      (*this)(state.tangent);
+      for (OwnGuard& guard : state.guards) {
+        (*this)(guard.positive);
+        if (guard.memory) (*this)(*guard.memory, unit::length);
+      }
+    }
+  }
+  void operator()(std::shared_ptr<const OwnLaw>& law) const {
+    if (!law) return;
+    OwnLaw other = *law;
+    (*this)(other);
+    law = std::make_shared<const OwnLaw>(std::move(other));
+  }
+
   void operator()(Contact& c) const {
     (*this)(c.normal);
     (*this)(c.tangent);
@@ -95,6 +118,7 @@ class Rescaling {
     (*this)(c.normal_force, unit::force);
     (*this)(c.surface_motion, unit::length);
     (*this)(c.initial_shear, unit::force);
+    (*this)(c.own);
   }
 
   void operator()(Scales& s) const {
@@ -133,6 +157,18 @@ void rescale_drawing(Model& model, const Rescaling& rescale) {
 }
 
 }  // namespace
+
+History rescaled(History history, const Unit& of, const Factors& factors) {
+  visit_numbers(history, of, [&](double& x, const Unit& unit) { x *= factor_of(unit, factors); });
+  return history;
+}
+
+Unit unit_of(const Form& form) {
+  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return unit::force;
+  if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
+  if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
+  return unit::acceleration;
+}
 
 Model rescaled(Model model, const Factors& factors) {
   const Rescaling rescale(factors, model.dofs);

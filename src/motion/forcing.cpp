@@ -13,7 +13,7 @@ const Piece* piece(const History& history, double t, Side side) {
 }
 
 bool changes(const Piece& piece) {
-  return piece.amplitude != 0.0 ||
+  return piece.function || piece.amplitude != 0.0 ||
          std::any_of(piece.coefficients.begin(), piece.coefficients.end(),
                      [&](const double& c) { return &c != piece.coefficients.data() && c != 0.0; });
 }

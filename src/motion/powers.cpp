@@ -10,7 +10,9 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
   for (std::size_t k = 0; k < mode.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, forcing, t, point);
     const int s = slip_sign(mode[k].state);
-    const double slip = s == 0 ? 0.0 : slip_rate(model_.contacts[k], s).value(m);
+    const double slip = model_.contacts[k].own ? m.vt
+                        : s == 0               ? 0.0
+                                               : slip_rate(model_.contacts[k], s).value(m);
     const ContactWork power = work_on(model_.contacts[k], mode[k].state, m.N, m.T,
                                       {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});
     out[1] += power.damping;

@@ -24,7 +24,7 @@ Json certificate_json(const CertifiedReport& run) {
 Json peak_errors_json(const CertifiedReport& run, std::size_t k) {
   if (!run.certificate || k >= run.certificate->peaks.size() || !run.certificate->peaks[k]) return nullptr;
   const Peak& e = *run.certificate->peaks[k];
-  return {{"tangential", e.horizontal}, {"normal", e.vertical}, {"N", e.N}, {"T", e.T}};
+  return {{"tangential", e.tangential}, {"normal", e.normal}, {"N", e.N}, {"T", e.T}};
 }
 
 Json landing_errors_json(const CertifiedReport& run, std::size_t k, std::size_t landing) {

@@ -8,6 +8,7 @@
 
 #include "base/number.hpp"
 #include "base/suggest.hpp"
+#include "result/picture_words.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -52,6 +53,13 @@ void read_formats(const std::string& text, PictureLook& look) {
       look.formats.push_back(word);
   }
   if (look.formats.empty()) throw UsageError("--format: expected svg, png or pdf");
+}
+
+void read_language(const std::string& text, PictureLook& look) {
+  const std::vector<std::string>& known = picture_languages();
+  if (std::find(known.begin(), known.end(), text) == known.end())
+    throw UsageError(fmt::format("--language: found \"{}\"{}", text, suggestion(text, known)));
+  look.language = text;
 }
 
 Terminals terminals(const PictureLook& look, int height, bool over_time) {

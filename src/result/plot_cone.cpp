@@ -87,8 +87,8 @@ std::string legend(const PlottedRun& run, double top) {
                                        "keyentry with lines linecolor '#c0182b' linewidth 1.2 title '±f|N|'"};
   for (const auto& contact : run.facts.contacts) {
     if (contact.kinetic_friction == contact.static_friction) continue;
-    elements.push_back(
-        "keyentry with lines linecolor '#c0182b' linewidth 1.2 dashtype 2 title 'kinetic ±f|N|'");
+    elements.push_back("keyentry with lines linecolor '#c0182b' linewidth 1.2 dashtype 2 title " +
+                       quoted(say(run, "kinetic limit") + " ±f|N|"));
     break;
   }
   for (const std::string& state : state_names()) {
@@ -97,14 +97,14 @@ std::string legend(const PlottedRun& run, double top) {
     });
     if (occurs && state != "open" && state != "closed")
       elements.push_back("keyentry with points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) +
-                         "' title " + quoted(state));
+                         "' title " + quoted(say(run, state)));
   }
   for (const std::string& event : run.event_types)
     for (const EventLook& look : event_looks)
       if (event == to_string(look.type))
         elements.push_back(
             fmt::format("keyentry with points pointtype 6 pointsize 0.9 linecolor '{}' title {}", look.colour,
-                        quoted("event: " + event)));
+                        quoted(say(run, "event") + ": " + say(run, event))));
   return s + plot_command(elements);
 }
 
@@ -123,10 +123,11 @@ std::string cone_script(const PlottedRun& run) {
   const int panel_height = grid.columns == 1 ? 560 : grid.columns == 2 ? 400 : grid.columns == 3 ? 300 : 200;
   const int height = 90 + static_cast<int>(grid.rows) * (panel_height + 70);
   const std::string part =
-      rubbing > shown.size() ? fmt::format(" (first {} of {})", shown.size(), rubbing) : "";
-  std::string s = begin_script(
-      run,
-      {"cone", "Contact forces and friction cones" + part + ": inside sticks, on its edge slips", height});
+      rubbing > shown.size() ? " (" + say(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
+  std::string s = begin_script(run, {"cone",
+                                     say(run, "Contact forces and friction cones") + part + ": " +
+                                         say(run, "inside sticks, on its edge slips"),
+                                     height});
   s += colour_functions() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
   if (small) s += "set tics font ',10'\n";
   const double line = 1.0 / height, left = 0.09, right = 0.845;
@@ -153,12 +154,15 @@ std::string cone_script(const PlottedRun& run) {
     if (small) s += "set xtics " + shortest(tic_step(most)) + "\n";
     // Labels on the outer panels only.
     const bool lowest = i + grid.columns >= shown.size();
-    s += lowest ? "set xlabel " +
-                      quoted((small ? "-N [" : "compression -N [") + run.facts.units.force + "]") + "\n"
-                : "unset xlabel\n";
-    s += column == 0
-             ? "set ylabel " + quoted("shear T [" + run.facts.units.force + "]") + " offset character 0.5,0\n"
-             : "unset ylabel\n";
+    s +=
+        lowest
+            ? "set xlabel " +
+                  quoted((small ? "-N [" : say(run, "compression") + " -N [") + run.facts.units.force + "]") +
+                  "\n"
+            : "unset xlabel\n";
+    s += column == 0 ? "set ylabel " + quoted(say(run, "shear") + " T [" + run.facts.units.force + "]") +
+                           " offset character 0.5,0\n"
+                     : "unset ylabel\n";
     s += panel_of(run, shown[i], small);
   }
   s += "\n" + legend(run, 1.0 - 92.0 * line);

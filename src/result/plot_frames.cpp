@@ -93,7 +93,7 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
     const double x = f.x + scales.magnification * f.ux - scales.force_scale * f.fx;
     const double y = f.y + scales.magnification * f.uy - scales.force_scale * f.fy;
     std::string text = f.contact;
-    if (figures && f.state == "open") text += ": open";
+    if (figures && f.state == "open") text += ": " + say(run, "open");
     if (figures && f.state != "open") {
       text += fmt::format(": N = {:.4g}", f.N);
       if (f.T != 0.0) text += fmt::format(", T = {:.4g}", f.T);
@@ -115,21 +115,25 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
 }
 
 /// "Shape at t = ...": what the picture shows, and how much magnified.
-std::string subtitle(const Frame& frame, const FrameScales& scales, const Units& units) {
+std::string subtitle(const Frame& frame, const FrameScales& scales, const PlottedRun& run) {
   const bool slid = frame.slid_x != 0.0 || frame.slid_y != 0.0;
-  std::string about = fmt::format(
-      "Shape at t = {:.9g} {}, {} {}", frame.t, units.time,
-      slid ? fmt::format("slid by ({:.4g}, {:.4g}) {}, deformation", frame.slid_x, frame.slid_y, units.length)
-           : std::string("displacements"),
-      scales.magnification == 1.0 ? std::string("in true scale")
-                                  : fmt::format("magnified {:g} times", scales.magnification));
+  const auto number = [](double x, int digits) { return fmt::format("{:.{}g}", x, digits); };
+  const Units& units = run.facts.units;
+  std::string about = say(run, "Shape at t = {} {}", number(frame.t, 9), units.time) + ", ";
+  about += slid ? say(run, "slid by ({}, {}) {}, deformation", number(frame.slid_x, 4),
+                      number(frame.slid_y, 4), units.length)
+                : say(run, "displacements");
+  about +=
+      " " + (scales.magnification == 1.0 ? say(run, "in true scale")
+                                         : say(run, "magnified {} times", number(scales.magnification, 6)));
   if (scales.greatest_force > 0.0)
-    about += fmt::format("; longest arrow of the run: {:.4g} {}", scales.greatest_force, units.force);
+    about +=
+        "; " + say(run, "longest arrow of the run: {} {}", number(scales.greatest_force, 4), units.force);
   return about;
 }
 
 /// Elements, nodes and supports, undeformed and deformed.
-std::vector<std::string> shape_elements(const Frame& frame, const std::string& name) {
+std::vector<std::string> shape_elements(const Frame& frame, const std::string& name, const PlottedRun& run) {
   const std::string shape = quoted(name + "-shape.csv") + " skip 1 using ";
   const auto has = [&](const std::string& kind) {
     return std::any_of(frame.elements.begin(), frame.elements.end(),
@@ -143,40 +147,45 @@ std::vector<std::string> shape_elements(const Frame& frame, const std::string& n
     if (!has(kind)) return;
     elements.push_back(shape + only(kind, "$2", "3") +
                        " with lines linewidth 0.8 linecolor '#b0b0b0' notitle");
-    elements.push_back(shape + only(kind, "$4", "5") + " with lines " + look + " title " + quoted(title));
+    elements.push_back(shape + only(kind, "$4", "5") + " with lines " + look + " title " +
+                       quoted(say(run, title)));
   };
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
   line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
   line("beam", "linewidth 2.2 linecolor '#1a1a1a'", "beams");
   if (has("beam") || has("bar") || has("spring"))
-    elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title 'undeformed'");
+    elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title " +
+                       quoted(say(run, "undeformed")));
   elements.push_back(shape + only("node", "$2", "3") +
                      " with points pointtype 6 pointsize 0.5 linecolor '#b0b0b0' notitle");
   elements.push_back(shape + only("node", "$4", "5") +
-                     " with points pointtype 7 pointsize 0.6 linecolor '#1a1a1a' title 'nodes'");
+                     " with points pointtype 7 pointsize 0.6 linecolor '#1a1a1a' title " +
+                     quoted(say(run, "nodes")));
   const bool held =
       std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; });
   if (held)
     elements.push_back(shape + only("support", "$4", "5") +
-                       " with points pointtype 5 pointsize 1 linecolor '#555555' title 'supports'");
+                       " with points pointtype 5 pointsize 1 linecolor '#555555' title " +
+                       quoted(say(run, "supports")));
   return elements;
 }
 
 /// Arrows, and points in the colours of the states.
-std::vector<std::string> force_elements(const Frame& frame, const std::string& name) {
+std::vector<std::string> force_elements(const Frame& frame, const std::string& name, const PlottedRun& run) {
   std::vector<std::string> elements;
   if (frame.forces.empty()) return elements;
   const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
   elements.push_back(forces +
                      "($3-$5):($4-$6):5:6 with vectors head filled size screen 0.009,18 linewidth 1.8 "
-                     "linecolor '#c0182b' title 'contact force'");
+                     "linecolor '#c0182b' title " +
+                     quoted(say(run, "contact force")));
   for (const std::string& state : state_names()) {
     const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
                                     [&](const auto& f) { return f.state == state; });
     if (!occurs) continue;
     elements.push_back(forces + "(strcol(2) eq " + quoted(state) +
                        " ? $3 : NaN):4 with points pointtype 7 pointsize 1.1 linecolor '" +
-                       state_colour(state) + "' title " + quoted(state));
+                       state_colour(state) + "' title " + quoted(say(run, state)));
   }
   return elements;
 }
@@ -185,15 +194,15 @@ std::string script_of(const Frame& frame, const FrameScales& scales, const Plott
                       const std::string& name) {
   const Layout l = layout_of(scales);
   const Units& units = run.facts.units;
-  std::string s = begin_script(run, {name, subtitle(frame, scales, units), l.height, false});
+  std::string s = begin_script(run, {name, subtitle(frame, scales, run), l.height, false});
   s += panel(run, l.bottom, l.top, "y [" + units.length + "]", true);
   s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
   s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
                    shortest(l.y1));
   s += labels(frame, scales, l, run);
 
-  std::vector<std::string> elements = shape_elements(frame, name);
-  for (std::string& element : force_elements(frame, name)) elements.push_back(std::move(element));
+  std::vector<std::string> elements = shape_elements(frame, name, run);
+  for (std::string& element : force_elements(frame, name, run)) elements.push_back(std::move(element));
   return s + plot_command(elements) + "unset label\n" + end_script();
 }
 

@@ -38,10 +38,10 @@ struct PanelOfLines {
 
 std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   const std::string& length = run.facts.units.length;
-  std::vector<PanelOfLines> panels = {{".ux", "horizontal ux [" + length + "]", {}},
-                                      {".uy", "vertical uy [" + length + "]", {}},
-                                      {".rz", "rotation rz [rad]", {}},
-                                      {".u", "displacement u", {}}};
+  std::vector<PanelOfLines> panels = {{".ux", say(run, "horizontal ux") + " [" + length + "]", {}},
+                                      {".uy", say(run, "vertical uy") + " [" + length + "]", {}},
+                                      {".rz", say(run, "rotation rz") + " [rad]", {}},
+                                      {".u", say(run, "displacement u"), {}}};
   for (PanelOfLines& p : panels)
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
       const std::string& name = run.columns[i];
@@ -95,7 +95,7 @@ std::string script_of_lines(const PlottedRun& run, Picture picture, const std::v
                       colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"), quoted(p.lines[j].title)));
     if (shown < p.lines.size())
       elements.push_back("NaN with lines linecolor '#ffffff' title " +
-                         quoted(fmt::format("(first {} of {})", shown, p.lines.size())));
+                         quoted("(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"));
     s += plot_command(elements);
   }
   return s + end_script();
@@ -104,12 +104,12 @@ std::string script_of_lines(const PlottedRun& run, Picture picture, const std::v
 }  // namespace
 
 std::string displacement_script(const PlottedRun& run) {
-  return script_of_lines(run, {"displacement", "Displacements from the undeformed state"},
+  return script_of_lines(run, {"displacement", say(run, "Displacements from the undeformed state")},
                          displacement_panels(run));
 }
 
 std::string response_script(const PlottedRun& run) {
-  return script_of_lines(run, {"response", "Response quantities"}, response_panels(run));
+  return script_of_lines(run, {"response", say(run, "Response quantities")}, response_panels(run));
 }
 
 std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start) {
@@ -124,23 +124,25 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
       {"work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
   }};
   const std::string unit = run.facts.units.force + " " + run.facts.units.length;
-  std::string s = begin_script(run, {"energy", "Where the energy is, where it went, and the balance", 760});
-  s += panel(run, 0.34, 0.915, "energy [" + unit + "]", false);
+  std::string s =
+      begin_script(run, {"energy", say(run, "Where the energy is, where it went, and the balance"), 760});
+  s += panel(run, 0.34, 0.915, say(run, "energy") + " [" + unit + "]", false);
   std::vector<std::string> elements;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!used[i + 1]) continue;
     const TableColumn curve = curve_of(run, "energy.csv", energy_columns[i].name, i + 2);
     elements.push_back(fmt::format("{} using 1:{} with lines {} title {}", curve.data, curve.number,
-                                   parts[i].second, quoted(parts[i].first)));
+                                   parts[i].second, quoted(say(run, parts[i].first))));
   }
   const TableColumn balance = curve_of(run, "energy.csv", balance_column, 10);
-  if (elements.empty()) elements.push_back(balance.data + " using 1:(0) with lines title 'kinetic'");
+  if (elements.empty())
+    elements.push_back(balance.data + " using 1:(0) with lines title " + quoted(say(run, "kinetic")));
   s += plot_command(elements);
-  s += panel(run, 0.08, 0.305, "balance off by [" + unit + "]", true);
+  s += panel(run, 0.08, 0.305, say(run, "balance off by") + " [" + unit + "]", true);
   s += "set format y '%.1e'\n";
   s +=
       plot_command({fmt::format("{} using 1:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
-                                balance.data, balance.number, shortest(start), quoted("drift"))});
+                                balance.data, balance.number, shortest(start), quoted(say(run, "drift")))});
   s += "set format y '%g'\n";
   return s + end_script();
 }

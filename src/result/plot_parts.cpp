@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/number.hpp"
+#include "result/picture_words.hpp"
 
 namespace signorini {
 
@@ -87,11 +88,16 @@ double room_for(const std::vector<std::string>& names) {
                   1.0 - (line_of_legend + letter * static_cast<double>(longest)) / picture_width);
 }
 
+std::string say(const PlottedRun& run, std::string_view english) { return say(run.look.language, english); }
+
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
-  std::string note = run.facts.outcome == "done" ? "" : " (run " + run.facts.outcome + ")";
+  std::string note = run.facts.outcome == "done" ? "" : say(run, " (run {})", say(run, run.facts.outcome));
   const bool shaded = picture.over_time && run.facts.certain_until && *run.facts.certain_until < run.to;
-  if (shaded) note += fmt::format(" (shaded: not certain, from t = {:.6g} on)", *run.facts.certain_until);
+  if (shaded)
+    note += " (" +
+            say(run, "shaded: not certain, from t = {} on", fmt::format("{:.6g}", *run.facts.certain_until)) +
+            ")";
   std::string s = "# Draws " + picture.name +
                   ".svg and the like from the tables of the run. In this folder: gnuplot " + picture.name +
                   ".gp\n";
@@ -138,7 +144,8 @@ std::string panel(const PlottedRun& run, double bottom, double top, const std::s
       "noautotitle noenhanced\n",
       run.right + 0.012, top + 0.008);
   if (last) {
-    s += "set format x '%g'\nset xlabel " + quoted("time t [" + run.facts.units.time + "]") + "\n";
+    s += "set format x '%g'\nset xlabel " + quoted(say(run, "time t") + " [" + run.facts.units.time + "]") +
+         "\n";
   } else {
     s += "set format x ''\nunset xlabel\n";
   }
@@ -177,7 +184,7 @@ std::vector<std::string> band_legend(const PlottedRun& run, std::size_t k) {
     const auto& bands = run.bands[k];
     if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
     elements.push_back(fmt::format("keyentry with boxes fillstyle solid 1.0 noborder linecolor '{}' title {}",
-                                   state_colour(state), quoted(state)));
+                                   state_colour(state), quoted(say(run, state))));
   }
   return elements;
 }

@@ -5,9 +5,12 @@
 //   script = begin_script(run, "energy", panels) + panel(...) + "plot ..." + ... + end_script()
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "result/picture_look.hpp"
@@ -52,6 +55,13 @@ struct PlottedRun {
 /// A name that is too long for a legend without its middle.
 [[nodiscard]] std::string legend_name(const std::string& name);
 
+/// A word or a phrase of pictures in the run's language.
+[[nodiscard]] std::string say(const PlottedRun& run, std::string_view english);
+/// The same with its numbers and names put in, each by "{}".
+template <class... Parts>
+[[nodiscard]] std::string say(const PlottedRun& run, std::string_view english, const Parts&... parts) {
+  return fmt::format(fmt::runtime(say(run, english)), parts...);
+}
 /// 'text' for gnuplot: nothing in it is expanded. An apostrophe at its beginning becomes a typographic one.
 [[nodiscard]] std::string quoted(const std::string& text);
 /// The same as the label of a tick, where gnuplot reads % as the beginning of a format.

@@ -60,7 +60,8 @@ std::string raster_script(const PlottedRun& run) {
   const std::size_t count = run.facts.contacts.size();
   const int row = count <= 2 ? 120 : count <= 6 ? 70 : count <= 40 ? 38 : 12;
   const int height = 140 + row * static_cast<int>(count);
-  std::string s = begin_script(run, {"raster" + run.suffix, "Events of the contacts, a mark each", height});
+  std::string s =
+      begin_script(run, {"raster" + run.suffix, say(run, "Events of the contacts, a mark each"), height});
   const double line = 1.0 / height;
   s += panel(run, 62.0 * line, 1.0 - 62.0 * line, "", true);
   s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\nset ytics (", count - 1);
@@ -76,8 +77,8 @@ std::string raster_script(const PlottedRun& run) {
   std::vector<std::string> elements;
   elements.push_back(
       data + fmt::format("($1 < 0 ? $2 : NaN):(-0.5):(0):({}) with vectors nohead linecolor '#aaaaaa' "
-                         "dashtype 3 title 'load changes'",
-                         count));
+                         "dashtype 3 title {}",
+                         count, quoted(say(run, "load changes"))));
   if (!occurs(run, EventType::time)) elements.clear();
   const double lane = 0.84 / static_cast<double>(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
@@ -88,7 +89,7 @@ std::string raster_script(const PlottedRun& run) {
   }
   for (const EventLook& look : lanes)
     elements.push_back(fmt::format("keyentry with lines linewidth 4 linecolor '{}' title {}", look.colour,
-                                   quoted(to_string(look.type))));
+                                   quoted(say(run, to_string(look.type)))));
   s += plot_command(elements) + "unset arrow\n";
   return s + end_script();
 }

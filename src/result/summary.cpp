@@ -126,8 +126,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   if (k < report->audit.friction_work.size()) json["friction_work"] = report->audit.friction_work[k];
   if (k < report->peaks.size()) {
     const Peak& peak = report->peaks[k];
-    json["peaks"] = {
-        {"tangential", peak.horizontal}, {"normal", peak.vertical}, {"N", peak.N}, {"T", peak.T}};
+    json["peaks"] = {{"tangential", peak.tangential}, {"normal", peak.normal}, {"N", peak.N}, {"T", peak.T}};
     if (run->certificate) json["peaks"]["errors"] = peak_errors_json(*run, k);
   }
   if (k < report->landings.size() && contact.has_gap()) {

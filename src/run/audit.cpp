@@ -62,8 +62,8 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
     const int index = static_cast<int>(k);
     Peak& peak = peaks_[k];
     const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
-    peak.horizontal = std::max(peak.horizontal, std::abs(ut - at_start_[k].ut));
-    peak.vertical = std::max(peak.vertical, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
+    peak.tangential = std::max(peak.tangential, std::abs(ut - at_start_[k].ut));
+    peak.normal = std::max(peak.normal, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
     peak.N = std::max(peak.N, std::abs(m.N));
     peak.T = std::max(peak.T, std::abs(m.T));
     landings_.observe(k, m.N);

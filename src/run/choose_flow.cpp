@@ -15,7 +15,7 @@ constexpr int fewest_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
 bool stands_still(const Piece& piece) {
-  return piece.amplitude == 0.0 &&
+  return !piece.function && piece.amplitude == 0.0 &&
          std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
                      [&](const double& c) { return &c == piece.coefficients.data() || c == 0.0; });
 }

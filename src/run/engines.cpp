@@ -22,7 +22,15 @@ namespace {
 
 void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
+void refuse_own_laws(const Model& model, const RunSpec& run) {
+  for (const Contact& contact : model.contacts)
+    if (contact.own)
+      refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own; use \"ida\"",
+                              contact.name));
+}
+
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
+  refuse_own_laws(model, run);
   for (const Contact& contact : model.contacts)
     if (friction_varies(contact))
       refuse(run,
@@ -31,9 +39,24 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
                          contact.name));
 }
 
+void refuse_functions(const Model& model, const RunSpec& run) {
+  const auto check = [&](const History& history, const std::string& what) {
+    if (!history.has_closed_form())
+      refuse(run, fmt::format("needs loads in closed form, and {} is a function of one's own; use \"ida\" or "
+                              "\"newmark\"",
+                              what));
+  };
+  for (const Load& load : model.loads) check(load.history, load.name);
+  for (const Contact& contact : model.contacts) {
+    check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
+    check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
+  }
+}
+
 /// What iterates on friction takes no impulses.
 void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   refuse_laws_that_are_not_linear(model, run);
+  refuse_functions(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses())
       refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid; use \"newmark\" or law = "
@@ -45,6 +68,7 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
 /// A series has to reach the end of every polynomial in the forcing.
 void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
   refuse_laws_that_are_not_linear(model, run);
+  refuse_functions(model, run);
   const auto check = [&](const History& history, const std::string& what) {
     for (const Piece& p : history.pieces())
       for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)

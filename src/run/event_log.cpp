@@ -50,10 +50,10 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool
 
 std::optional<EventType> classify(State from, State to, bool let_go) {
   if (from == to) return let_go ? std::optional(EventType::slip) : std::nullopt;
-  if (to == State::open) return EventType::separation;
-  if (from == State::open) return EventType::contact;
+  if (is_open(to)) return EventType::separation;
+  if (is_open(from)) return EventType::contact;
   if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;
-  return slip_sign(to) != 0 ? EventType::slip : EventType::stick;
+  return slip_sign(to) != 0 || slip_sign(from) == 0 ? EventType::slip : EventType::stick;
 }
 
 std::optional<double> time_uncertainty(const Crossing& crossing, double error) {

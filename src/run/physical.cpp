@@ -64,13 +64,6 @@ class ToScene {
 
 }  // namespace
 
-Unit unit_of(const Form& form) {
-  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return unit::force;
-  if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
-  if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
-  return unit::acceleration;
-}
-
 // Of every column, as it is named there; that of guard_rate is the guard's (unit_of).
 Event physical(Event event, const Factors& of) {
   const ToScene convert(of);
@@ -98,7 +91,7 @@ Report physical(Report report, const Factors& of) {
   convert(unit::time, {&report.outcome.t});
   convert(report.audit);
   for (Peak& peak : report.peaks) {
-    convert(unit::length, {&peak.horizontal, &peak.vertical});
+    convert(unit::length, {&peak.tangential, &peak.normal});
     convert(unit::force, {&peak.N, &peak.T});
   }
   for (std::vector<Landing>& list : report.landings)

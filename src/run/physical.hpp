@@ -5,8 +5,7 @@
 // Powers of two: nothing is rounded.
 #pragma once
 
-#include "contact/form.hpp"
-#include "scene/quantities.hpp"
+#include "model/rescale.hpp"
 #include "signorini/result.hpp"
 #include "signorini/trace.hpp"
 
@@ -34,6 +33,8 @@ class PhysicalRecorder : public Recorder {
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override { recorder_.curves(curves); }  // they are in the scene's units
   void response(double t, const std::vector<double>& values) override;
+  [[nodiscard]] bool steers() const override { return recorder_.steers(); }
+  bool steer(const Sample& now, Steering& run) override { return recorder_.steer(in_scene(now), run); }
   bool progress(double t) override { return recorder_.progress(t * model_.unit.time); }
 
  private:
@@ -47,8 +48,5 @@ class PhysicalRecorder : public Recorder {
 
 /// The same for whoever hears of rounds; nobody where there is no listener. `model` must outlive it.
 [[nodiscard]] RoundListener physical(const RoundListener& listener, const Model& model);
-
-/// The unit of a form's value: that of its first term.
-[[nodiscard]] Unit unit_of(const Form& form);
 
 }  // namespace signorini

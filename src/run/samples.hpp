@@ -19,11 +19,11 @@ class Samples {
   [[nodiscard]] double next() const;
   /// Records the time t = next(). ahead: works that the auditor has and that come after t.
   void emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode, const Point& point);
-
- private:
+  /// Its u and v live until the next one. ahead: as above.
   [[nodiscard]] Sample sample(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
                               const Point& point);
 
+ private:
   const Model& model_;
   const std::vector<double>& frames_;
   Auditor& auditor_;

@@ -1,6 +1,7 @@
 // The loop of signorini/simulate.hpp.
 #include "signorini/simulate.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "run/response.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
+#include "run/steering.hpp"
 #include "run/warnings.hpp"
 
 namespace signorini {
@@ -46,7 +48,7 @@ std::vector<Fired> resting(const Decision& decision) {
 /// scene.
 class Loop {
  public:
-  Loop(const Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
+  Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
        const RoundListener& listener, MotionObserver* observer)
       : model_(model),
         spec_(spec),
@@ -66,7 +68,8 @@ class Loop {
         touches_(model.contacts.size()),
         standstill_(spec.t_end, spec.max_events_at_once, model.unit.time),
         breakpoints_(breakpoints(model, spec.t_end)),
-        forcing_(model, 0.0, Side::after) {
+        forcing_(model, 0.0, Side::after),
+        changes_(model, spec, engine, report_.method) {
     report_.method = std::move(method);
     decider_.trace(listener);
     report_.warnings = model.warnings;
@@ -74,7 +77,7 @@ class Loop {
 
   Report run() {
     const auto clock = std::chrono::steady_clock::now();
-    if (start())
+    if (start() && steered())
       while (t_ < spec_.t_end && segment()) {
       }
     finish();
@@ -98,7 +101,7 @@ class Loop {
     Instant now;
     now.u = model_.u0;
     now.v = model_.v0;
-    now.resolution = resolution_at(0.0, 0.0);
+    now.resolution = resolution_ = resolution_at(0.0, 0.0);
     now.start = true;
     now.mode = first_mode(model_, forcing_, 0.0, model_.u0, model_.v0);
     const Mode guessed = now.mode;
@@ -120,7 +123,7 @@ class Loop {
     const double end = at_breakpoint ? breakpoints_[next_breakpoint_].time : spec_.t_end;
     if (end - t_ < shortest_stretch) {
       t_ = end;
-      return instant({});
+      return instant({}) && steered();
     }
     engine_->start({end, &decision_, &forcing_});
     for (;;) {
@@ -130,13 +133,42 @@ class Loop {
       if (observer_)
         observer_->step({step, engine_->expansion(), decision_, forcing_, engine_->turning_points()});
       pass(step);
-      if (step.kind == Step::Kind::event) return instant(std::move(step.fired), std::move(step.adopted));
+      if (step.kind == Step::Kind::event)
+        return instant(std::move(step.fired), std::move(step.adopted)) && steered();
       auditor_.observe(forcing_, t_, decision_.mode, point_);
       if (residual_due_) auditor_.equilibrium(t_, engine_->residual());
       residual_due_ = false;
       if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
-      if (step.end >= end) return instant({});
+      if (step.end >= end) return instant({}) && steered();
+      if (!steer()) return false;
+      if (change_.any) return instant({}) && steered();
     }
+  }
+
+  /// Hands the state at t_ to who steers. False: the run ends.
+  bool steer() {
+    if (!recorder_.steers()) return true;
+    changes_.at(t_);
+    works_.clear();
+    const bool on = recorder_.steer(samples_.sample(t_, works_, forcing_, decision_.mode, point_), changes_);
+    change_ = changes_.take();
+    if (change_.any) {
+      breakpoints_ = breakpoints(model_, spec_.t_end);
+      next_breakpoint_ = static_cast<std::size_t>(
+          std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t_,
+                           [](double t, const Breakpoint& b) { return t < b.time; }) -
+          breakpoints_.begin());
+    }
+    return on || stop("stopped by who steers", Outcome::Kind::interrupted);
+  }
+
+  /// After an instant, as long as loads are changed there: each change is an instant of its own.
+  bool steered() {
+    do {
+      if (!steer()) return false;
+      if (change_.any && !instant({})) return false;
+    } while (change_.any);
+    return true;
   }
 
   /// What lies inside a step: its works, whole, so that rows change no digit of what is told at the end; rows,
@@ -214,9 +246,10 @@ class Loop {
     return true;
   }
 
-  /// Puts the clock on the breakpoints of this instant, if any. True: a load jumps at one of them.
+  /// Puts the clock on the breakpoints of this instant, if any, and notes what was changed at it. True: a load jumps at one of them.
   bool pass_breakpoints(Instant& now) {
-    bool jumps = false;
+    bool jumps = change_.jump;
+    now.jump = change_.any;
     for (; next_breakpoint_ < breakpoints_.size() && breakpoints_[next_breakpoint_].time - t_ <= resolution_;
          ++next_breakpoint_) {
       now.jump = true;
@@ -312,6 +345,8 @@ class Loop {
   Energy last_energy_;
   double t_ = 0.0, resolution_ = 0.0;
   std::size_t next_breakpoint_ = 0;
+  LoadChanges changes_;
+  LoadChanges::Change change_;  // of the loads, at t_
   int gains_ = 0;
   bool residual_due_ = false;  // at the end of the step: once for every row
 };
@@ -334,7 +369,7 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   Method method = engine.method(model, spec);
   method.reason = choice.reason;
   const Factors to_machine = inverse(model.machine);
-  const Model computed = rescaled(model, to_machine);
+  Model computed = rescaled(model, to_machine);
   spec = rescaled(std::move(spec), to_machine);
   PhysicalRecorder in_scene(computed, recorder);
   return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed), observer)

@@ -131,6 +131,7 @@ History shape(const HistorySpec& spec, const std::string& key) {
 }  // namespace
 
 History make_history(const HistorySpec& spec, const std::string& key) try {
+  if (spec.in_code) return spec.in_code->scaled(spec.amplitude, spec.offset);
   History f = shape(spec, key);
   if (spec.period > 0.0) {
     const double start = spec.type == HistoryType::table ? spec.times.front() : spec.start;
@@ -142,6 +143,14 @@ History make_history(const HistorySpec& spec, const std::string& key) try {
   throw SceneError(spec.place, key,
                    "found times that are one to a double, or beyond all doubles, where the history starts, "
                    "ends, is shifted or begins anew; expected times that can be told apart");
+}
+
+History make_integral(const HistorySpec& spec, const std::string& key) {
+  History f = make_history(spec, key);
+  if (!f.has_closed_form())
+    throw SceneError(spec.place, key,
+                     "found a function of one's own, expected a history whose integral is known");
+  return f.integrated();
 }
 
 }  // namespace signorini

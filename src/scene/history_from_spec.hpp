@@ -28,5 +28,7 @@ namespace signorini {
 
 /// Errors: SceneError at the spec's place under `key` ("loads.1.history").
 [[nodiscard]] History make_history(const HistorySpec& spec, const std::string& key);
+/// Its integral from 0 on.
+[[nodiscard]] History make_integral(const HistorySpec& spec, const std::string& key);
 
 }  // namespace signorini

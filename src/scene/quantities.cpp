@@ -25,6 +25,7 @@ void visit_history(HistorySpec& f, const Unit& of, const Visit& visit) {
     visit(f.coefficients[j], Unit{0, 0, -static_cast<int>(j)});
   for (double& t : f.times) visit(t, time);
   for (double& x : f.values) visit(x, plain);
+  if (f.in_code) visit_numbers(*f.in_code, plain, visit);
 }
 
 void visit_run(RunSpec& run, const Visit& visit) {
@@ -124,6 +125,23 @@ double factor_of(const Unit& of, const Factors& factors) {
 
 Factors inverse(const Factors& factors) {
   return {1.0 / factors.force, 1.0 / factors.length, 1.0 / factors.time};
+}
+
+void visit_numbers(History& history, const Unit& of, const Visit& visit) {
+  std::vector<double> starts = history.starts();
+  for (double& t : starts) visit(t, time);
+  std::vector<Piece> pieces = history.pieces();
+  for (Piece& piece : pieces) {
+    visit(piece.origin, time);
+    for (std::size_t j = 0; j < piece.coefficients.size(); ++j)
+      visit(piece.coefficients[j], Unit{of.force, of.length, of.time - static_cast<int>(j)});
+    visit(piece.amplitude, of);
+    visit(piece.omega, rate);
+    if (!piece.function) continue;
+    visit(piece.stretch, rate);
+    for (double& b : piece.rates) visit(b, of);
+  }
+  history = History(std::move(starts), std::move(pieces));
 }
 
 void visit_quantities(Scene& scene, const Visit& visit) {

@@ -31,6 +31,9 @@ inline constexpr Unit stiffness{1, -1, 0}, damping{1, -1, 1}, impulse{1, 0, 1}, 
 /// counts are left out.
 void visit_quantities(Scene& scene, const std::function<void(double&, const Unit&)>& visit);
 
+/// The same of a history whose values have the unit `of`.
+void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
+
 /// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
 /// powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);

@@ -14,8 +14,8 @@ struct PeakKind {
 };
 /// As in summary.json: forces, and displacements of the body from where it was at the start.
 constexpr std::array<PeakKind, 4> peak_kinds = {
-    PeakKind{"peak N", unit::force}, PeakKind{"peak T", unit::force}, PeakKind{"peak vertical", unit::length},
-    PeakKind{"peak horizontal", unit::length}};
+    PeakKind{"peak N", unit::force}, PeakKind{"peak T", unit::force}, PeakKind{"peak normal", unit::length},
+    PeakKind{"peak tangential", unit::length}};
 constexpr std::array contact_columns = {"N", "T", "ut", "slip", "gap"};
 
 EventRates in_scene(const EventRates& rates, const Factors& of) {
@@ -207,7 +207,7 @@ void RateRecord::finish() {
       result_.responses.push_back(std::move(r));
     }
     if (result_.times.empty()) continue;
-    constexpr std::array rests = {std::pair{"rest horizontal", 2}, std::pair{"rest slip", 3}};
+    constexpr std::array rests = {std::pair{"rest tangential", 2}, std::pair{"rest slip", 3}};
     for (const auto& [name, place] : rests) {
       const std::size_t column =
           model_.columns.size() + c * contact_columns.size() + static_cast<std::size_t>(place);

@@ -142,7 +142,7 @@ void check_bytes(const Scene& scene, const Factors& factors) {
   CHECK(report.audit.energy.value == there.report.audit.energy.value);
   CHECK(report.audit.equilibrium.value == there.report.audit.equilibrium.value);
   for (std::size_t k = 0; k < report.peaks.size(); ++k) {
-    CHECK(report.peaks[k].vertical == there.report.peaks[k].vertical);
+    CHECK(report.peaks[k].normal == there.report.peaks[k].normal);
     CHECK(report.peaks[k].N == there.report.peaks[k].N);
   }
   CHECK(here.report.warnings.size() == there.report.warnings.size());

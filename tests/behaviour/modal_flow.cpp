@@ -81,8 +81,8 @@ TEST_CASE(
     }
     for (std::size_t c = 0; c < 2; ++c) {
       const Peak &a = modes.report.peaks[c], &b = series.report.peaks[c];
-      CHECK(a.horizontal == doctest::Approx(b.horizontal).epsilon(1e-5));
-      CHECK(a.vertical == doctest::Approx(b.vertical).epsilon(1e-5));
+      CHECK(a.tangential == doctest::Approx(b.tangential).epsilon(1e-5));
+      CHECK(a.normal == doctest::Approx(b.normal).epsilon(1e-5));
       CHECK(a.N == doctest::Approx(b.N).epsilon(1e-5));
       CHECK(a.T == doctest::Approx(b.T).epsilon(1e-5));
     }

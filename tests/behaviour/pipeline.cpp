@@ -37,9 +37,9 @@ long count(const Result& result) {
 
 void check_peaks(const Result& result, const Row& row, double millimetres) {
   const auto& p = result.report.peaks;
-  CHECK(std::abs(1e3 * p[0].horizontal - row.first_horizontal) < millimetres);
-  CHECK(std::abs(1e3 * p[0].vertical - row.first_vertical) < millimetres);
-  CHECK(std::abs(1e3 * p[1].horizontal - row.second_horizontal) < millimetres);
+  CHECK(std::abs(1e3 * p[0].tangential - row.first_horizontal) < millimetres);
+  CHECK(std::abs(1e3 * p[0].normal - row.first_vertical) < millimetres);
+  CHECK(std::abs(1e3 * p[1].tangential - row.second_horizontal) < millimetres);
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ TEST_CASE("turns of a rubbed oscillator: times by stiffness, what is left by fri
     check_rate(s.event_rates[i][3].t, 0.0);
     check_rate(s.event_rates[i][4].t * 0.85e-3, 0.0);
   }
-  const Response& rest = figure(s, "rest horizontal");
+  const Response& rest = figure(s, "rest tangential");
   CHECK(rest.value == doctest::Approx(0.05e-3));
   check_rate(rest.rates[0], -8.0 * N / k);
   check_rate(rest.rates[1], 8.0 * f * N / (k * k));

@@ -51,11 +51,37 @@ TEST_CASE("cli plot: size, format and title for a paper") {
                                                                  {"--size", "10x90"},
                                                                  {"--size", "10"},
                                                                  {"--size", "160x9000"},
-                                                                 {"--format", "gif"}}) {
+                                                                 {"--format", "gif"},
+                                                                 {"--language", "latin"}}) {
     const Ending refused = shell.run({"plot", "belt-run", wrong[0], wrong[1]});
     CHECK(refused.code == 2);
     CHECK(refused.err.find(wrong[0] + ": ") != std::string::npos);
   }
+}
+
+TEST_CASE("cli plot: labels in another language, names as they are") {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  const auto labels_in = [&](const std::string& language) {
+    REQUIRE(shell.run({"plot", "belt-run", "--format", "svg", "--language", language}).code == 0);
+    return shell.read("belt-run/plots/contact-belt.svg") + shell.read("belt-run/plots/energy.svg");
+  };
+  const std::string german = labels_in("de"), russian = labels_in("ru");
+  for (const char* words : {"Zeit t [s]", "Haften", "Reibungsverlust", "Kontakt ", "Gleitweg p"}) {
+    CAPTURE(words);
+    CHECK(german.find(words) != std::string::npos);
+  }
+  for (const char* words : {"время t [s]", "сцепление", "потери: трение", "belt"}) {
+    CAPTURE(words);
+    CHECK(russian.find(words) != std::string::npos);
+  }
+  for (const std::string& text : {german, russian})
+    for (const char* english : {"time t", "stick", "lost by", "slip", "balance"}) {
+      CAPTURE(english);
+      CHECK(text.find(english) == std::string::npos);
+    }
 }
 
 TEST_CASE("cli plot: a window beside the run is refused, and the pictures stay") {

@@ -49,6 +49,12 @@ class Browser:
     def devtools(self, command, **parameters):
         return self.post("/goog/cdp/execute", {"cmd": command, "params": parameters})
 
+    def costs(self):
+        """Seconds of processor time since the page was opened: ScriptDuration, LayoutDuration, TaskDuration and others."""
+        self.devtools("Performance.enable", timeDomain="threadTicks")
+        return {item["name"]: item["value"] for item in self.devtools("Performance.getMetrics")["metrics"]
+                if item["name"].endswith("Duration")}
+
     def look(self, scheme="light", width=1200, height=900, media=""):
         self.devtools("Emulation.setEmulatedMedia", media=media, features=[{"name": "prefers-color-scheme", "value": scheme}])
         self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)

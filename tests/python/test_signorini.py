@@ -93,6 +93,18 @@ class Run(unittest.TestCase):
         self.assertEqual(frame.attrs["units"]["block.vx"], "m/s")
         self.assertEqual(list(signorini.run(push).frame("events").columns)[:3], ["t", "contact", "event"])
 
+    def test_outputs(self):
+        outputs = [{"name": "way", "kind": "displacement", "at": "block", "direction": [1.0, 0.0]},
+                   {"name": "rub", "kind": "contact", "at": "plate", "quantity": "T"}]
+        with tempfile.TemporaryDirectory() as folder:
+            result = signorini.run({**push, "output": outputs}, directory=pathlib.Path(folder) / "out")
+            lines = (pathlib.Path(folder) / "out" / "response.csv").read_text().splitlines()
+        self.assertEqual(lines[0].split(",")[:3], ["t", "way", "rub"])
+        self.assertEqual(len(lines) - 1, len(result.response["t"]))
+        self.assertAlmostEqual(result.response["way"][-1], 0.75, places=6)
+        self.assertEqual((result.units["way"], result.units["rub"]), ("m", "N"))
+        self.assertAlmostEqual(result.response["rub"].max(), 3.0)
+
     def test_toml_of_hostile_texts_comes_back(self):
         import tomllib
         value = {"a\"b": ["\\", "\n\t\x7f", "é\U0001f600", -0.0, 1e-300, True, 7, np.float64(0.5), np.arange(2)]}

@@ -20,10 +20,23 @@ int degree(const Piece& p) {
   return -1;
 }
 
-bool is_constant_piece(const Piece& p) { return degree(p) <= 0 && (!has_sine(p) || p.omega == 0.0); }
+bool is_constant_piece(const Piece& p) {
+  return !p.function && degree(p) <= 0 && (!has_sine(p) || p.omega == 0.0);
+}
+
+/// The derivative of this order of sum_r b_r F^(r)(s (t - t0)).
+double of_function(const Piece& p, double t, int order) {
+  double sum = 0.0, factor = 1.0;
+  for (std::size_t r = 0; r < p.rates.size(); ++r)
+    if (p.rates[r] != 0.0)
+      sum += p.rates[r] * p.function(p.stretch * (t - p.origin), order + static_cast<int>(r));
+  for (int i = 0; i < order; ++i) factor *= p.stretch;
+  return factor * sum;
+}
 
 /// An antiderivative. With a sine: int a sin(w s + phi) ds = (a/w) sin(w s + phi - pi/2).
 Piece antiderivative(const Piece& p) {
+  if (p.function) throw std::invalid_argument("History: a function of one's own has no integral here");
   Piece q;
   q.origin = p.origin;
   q.coefficients.assign(p.coefficients.size() + 1, 0.0);
@@ -59,6 +72,13 @@ Piece with_rates_of(const Piece& p, double c0, double c1, double c2) {
     q.amplitude = std::hypot(along, across) * p.amplitude;
     q.phase = p.phase + std::atan2(across, along);
   }
+  if (!p.function) return q;
+  q.rates.assign(p.rates.size() + 2, 0.0);
+  for (std::size_t r = 0; r < p.rates.size(); ++r) {
+    q.rates[r] += c0 * p.rates[r];
+    q.rates[r + 1] += c1 * p.stretch * p.rates[r];
+    q.rates[r + 2] += c2 * p.stretch * p.stretch * p.rates[r];
+  }
   return q;
 }
 
@@ -76,6 +96,13 @@ void Piece::taylor(double t, double scale, std::size_t count, double* out) const
       sum = sum * s + binomial * coefficients[j - 1];
     }
     out[k] = sum * power;
+  }
+  if (function) {
+    double factor = 1.0;  // scale^k / k!
+    for (std::size_t k = 0; k < count; ++k) {
+      out[k] += factor * of_function(*this, t, static_cast<int>(k));
+      factor *= scale / static_cast<double>(k + 1);
+    }
   }
   if (amplitude == 0.0) return;
   const double sine = std::sin(omega * s + phase), cosine = std::cos(omega * s + phase);
@@ -96,6 +123,7 @@ double Piece::value(double t, int order) const {
     for (std::size_t i = 0; i < k; ++i) c *= static_cast<double>(j - 1 - i);
     sum = sum * s + c;
   }
+  if (function) sum += of_function(*this, t, order);
   if (amplitude == 0.0) return sum;
   const double angle = omega * s + phase;
   double sine = (order % 2 == 0) ? std::sin(angle) : std::cos(angle);
@@ -117,6 +145,10 @@ double roundoff(const Piece& piece, double t) {
   const double a = std::abs(piece.amplitude);
   size += a * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
   slope += a * std::abs(piece.omega);
+  if (piece.function) {
+    size += std::abs(of_function(piece, t, 0));
+    slope += std::abs(of_function(piece, t, 1));
+  }
   return rounding::of_many * (size + (std::abs(t) + std::abs(piece.origin)) * slope);
 }
 
@@ -126,6 +158,7 @@ double roundoff_of_rate(const Piece& piece, double t) {
   for (std::size_t j = 1; j < piece.coefficients.size(); ++j, power *= s)
     size += static_cast<double>(j) * std::abs(piece.coefficients[j]) * power;
   size += std::abs(piece.amplitude * piece.omega) * (1.0 + std::abs(piece.omega) * s + std::abs(piece.phase));
+  if (piece.function) size += std::abs(of_function(piece, t, 1));
   return rounding::of_many * size;
 }
 
@@ -172,6 +205,7 @@ History History::scaled(double factor, double offset) const {
   for (Piece& p : result.pieces_) {
     for (double& c : p.coefficients) c *= factor;
     p.amplitude *= factor;
+    for (double& rate : p.rates) rate *= factor;
     if (offset == 0.0) continue;
     if (p.coefficients.empty()) p.coefficients.push_back(0.0);
     p.coefficients[0] += offset;
@@ -211,6 +245,23 @@ History History::shifted(double dt) const {
   return {std::move(starts), std::move(pieces)};
 }
 
+History History::then(double t, const History& next) const {
+  std::vector<double> starts;
+  std::vector<Piece> pieces{pieces_.front()};
+  for (std::size_t i = 0; i < starts_.size() && starts_[i] < t; ++i) {
+    starts.push_back(starts_[i]);
+    pieces.push_back(pieces_[i + 1]);
+  }
+  starts.push_back(t);
+  pieces.push_back(next.piece(t));
+  for (std::size_t i = 0; i < next.starts_.size(); ++i)
+    if (next.starts_[i] > t) {
+      starts.push_back(next.starts_[i]);
+      pieces.push_back(next.pieces_[i + 1]);
+    }
+  return {std::move(starts), std::move(pieces)};
+}
+
 History History::repeated(double from, double period, int rounds) const {
   std::vector<double> starts;
   std::vector<Piece> pieces{pieces_.front()};
@@ -239,6 +290,10 @@ bool History::is_constant() const {
   const double value = pieces_.front().value(0.0);
   return std::all_of(pieces_.begin(), pieces_.end(),
                      [&](const Piece& p) { return is_constant_piece(p) && p.value(0.0) == value; });
+}
+
+bool History::has_closed_form() const {
+  return std::none_of(pieces_.begin(), pieces_.end(), [](const Piece& p) { return bool(p.function); });
 }
 
 }  // namespace signorini

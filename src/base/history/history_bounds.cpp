@@ -3,7 +3,7 @@
 //   f(t) >= f(m) - sum_{0<k<K} |f^(k)(m)| r^k / k! - |a| (w r)^K / K!     for |t - m| <= r,  K > degree
 //
 // The bound holds for all t in the interval, so an interval where it is positive needs no second look; the
-// others are halved. Nothing is sampled.
+// others are halved. Nothing is sampled, but functions of one's own.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,6 +14,8 @@
 
 namespace signorini {
 namespace {
+
+constexpr int samples_of_functions = 4096;  // a piece; chosen: finer than anybody looks at a load
 
 /// Calls visit(piece, from, to) for the part of every piece within [0, t_end].
 template <class Visit>
@@ -71,6 +73,11 @@ double search(const Piece& p, double from, double to) {
 
 double negative_in(const Piece& p, double from, double to) {
   if (negative(p, from)) return from;
+  if (p.function) {
+    for (int i = 1; i <= samples_of_functions; ++i)
+      if (const double t = from + (to - from) * i / samples_of_functions; negative(p, t)) return t;
+    return -1.0;
+  }
   if (oscillates(p) && is_constant_and_sine(p)) {
     const double t = trough(p, from);
     if (t <= to && negative(p, t)) return t;
@@ -88,11 +95,11 @@ double magnitude(const History& f, double t_end) {
     Piece polynomial = p;
     polynomial.amplitude = 0.0;
     const bool turns = std::abs(p.omega) * (to - from) > std::numbers::pi;
-    constexpr int samples = 64;
+    const int samples = p.function ? samples_of_functions : 64;
     for (int i = 0; i <= samples; ++i) {
       const double t = from + (to - from) * i / samples;
       const double value =
-          turns ? std::abs(polynomial.value(t)) + std::abs(p.amplitude) : std::abs(p.value(t));
+          turns && !p.function ? std::abs(polynomial.value(t)) + std::abs(p.amplitude) : std::abs(p.value(t));
       largest = std::max(largest, value);
     }
   });

@@ -21,7 +21,7 @@ namespace signorini {
 [[nodiscard]] double magnitude(const History& f, double t_end);
 
 /// A time in [0, t_end] at which f is negative beyond roundoff, -1 when it is nowhere: proved with the
-/// troughs of sines and with bounds on polynomials, not sampled. Pieces count up to and including the time
+/// troughs of sines and with bounds on polynomials, not sampled (but functions of one's own). Pieces count up to and including the time
 /// at which the next one begins.
 [[nodiscard]] double negative_at(const History& f, double t_end);
 

@@ -4,6 +4,7 @@
 
 #include "base/history/history_internal.hpp"
 #include "contact/law.hpp"
+#include "contact/slots.hpp"
 #include "scene/history_from_spec.hpp"
 
 namespace signorini {
@@ -18,7 +19,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only = has_gap(spec.law) && !spec.friction.any();
+  const bool measures_only = has_gap(spec.law) && !spec.friction.any() && !spec.own;
   return combination(map, direction, spec.key("tangent"), true, measures_only);
 }
 
@@ -41,6 +42,39 @@ void check_compliant(const ContactSpec& spec, const Contact& contact) {
   if (!(spec.tangential_stiffness.value_or(0.0) > 0.0))
     throw SceneError(spec.place, spec.key("tangential_stiffness"),
                      "a compliant contact with friction needs a tangential stiffness > 0");
+}
+
+/// A law of one's own: what it may be made of.
+void check_own(const ContactSpec& spec, const Scene& scene) {
+  const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
+  const OwnLaw& law = *spec.own;
+  if (!has_spring(spec.law)) refuse("a law of one's own stands in place of that of a compliant contact");
+  if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
+    refuse("found friction or dampers beside a law of one's own, which has them in its rows");
+  if (scene.initial.is_static || scene.initial.is_frictional)
+    refuse("a static start knows the built-in laws only");
+  if (law.states.empty() || law.states.size() > most_own_states)
+    refuse(fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states));
+  for (const OwnState& state : law.states) {
+    if (state.guards.size() > guards_per_contact)
+      refuse(fmt::format("state '{}': found {} guards, expected at most {}", state.name, state.guards.size(),
+                         guards_per_contact));
+    if (is_own(state.kind) || state.kind == State::inside)
+      refuse(fmt::format("state '{}': expected a kind: open, closed, stick or slip", state.name));
+    std::vector<Form> forms = {state.normal.form, state.tangent.form};
+    if (forms[0].N == 0.0 || forms[1].T == 0.0)
+      refuse(fmt::format("state '{}': expected N in its normal row and T in its tangent row", state.name));
+    for (const OwnGuard& guard : state.guards) {
+      forms.push_back(guard.positive.form);
+      if (guard.memory) forms.push_back(*guard.memory);
+      if (guard.next >= law.states.size())
+        refuse(fmt::format("state '{}': found next state {}, expected 0 to {}", state.name, guard.next,
+                           law.states.size() - 1));
+    }
+    for (const Form& f : forms)
+      if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0)
+        refuse(fmt::format("state '{}': forms are on N, T, g, ut and their rates", state.name));
+  }
 }
 
 void check_slider(const ContactSpec& spec, const Contact& contact, double t_end) {
@@ -74,12 +108,14 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     if (has_gap(spec.law)) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
+      if (spec.own) check_own(spec, scene);
       if (has_spring(spec.law)) check_compliant(spec, c);
+      c.own = spec.own;
     } else {
       c.normal_force = make_history(spec.normal_force, spec.key("normal_force"));
       check_slider(spec, c, scene.run.t_end);
     }
-    c.surface_motion = make_history(spec.surface_velocity, spec.key("surface_velocity")).integrated();
+    c.surface_motion = make_integral(spec.surface_velocity, spec.key("surface_velocity"));
     contacts.push_back(std::move(c));
   }
   return contacts;

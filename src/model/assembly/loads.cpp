@@ -175,10 +175,11 @@ SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t 
                        support.place,
                        support.rz,
                        {}};
-  moving.s = make_history(*support.motion, moving.key);
   if (support.motion_is_acceleration) {
     const double s = saved_motion(scene, moving.name), rate = saved_motion(scene, rate_of(moving.name));
-    moving.s = moving.s.integrated().scaled(1.0, rate).integrated().scaled(1.0, s);
+    moving.s = make_integral(*support.motion, moving.key).scaled(1.0, rate).integrated().scaled(1.0, s);
+  } else {
+    moving.s = make_history(*support.motion, moving.key);
   }
   return moving;
 }

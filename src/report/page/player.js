@@ -49,7 +49,7 @@ class Player {
     this.touchShapes = data.contacts.map((c) => c.against.length && c.node >= 0 ? drawn("path", { class: "spring" }, g) : null);
     this.members = drawn("path", { class: "member" }, g);
     this.bars = drawn("path", { class: "member bar" }, g);
-    this.nodes = data.nodes.map(() => drawn("circle", { class: "node", r: data.nodes.length <= 40 ? 3 : 1.5 }, g));
+    this.nodes = drawn("path", { class: "dots", "stroke-width": data.nodes.length <= 40 ? 6 : 3 }, g);
     this.loads = data.loads.map(() => drawn("path", { class: "load" }, g));
     this.forces = data.contacts.map(() => drawn("path", { class: "force" }, g));
     this.marks = data.contacts.map((contact) => drawn("circle", { r: contact.node < 0 ? 0 : Math.min(7, this.stage.mark / 2) }, g));
@@ -76,8 +76,6 @@ class Player {
       paths.forEach((d, k) => { if (d) drawn("path", { d, fill: data.states[k][1] }, svg); });
       drawn("text", { x: 4, y: row * height + 12 }, svg, contact.name);
     });
-    this.needle = drawn("path", { stroke: "var(--load)", "stroke-width": 1.5, fill: "none" }, svg);
-    this.needleHeight = height * shown.length;
   }
   table() {
     const body = byId("states").tBodies[0], [force, length] = data.units;
@@ -124,7 +122,7 @@ class Player {
   toggle() {
     this.playing = !this.playing;
     if (this.playing && this.t >= this.last) this.t = 0;
-    this.before = undefined;
+    this.before = this.toldAt = undefined;
     if (this.playing) requestAnimationFrame((now) => this.frame(now));
     this.show(this.t);
   }
@@ -142,39 +140,44 @@ class Player {
     const u = displacementsAt(this.t), m = this.magnification, stage = this.stage;
     let beams = "", bars = "";
     for (const piece of data.pieces) if (piece.bar) bars += stage.piece(piece, u, m); else beams += stage.piece(piece, u, m);
-    this.members.setAttribute("d", beams);
-    this.bars.setAttribute("d", bars);
-    this.nodes.forEach((shape, k) => {
+    put(this.members, "d", beams);
+    put(this.bars, "d", bars);
+    let dots = "";
+    data.nodes.forEach((node, k) => {
       const [x, y] = stage.place(k, u, m);
-      shape.setAttribute("cx", x);
-      shape.setAttribute("cy", y);
+      dots += `M${x.toFixed(1)} ${y.toFixed(1)}h0`;
     });
-    data.springs.forEach((spring, k) => this.springShapes[k].setAttribute("d", stage.spring(spring, u, m)));
+    put(this.nodes, "d", dots);
+    data.springs.forEach((spring, k) => put(this.springShapes[k], "d", stage.spring(spring, u, m)));
     data.loads.forEach((load, k) => {
       const size = 70 * valueAt(load.t, load.f, this.t) / this.greatestLoad[k];
-      this.loads[k].setAttribute("d", stage.arrow(stage.place(load.node, u, m), size * load.dx, size * load.dy, false));
+      put(this.loads[k], "d", stage.arrow(stage.place(load.node, u, m), size * load.dx, size * load.dy, false));
     });
-    data.contacts.forEach((contact, k) => this.contact(contact, k, u, m));
-    this.told();
+    // Nobody reads figures sixty times a second: while it plays they follow ten times.
+    const now = performance.now(), tells = !this.playing || !(now - this.toldAt < 100);
+    if (tells) this.toldAt = now;
+    data.contacts.forEach((contact, k) => this.contact(contact, k, u, m, tells));
+    byId("needle").style.transform = `translateX(${(this.last > 0 ? this.wide * this.t / this.last : 0).toFixed(1)}px)`;
+    if (tells) this.told();
   }
-  contact(contact, k, u, m) {
+  contact(contact, k, u, m, tells) {
     const { t, state, N, T, gap } = contact.motion;
     if (!t.length) return;
     const [name, colour] = data.states[state[Math.max(0, rowAt(t, this.t))]] || ["", "#999999"];
     const n = valueAt(t, N, this.t), s = valueAt(t, T, this.t);
     if (contact.node >= 0) {
       const [x, y] = this.stage.place(contact.node, u, m), size = 90 / this.greatest;
-      this.marks[k].setAttribute("cx", x);
-      this.marks[k].setAttribute("cy", y);
-      this.marks[k].setAttribute("fill", colour);
+      put(this.marks[k], "cx", x.toFixed(1));
+      put(this.marks[k], "cy", y.toFixed(1));
+      put(this.marks[k], "fill", colour);
       // On the structure: -N n - T t, t = (ny, -nx); it pushes towards the node.
       const fx = -n * contact.nx - s * contact.ny, fy = -n * contact.ny + s * contact.nx;
-      this.forces[k].setAttribute("d", this.stage.arrow([x, y], size * fx, size * fy, false));
-      this.forces[k].setAttribute("stroke", colour);
-      if (this.touchShapes[k]) this.touchShapes[k].setAttribute("d", this.stage.touched(contact, u, m));
+      put(this.forces[k], "d", this.stage.arrow([x, y], size * fx, size * fy, false));
+      put(this.forces[k], "stroke", colour);
+      if (this.touchShapes[k]) put(this.touchShapes[k], "d", this.stage.touched(contact, u, m));
     }
     const row = this.rows[k];
-    if (!row) return;
+    if (!row || !tells) return;
     const g = valueAt(t, gap, this.t);
     row.chip.style.background = colour;
     row.state.textContent = name;
@@ -193,7 +196,6 @@ class Player {
     byId("now").textContent = text;
     byId("time").value = this.last > 0 ? this.t / this.last : 0;
     byId("play").textContent = this.playing ? "Pause" : "Play";
-    this.needle.setAttribute("d", `M${this.last > 0 ? this.wide * this.t / this.last : 0} 0v${this.needleHeight}`);
     if (this.onShow) this.onShow(exact ? this.t : null);
   }
 }

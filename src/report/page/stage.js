@@ -29,16 +29,25 @@ const valueAt = (times, values, t) => {
   return part ? values[row] + part * (values[row + 1] - values[row]) : values[row];
 };
 
-// Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero.
+// Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero. The same arrays at every call.
+const moved = data ? data.nodes.map(() => [0, 0, 0]) : [];
 const displacementsAt = (t) => {
   const { t: times, u } = data.curve;
-  const [row, part] = between(times, t);
-  const value = (column) => {
-    if (column < 0 || !times.length) return 0;
-    const a = u[row][column];
-    return part ? a + part * (u[row + 1][column] - a) : a;
-  };
-  return data.nodes.map((node) => node.u.map(value));
+  if (!times.length) return moved;
+  const [row, part] = between(times, t), from = u[row], to = u[part ? row + 1 : row];
+  data.nodes.forEach((node, k) => {
+    for (let i = 0; i < 3; ++i) {
+      const column = node.u[i];
+      if (column >= 0) moved[k][i] = from[column] + part * (to[column] - from[column]);
+    }
+  });
+  return moved;
+};
+
+// Sets an attribute where it has changed: what stays is not drawn again.
+const put = (shape, key, value) => {
+  const last = shape.put ??= {};
+  if (last[key] !== value) shape.setAttribute(key, last[key] = value);
 };
 
 class Stage {
@@ -100,8 +109,9 @@ class Stage {
     const length = Math.hypot(dx, dy);
     if (!(length > 2)) return "";
     const [X, Y] = leaves ? [x + dx, y - dy] : [x, y], c = dx / length, s = -dy / length, h = Math.min(9, length / 2);
-    const head = `M${X} ${Y}L${X - h * (c - 0.5 * s)} ${Y - h * (s + 0.5 * c)}M${X} ${Y}L${X - h * (c + 0.5 * s)} ${Y - h * (s - 0.5 * c)}`;
-    return `M${X - c * length} ${Y - s * length}L${X} ${Y}` + head;
+    const to = (x, y) => `${x.toFixed(1)} ${y.toFixed(1)}`, tip = to(X, Y);
+    const head = `M${tip}L${to(X - h * (c - 0.5 * s), Y - h * (s + 0.5 * c))}M${tip}L${to(X - h * (c + 0.5 * s), Y - h * (s - 0.5 * c))}`;
+    return `M${to(X - c * length, Y - s * length)}L${tip}` + head;
   }
   // What does not move: grounds of contacts, supports, springs to the ground begin there.
   fixed(parent) {

@@ -25,8 +25,8 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
     SweepRow::Contact contact{model.contacts[k].name};
     if (k < report.peaks.size()) {
       const Peak& peak = report.peaks[k];
-      contact.tangential = peak.horizontal;
-      contact.normal = peak.vertical;
+      contact.tangential = peak.tangential;
+      contact.normal = peak.normal;
       contact.N = peak.N;
       contact.T = peak.T;
     }

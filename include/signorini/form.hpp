@@ -1,0 +1,73 @@
+// form.hpp: the state of a contact, its motion, and linear forms on that.
+//
+//   value = c + a_N N + a_T T + a_g g + a_ut ut + a_vn g' + a_vt ut' + a_an g'' + a_at ut''
+//             + a_q q + a_q' q'                          q = normal_force(t)
+//
+// Residual rows (value = 0) and guards (value > 0) are such forms; so all that an engine needs of a
+// contact law is data, and their time derivatives follow from the derivatives of the motion.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace signorini {
+
+/// inside: open with g < 0, where a dashpot has let go before the gap opened.
+enum class State : unsigned char { open, inside, closed, stick, slip_plus, slip_minus };
+
+/// State i of a law of one's own (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in
+/// state, and counts as its kind where a kind is asked for.
+inline constexpr std::size_t most_own_states = 31;
+[[nodiscard]] constexpr State own_state(std::size_t i, State kind) {
+  return static_cast<State>(8U * (i + 1) + static_cast<unsigned>(kind));
+}
+[[nodiscard]] constexpr bool is_own(State state) { return static_cast<unsigned>(state) >= 8U; }
+/// Its number in its law.
+[[nodiscard]] constexpr std::size_t number_of(State own) { return static_cast<unsigned>(own) / 8U - 1U; }
+/// open, closed, stick or slip, of every state.
+[[nodiscard]] constexpr State kind_of(State state) {
+  return static_cast<State>(static_cast<unsigned>(state) % 8U);
+}
+
+/// "open" (inside too), "closed", "stick", "slip+", "slip-"; of a law of one's own its kind.
+[[nodiscard]] const char* to_string(State state);
+/// Without a force.
+[[nodiscard]] constexpr bool is_open(State state) {
+  return kind_of(state) == State::open || state == State::inside;
+}
+/// +1, -1 while slipping, else 0.
+[[nodiscard]] int slip_sign(State state);
+
+/// One contact at one instant (or a time derivative of it).
+struct ContactMotion {
+  double N = 0.0, T = 0.0;                     ///< force
+  double gap = 0.0, ut = 0.0;                  ///< length; ut relative to the surface
+  double vn = 0.0, vt = 0.0;                   ///< g', ut'
+  double an = 0.0, at = 0.0;                   ///< g'', ut''
+  double pressing = 0.0, pressing_rate = 0.0;  ///< normal_force(t) and its rate; sliders
+};
+
+struct Form {
+  double N = 0.0, T = 0.0, gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0, an = 0.0, at = 0.0;
+  double pressing = 0.0, pressing_rate = 0.0;
+  double constant = 0.0;
+
+  /// Value of the form without its constant: what a derivative of the motion contributes.
+  [[nodiscard]] double rate(const ContactMotion& m) const {
+    return N * m.N + T * m.T + gap * m.gap + ut * m.ut + vn * m.vn + vt * m.vt + an * m.an + at * m.at +
+           pressing * m.pressing + pressing_rate * m.pressing_rate;
+  }
+  [[nodiscard]] double value(const ContactMotion& m) const { return constant + rate(m); }
+  /// Sum of the magnitudes of the terms, given magnitudes in m.
+  [[nodiscard]] double magnitude(const ContactMotion& m) const {
+    return std::abs(N * m.N) + std::abs(T * m.T) + std::abs(gap * m.gap) + std::abs(ut * m.ut) +
+           std::abs(vn * m.vn) + std::abs(vt * m.vt) + std::abs(an * m.an) + std::abs(at * m.at) +
+           std::abs(pressing * m.pressing) + std::abs(pressing_rate * m.pressing_rate);
+  }
+  [[nodiscard]] bool operator==(const Form&) const = default;
+  [[nodiscard]] Form operator-() const {
+    return {-N, -T, -gap, -ut, -vn, -vt, -an, -at, -pressing, -pressing_rate, -constant};
+  }
+};
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+#include <stdexcept>
+
+#include "model/assembly/loads.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini {
+
+SavedState last_state(const Model& model, const Result& result) {
+  if (result.rows.empty()) throw std::invalid_argument("last_state: the run has no row");
+  const Result::Row& last = result.rows.back();
+  SavedState state;
+  const std::vector<Dof>& dofs = model.physical_dofs();
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    state.motions.emplace_back(dofs[i].displacement, last.u[static_cast<Eigen::Index>(i)]);
+    state.motions.emplace_back(dofs[i].velocity, last.v[static_cast<Eigen::Index>(i)]);
+  }
+  for (const Load& load : model.loads)
+    if (load.kind == LoadKind::support) {
+      const Piece& motion = load.history.piece(last.t);
+      state.motions.emplace_back(load.name, motion.value(last.t));
+      state.motions.emplace_back(rate_of(load.name), motion.value(last.t, 1));
+    }
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    if (!model.contacts[k].has_friction()) continue;
+    state.shears.emplace_back(model.contacts[k].name, last.contacts[k].T);
+    state.slips.emplace_back(model.contacts[k].name, slip_sign(last.contacts[k].state));
+  }
+  const Scales& s = model.scales;
+  state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
+  return state;
+}
+
+}  // namespace signorini

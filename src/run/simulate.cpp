@@ -259,7 +259,8 @@ class Loop {
     return contacts;
   }
 
-  /// Puts the clock on the breakpoints of this instant, if any, and notes what was changed at it. True: a load jumps at one of them.
+  /// Puts the clock on the breakpoints of this instant, if any, and notes what was changed at it. True: a load jumps
+  /// at one of them.
   bool pass_breakpoints(Instant& now) {
     bool jumps = change_.jump;
     now.jump = change_.any;

@@ -39,7 +39,7 @@ TEST_CASE("standstill: contacts are those of the instants that were too many") {
 
 TEST_CASE("standstill: contacts of ten thousand events are those since the last look") {
   Standstill watch(2.0, 100000);
-  for (int i = 0; i < 10000; ++i) CHECK_FALSE(watch.count(0.5 + 1e-9 * i, 0.0, {9}));
+  for (int i = 0; i < 10000; ++i) CHECK_FALSE(watch.count(0.6, 0.0, {9}));
   for (int i = 1; i < 10000; ++i)
     CHECK_FALSE(watch.count(0.6 + 1e-9 * i, 0.0, {static_cast<std::size_t>(i % 2)}));
   CHECK(watch.count(0.6 + 1e-5, 0.0, {5}));

@@ -173,6 +173,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
     sum.tangent += result.impulses[c].tangent;
     sum.rests = result.impulses[c].rests;
     sum.sticks = result.impulses[c].sticks;
+    sum.rebound = result.impulses[c].rebound;
   }
   follow_velocity(instant, forcing, block, decision.before, mode);
   return {};

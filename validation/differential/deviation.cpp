@@ -53,6 +53,10 @@ void raise(std::vector<double>& list, const std::vector<double>& other) {
     if (!other.empty()) list[i] = std::max(list[i], other[std::min(i, other.size() - 1)]);
 }
 
+bool same_but_end(const LoggedEvent& a, const LoggedEvent& b) {
+  return a.contact == b.contact && a.type == b.type && a.from == b.from;
+}
+
 }  // namespace
 
 Weights weights_of(const Model& model, const Track& reference) {
@@ -142,6 +146,23 @@ Deviation deviation(const Track& reference, const Track& other, const Weights& w
     push(d.force, between ? 0.0 : greatest_force(a, b, weights.force));
   }
   return d;
+}
+
+bool rests_by_rounding(const Track& a, const Track& b, double t_end) {
+  std::size_t i = 0;
+  while (i < a.events.size() && i < b.events.size() && same_but_end(a.events[i], b.events[i]) &&
+         a.events[i].to == b.events[i].to)
+    ++i;
+  if (i >= a.events.size() || i >= b.events.size() || !same_but_end(a.events[i], b.events[i])) return false;
+  const LoggedEvent& here = a.events[i];
+  if (here.type != to_string(EventType::impact)) return false;
+  const bool first_goes_on = here.to == to_string(State::open);
+  const std::vector<LoggedEvent>& goes_on = first_goes_on ? a.events : b.events;
+  const auto rest = std::find_if(
+      goes_on.begin() + static_cast<std::ptrdiff_t>(i), goes_on.end(),
+      [&](const LoggedEvent& e) { return e.contact == here.contact && e.to != to_string(State::open); });
+  return rest != goes_on.end() &&
+         rest->t - here.t < std::sqrt(64.0 * std::numeric_limits<double>::epsilon()) * t_end;
 }
 
 }  // namespace signorini::differential

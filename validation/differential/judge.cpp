@@ -231,6 +231,12 @@ class Judge {
       promise.delta = settings_.margin * settings_.tight;
       promise.least_time = first_step * t_end;
       Finding finding = check(found, promise);
+      // Flights lower than the rounding of their gaps are known to series, and rest in newmark.
+      if (!finding.kept && found.splits() && finding.worst <= 1.0 &&
+          rests_by_rounding(reference_, fine, t_end)) {
+        finding.kept = finding.unresolved = true;
+        finding.to_end = false;
+      }
       const bool last = halving == settings_.halvings || fine.end == Track::End::too_long || spent();
       if (!finding.kept && last && found.splits() && !promise.spread.u.empty())
         finding = settle(found, promise, settings_.margin * promise.spread.u.back());

@@ -47,29 +47,6 @@ Track run_scene(const Scene& scene, const Means& means, const Bounds& bounds) {
   }
 }
 
-bool same_but_end(const LoggedEvent& a, const LoggedEvent& b) {
-  return a.contact == b.contact && a.type == b.type && a.from == b.from;
-}
-
-/// Do both runs hit at the first event that differs, one comes to rest with it, and the other within a time
-/// in which it flies lower than rounding? A flight of length tau under a is a tau^2/8 high, the motion of
-/// the run of the size a t_end^2.
-bool rests_by_rounding(const Track& a, const Track& b, double t_end) {
-  std::size_t i = 0;
-  while (i < a.events.size() && i < b.events.size() && same_but_end(a.events[i], b.events[i]) &&
-         a.events[i].to == b.events[i].to)
-    ++i;
-  if (i >= a.events.size() || i >= b.events.size() || !same_but_end(a.events[i], b.events[i])) return false;
-  const LoggedEvent& here = a.events[i];
-  if (here.type != to_string(EventType::impact)) return false;
-  const bool first_goes_on = here.to == to_string(State::open);
-  const std::vector<LoggedEvent>& goes_on = first_goes_on ? a.events : b.events;
-  const auto rest = std::find_if(
-      goes_on.begin() + static_cast<std::ptrdiff_t>(i), goes_on.end(),
-      [&](const LoggedEvent& e) { return e.contact == here.contact && e.to != to_string(State::open); });
-  return rest != goes_on.end() && rest->t - here.t < std::sqrt(64.0 * eps) * t_end;
-}
-
 /// Units of force, length and time in N, m and s, the other way round.
 constexpr Factors systems[] = {{1e-3, 1.0, 1.0},                            // kN, m
                                {1.0, 1e3, 1.0},                             // N, mm

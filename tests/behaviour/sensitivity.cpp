@@ -282,7 +282,7 @@ TEST_CASE("the pipeline in modes, along the series and with `ida`: the same deri
   };
   agree(modes, 1e-7);
   CHECK(peaks > 6 * paths.size());
-  agree(ida, 1e-5);
+  agree(ida, 1e-4);  // at rtol 1e-8: what w inherits from the states of the run
 }
 
 TEST_CASE("friction that depends on the slip rate, by its constants and by the belt, against differences") {

@@ -14,7 +14,7 @@ constexpr int solves = 4;         // of inverse iteration, each of which gains a
 }  // namespace
 
 double rounding_floor(const Model& model) {
-  if (!(model.omega1 > 0.0)) return 0.0;
+  if (!(model.omega1 > 0.0) || model.stiffness.nonZeros() == 0) return 0.0;
   const SparseMatrix k = with_springs(model.stiffness, contact_springs(model.contacts));
   const double shift = beside * model.omega1 * model.omega1;
   const SymmetricSolver solver(SparseMatrix(k - shift * model.mass));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/exact/modal/damped_system.hpp"
 #include "engine/exact/modal/modal_system.hpp"
 #include "signorini/error.hpp"
 
@@ -14,43 +15,37 @@ constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 byt
 constexpr int fewest_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
-bool stands_still(const Piece& piece) {
-  return !piece.function && piece.amplitude == 0.0 &&
-         std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
-                     [&](const double& c) { return &c == piece.coefficients.data() || c == 0.0; });
-}
+constexpr int most_damped_unknowns =
+    200;  // above, complex modes of a state cost more than the series; chosen
 
-bool stands_still(const History& history) {
-  return std::all_of(history.pieces().begin(), history.pieces().end(),
-                     [](const Piece& piece) { return stands_still(piece); });
-}
+/// What follows a scene, and what of it modes cannot.
+struct Suited {
+  bool damped = false;
+  std::string objection;  // empty: they can
+};
 
-/// What modes cannot follow; empty: they can follow all of it.
-std::string objection(const Model& model) {
-  if (std::string why = modal_refusal(model); !why.empty()) return why;
-  if (model.size() > most_unknowns) return "more unknowns than modes are kept of";
-  for (const Load& load : model.loads)
-    if (!stands_still(load.history)) return "loads that change other than in jumps";
-  for (const Contact& contact : model.contacts)
-    if (!stands_still(contact.normal_force) || !stands_still(contact.surface_motion))
-      return "surfaces that move";
-  return {};
+Suited suited(const Model& model) {
+  const std::string why = proportional_refusal(model);
+  if (model.size() > most_unknowns) return {false, "more unknowns than modes are kept of"};
+  if (why.empty()) return {};
+  if (std::string other = damped_refusal(model); !other.empty()) return {true, other};
+  return {true, model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
 }
 
 }  // namespace
 
 FlowChoice choose_flow(const Model& model, const RunSpec& run) {
   if (run.flow == Flow::taylor) return {false, "as given"};
-  const std::string why = objection(model);
+  const auto [damped, why] = suited(model);
   if (run.flow == Flow::automatic) {
     if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
     if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
-    return {true, "auto: modes follow all of it"};
+    return {true, damped ? "auto: complex modes follow all of it" : "auto: modes follow all of it"};
   }
   if (!why.empty())
     throw SceneError(run.place, "run.flow",
                      fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
-  return {true, "as given"};
+  return {true, damped ? "as given: complex modes" : "as given"};
 }
 
 }  // namespace signorini

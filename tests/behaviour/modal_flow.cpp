@@ -36,6 +36,47 @@ void same_events(const std::string& text, double tolerance) {
   }
 }
 
+/// The same events, motions, forces, peaks and works by both flows, in complex modes throughout.
+void same_laws(const std::string& text, double tolerance) {
+  CAPTURE(text);
+  const Result modes = with_flow(text, "modal"), series = with_flow(text, "taylor");
+  CHECK(modes.report.method.flow_reason == "as given: complex modes");
+  REQUIRE(modes.report.outcome.kind == Outcome::Kind::done);
+  CHECK(modes.report.counters.fallbacks == 0);
+  CHECK(modes.report.counters.steps * 3 < series.report.counters.steps);
+  REQUIRE(modes.events.size() == series.events.size());
+  CHECK(modes.events.size() > 8);
+  double force = 0.0;
+  for (const Event& event : series.events) force = std::max(force, std::abs(event.N));
+  for (std::size_t i = 0; i < modes.events.size(); ++i) {
+    const Event &a = modes.events[i], &b = series.events[i];
+    CAPTURE(b.t);
+    REQUIRE(a.contact == b.contact);
+    REQUIRE(a.type == b.type);
+    REQUIRE(a.to == b.to);
+    CHECK(std::abs(a.t - b.t) < tolerance);
+    CHECK(std::abs(a.N - b.N) < 1e-7 * force);
+    CHECK(std::abs(a.T - b.T) < 1e-7 * force);
+  }
+  REQUIRE(std::isfinite(modes.report.audit.final.balance()));
+  CHECK(modes.report.audit.energy.value < 1e-11 * modes.report.audit.energy_scale);
+  CHECK(modes.report.audit.equilibrium.value < 1e-9 * modes.report.audit.force_scale);
+  REQUIRE(modes.rows.size() == series.rows.size());
+  for (std::size_t i = 0; i < modes.rows.size(); ++i) {
+    const auto &a = modes.rows[i], &b = series.rows[i];
+    CHECK((a.u - b.u).norm() < 1e-9 * (1e-3 + b.u.norm()));
+    const double scale = modes.report.audit.energy_scale;
+    CHECK(std::abs(a.energy.damping - b.energy.damping) < 1e-9 * scale);
+    CHECK(std::abs(a.energy.friction - b.energy.friction) < 1e-9 * scale);
+    CHECK(std::abs(a.energy.loads - b.energy.loads) < 1e-9 * scale);
+  }
+  for (std::size_t c = 0; c < modes.report.peaks.size(); ++c) {
+    const Peak &a = modes.report.peaks[c], &b = series.report.peaks[c];
+    CHECK(a.N == doctest::Approx(b.N).epsilon(1e-6));
+    CHECK(a.T == doctest::Approx(b.T).epsilon(1e-6));
+  }
+}
+
 const std::string head = R"(schema = 1
 title = "flows"
 units = { force = "N", mass = "kg", length = "m", time = "s" }
@@ -249,7 +290,123 @@ TEST_CASE("flows: auto follows the pipeline in modes, and few unknowns or what m
   };
   CHECK(flow_of({}) == "auto: modes follow all of it");
   CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: few unknowns, for which the series is as fast");
-  CHECK(flow_of({{"contacts.first.normal_damping", "10.0"}}) ==
-        "auto: modes cannot follow dashpots of contacts");
+  CHECK(flow_of({{"contacts.first.normal_damping", "10.0"}}) == "auto: complex modes follow all of it");
+  CHECK(flow_of({{"contacts.first.tangential_damping", "10.0"}}) ==
+        "auto: modes cannot follow shear elements");
   CHECK(flow_of({{"run.flow", "taylor"}}) == "as given");
+}
+
+namespace {
+
+/// A portal on two feet, which a pulse lifts; {} is where laws, damping and histories differ.
+std::string portal(const std::string& damping, const std::string& feet, const std::string& more) {
+  return head + R"(
+[run]
+t_end = 0.15
+output_dt = 0.01
+initial = "static"
+[sections.beam]
+EA = 10000
+EI = 50
+mass_per_length = 1
+[nodes]
+A = [0, 0]
+B = [0, 1.05]
+C = [1.66, 1.05]
+D = [1.66, 0]
+[[members]]
+nodes = ["A", "B", "C", "D"]
+section = "beam"
+elements = 1
+[[loads]]
+node = "B"
+direction = [0.6, 1]
+amplitude = 120
+history = { type = "rectangle", start = 0.02, end = 0.05 }
+)" + damping +
+         "\n" + more +
+         fmt::format(
+             "[[contacts]]\nname = \"A\"\nnode = \"A\"\nnormal = [0, 1]\n{}\n[[contacts]]\nname = "
+             "\"D\"\nnode = \"D\"\nnormal = [0, 1]\n{}\n",
+             feet, feet);
+}
+
+const char soft_feet[] =
+    "law = \"compliant\"\nnormal_stiffness = 1e5\ntangential_stiffness = 3e4\nfriction = 0.4";
+const char alpha[] = "[damping]\nalpha = 2";
+
+}  // namespace
+
+TEST_CASE("complex modes: damping beta K, single dampers, dashpots of contacts, no damping at all") {
+  same_laws(portal("[damping]\nalpha = 1\nbeta = 2e-5", soft_feet, ""), 1e-12);
+  same_laws(portal(alpha, soft_feet,
+                   "[[springs]]\nnode = \"C\"\ndirection = [1, 0]\nstiffness = 200\ndamping = 6\n"),
+            1e-12);
+  same_laws(portal(alpha, std::string(soft_feet) + "\nnormal_damping = 30", ""), 1e-12);
+  same_laws(
+      portal("", soft_feet, "[[springs]]\nnode = \"C\"\ndirection = [1, 0]\nstiffness = 200\ndamping = 6\n"),
+      1e-12);
+}
+
+TEST_CASE("complex modes: rigid contacts, with friction and rebounds") {
+  const char rigid[] = "law = \"rigid\"\nrestitution = 0.3\nfriction = 0.3\ncapture_velocity = 1e-2";
+  same_laws(portal(alpha, rigid, ""), 1e-10);
+}
+
+TEST_CASE("complex modes: ramps, harmonic loads and moving supports") {
+  same_laws(portal(alpha, soft_feet,
+                   "[[loads]]\nnode = \"C\"\ndirection = [1, 0]\namplitude = 40\n"
+                   "history = { type = \"harmonic\", amplitude = 1.0, omega = 37.0 }\n"
+                   "[[loads]]\nnode = \"B\"\ndirection = [0, -1]\namplitude = 40\n"
+                   "history = { type = \"ramp\", start = 0.01, end = 0.08 }\n"),
+            1e-12);
+}
+
+TEST_CASE(
+    "complex modes: sliders with and without a tangential stiffness on a belt, under a force that varies") {
+  const auto block = [](const char* law) {
+    return head + R"(
+[run]
+t_end = 6
+output_dt = 0.1
+initial = { b0 = { ux = 0.3 } }
+[damping]
+alpha = 0.05
+[nodes]
+b0 = [0.0, 0.0]
+b1 = [1.0, 0.0]
+[[masses]]
+node = "b0"
+mass = 1.3
+[[masses]]
+node = "b1"
+mass = 0.7
+[[springs]]
+node = "b0"
+direction = [1, 0]
+stiffness = 40
+[[springs]]
+nodes = ["b0", "b1"]
+stiffness = 60
+damping = 0.1
+[[springs]]
+node = "b0"
+direction = [0, 1]
+stiffness = 40
+[[springs]]
+node = "b1"
+direction = [0, 1]
+stiffness = 60
+[[contacts]]
+name = "belt"
+node = "b1"
+law = "slider"
+normal = [0, 1]
+normal_force = { type = "harmonic", offset = 10.0, amplitude = 4.0, omega = 3.0 }
+surface_velocity = 0.2
+friction = { static = 0.4, kinetic = 0.25 }
+)" + law;
+  };
+  same_laws(block(""), 1e-11);
+  same_laws(block("tangential_stiffness = 900"), 1e-11);
 }

@@ -39,12 +39,28 @@ void make_linear(ContactSpec& contact, double stiffness) {
   contact.surface_velocity.amplitude = 0.0;
 }
 
+bool modes_take(const Scene& scene) {
+  try {
+    RunSpec modal = scene.run;
+    modal.flow = Flow::modal;
+    (void)choose_flow(build_model(scene), modal);
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<Scene> for_both_flows(Scene scene) {
   scene.run.engine = Engine::exact;
   scene.run.flow = Flow::taylor;
   scene.reduction.reset();
+  for (ContactSpec& contact : scene.contacts) {
+    contact.tangential_damping = 0.0;
+    contact.friction.stribeck_velocity.reset();
+  }
+  if (modes_take(scene)) return scene;
   scene.damping.beta = 0.0;
   if (!(scene.damping.alpha > 0.0)) scene.damping.alpha = 1.0 / scene.run.t_end;
   if (scene.matrices) {
@@ -58,16 +74,10 @@ std::optional<Scene> for_both_flows(Scene scene) {
   for (LoadSpec& load : scene.loads) make_still(load.history);
   for (BaseMotionSpec& motion : scene.base_motion) make_still(motion.acceleration);
   double stiffness = 1.0;
-  try {
-    for (const Spring& spring : scene.springs) stiffness = std::max(stiffness, spring.stiffness);
-    for (ContactSpec& contact : scene.contacts) stiffness = std::max(stiffness, contact.normal_stiffness);
-    for (ContactSpec& contact : scene.contacts) make_linear(contact, stiffness);
-    RunSpec modal = scene.run;
-    modal.flow = Flow::modal;
-    (void)choose_flow(build_model(scene), modal);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
+  for (const Spring& spring : scene.springs) stiffness = std::max(stiffness, spring.stiffness);
+  for (ContactSpec& contact : scene.contacts) stiffness = std::max(stiffness, contact.normal_stiffness);
+  for (ContactSpec& contact : scene.contacts) make_linear(contact, stiffness);
+  if (!modes_take(scene)) return std::nullopt;
   return scene;
 }
 

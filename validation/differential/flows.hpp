@@ -1,7 +1,6 @@
 // flows.hpp: random scenes through both flows of engine `exact`.
 //
-//   scene with C = alpha M, compliant contacts and sliders with kt, loads that stand still between jumps
-//   -> run.flow = "taylor" and "modal": the same events, as far as the scene's data are known
+//   scene with linear laws -> run.flow = "taylor" and "modal": the same events, as far as the scene's data are known
 //   (metamorphic.hpp)
 #pragma once
 
@@ -15,9 +14,9 @@ namespace signorini::differential {
 /// of a state's and of both ways between them. Chosen; what exceeds it was a defect each time.
 inline constexpr double roundings_of_modes = 100.0;
 
-/// The drawn scene changed to what modes follow: dashpots go, rigid contacts become compliant, histories that
-/// change become jumps, alpha stands for all damping. Its flow: the series. Nothing where modes refuse it
-/// still.
+/// The drawn scene without Stribeck's law and shear elements, which modes do not follow. Where they refuse it
+/// still: with C = alpha M, springs for rigid contacts and jumps for histories that change. Its flow: the
+/// series. Nothing where modes refuse that, too.
 [[nodiscard]] std::optional<Scene> for_both_flows(Scene scene);
 
 /// The same, followed in modes.

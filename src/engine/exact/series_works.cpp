@@ -1,26 +1,14 @@
 #include "engine/exact/series_works.hpp"
 
-#include <gsl/gsl_integration.h>
-
 #include <algorithm>
-#include <memory>
 
 #include "contact/law.hpp"
+#include "engine/exact/gauss_rule.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t nodes = SeriesWorks::nodes;
-
-struct GaussRule {
-  std::array<double, nodes> x{}, w{};  // on [0, 1]
-  GaussRule() {
-    const std::unique_ptr<gsl_integration_glfixed_table, void (*)(gsl_integration_glfixed_table*)> table(
-        gsl_integration_glfixed_table_alloc(nodes), gsl_integration_glfixed_table_free);
-    for (std::size_t i = 0; i < nodes; ++i)
-      gsl_integration_glfixed_point(0.0, 1.0, i, &x[i], &w[i], table.get());
-  }
-};
 
 }  // namespace
 
@@ -56,7 +44,7 @@ void SeriesWorks::velocities_at(const Nodes& x, const Series& series, std::size_
 void SeriesWorks::add(const Mode& mode, const Forcing& forcing, const Series& series,
                       const std::vector<ContactSeries>& contacts, std::size_t degree, double from, double to,
                       Works& works) {
-  static const GaussRule rule;
+  const GaussRule& rule = gauss_rule();
   const double h = to - from;
   if (!(h > 0.0)) return;
   Nodes x{};

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "engine/exact/gauss_rule.hpp"
 #include "motion/contact_series.hpp"
 #include "motion/powers.hpp"
 
@@ -14,7 +15,7 @@ class SeriesWorks {
  public:
   SeriesWorks(const Model& model, const Structure& structure);
 
-  static constexpr std::size_t nodes = 10;  ///< exact to degree 19
+  static constexpr std::size_t nodes = GaussRule::nodes;
 
   /// Adds the integrals over [from, to] of the series, whose contacts are given as polynomials.
   void add(const Mode& mode, const Forcing& forcing, const Series& series,

@@ -9,7 +9,8 @@
 #pragma once
 
 #include "engine/exact/exact_engine.hpp"
-#include "engine/exact/modal/modal_works.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
+#include "engine/exact/modal/open_basis.hpp"
 
 namespace signorini {
 
@@ -39,11 +40,9 @@ class ModalEngine final : public Stepper {
   };
   void say_fallback(double t, const std::string& why);
   [[nodiscard]] Step give_way();
-  [[nodiscard]] std::string obstacle(const Segment& segment);
-  void set_forces(const Segment& segment);
+  [[nodiscard]] std::string follow(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   void fill(const ModalPoint& z, Point& point);
-  void find_turns(const ModalPoint& from, double begin, double length);
   struct Fall {
     double off = 0.0, blur = 0.0;  // times
   };
@@ -53,18 +52,13 @@ class ModalEngine final : public Stepper {
 
   const Model& model_;
   const Structure& structure_;
-  const double t_end_;
-  ModalSystem system_;
+  OpenBasis basis_;
+  std::unique_ptr<ModalFlow> flow_;  // null without open modes
   ExactEngine taylor_;
-  ModalProof proof_;
-  ModalWorks works_;
   TurningPoints turning_;
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
   Segment segment_;
-  std::shared_ptr<const StateModes> state_;  // kept while proof and works refer to it
-  Oscillators oscillators_;
-  Amplitudes forces_;
   std::vector<Part> parts_;  // of the last step
   ModalPoint now_;           // at its end
   double t_ = 0.0;
@@ -73,7 +67,7 @@ class ModalEngine final : public Stepper {
   double worked_to_ = 0.0;  // the time up to which works were taken, and the motion there
   ModalPoint worked_;
   bool has_worked_ = false;
-  std::map<std::size_t, double> last_turns_;  // of the last step, by kind
+  LastTurns last_turns_;  // of the last step
   std::vector<double> turns_;
   int touches_ = 0;
 };

@@ -6,7 +6,7 @@
 
 #include "base/rounding.hpp"
 #include "contact/law.hpp"
-#include "engine/falls/first_fall.hpp"
+#include "engine/exact/modal/settle_guard.hpp"
 
 namespace signorini {
 namespace {
@@ -246,112 +246,22 @@ void ModalProof::combine(const Watched& guard, std::vector<double>& p, double& s
           rounding_of_guard * guard.noise;
 }
 
-/// Is the guard's rate negative from `from` to `to`, places in the step, ripple and all?
-bool ModalProof::decreases(const Watched& guard, const std::vector<double>& p, double from, double to) const {
-  std::vector<double> q(degree_);
-  for (std::size_t j = 0; j < degree_; ++j) q[j] = -static_cast<double>(j + 1) * p[j + 1];
-  for (std::size_t i = 0; i + 1 < q.size(); ++i)  // about `from`
-    for (std::size_t j = q.size() - 1; j-- > i;) q[j] += from * q[j + 1];
-  double power = 1.0, rest = 0.0;
-  for (double& entry : q) {
-    entry *= power;
-    power *= to - from;
-    rest = std::max(rest, std::abs(entry));
-  }
-  q[0] -= guard.ripple_rate * h_ + rounding::of_elimination * rest;
-  return q[0] > 0.0 && first_fall(q.data(), q.size() - 1, 0.0).kind == FirstFall::Kind::none;
-}
-
-/// The only zero between two places of the step, in closed form: secants, kept inside (Illinois).
-double ModalProof::only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const {
+bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                        double& event) {
+  GuardOnStep on_step;
+  combine(guard, on_step.p, on_step.slack);
+  on_step.ripple = guard.ripple;
+  on_step.ripple_rate = guard.ripple_rate;
+  on_step.noise = guard.noise;
+  on_step.leading = arming_.leading(guard.slot);
+  on_step.armed = arming_.armed(guard.slot);
+  if (on_step.leading > 0) on_step.p = derivative_of(on_step.p, on_step.leading, h_);
   ModalPoint point;
-  const auto g = [&](double x) {
+  const auto value_at = [&](double x) {
     oscillators_->advance(at, *forces_, h_ * x, point);
     return value(guard, point);
   };
-  double low = g(from), high = g(to);
-  if (!(low > 0.0)) return from;
-  if (!(high < 0.0)) return to;
-  int side = 0;
-  double x = from;
-  for (int i = 0; i < 100; ++i) {
-    const double next = from + (to - from) * low / (low - high);
-    const double step = std::abs(next - x);
-    x = std::clamp(next, from, to);
-    const double now = g(x);
-    if (now == 0.0 || (i > 0 && step <= 2.0 * rounding::eps * to)) break;
-    if (now > 0.0) {
-      from = x;
-      low = now;
-      if (side > 0) high *= 0.5;
-      side = 1;
-    } else {
-      to = x;
-      high = now;
-      if (side < 0) low *= 0.5;
-      side = -1;
-    }
-    if (to - from <= 2.0 * rounding::eps * to) break;
-  }
-  return x;
-}
-
-/// event: the place of the first fall so far; limit: the place up to which nothing falls. False: what the
-/// guard's derivatives at the start said is doubted from now on.
-bool ModalProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
-                        double& event) {
-  std::vector<double> p;
-  double slack = 0.0;
-  combine(guard, p, slack);
-  const bool all_slow = guard.ripple == 0.0;
-  const auto fires = [&](double x) {
-    if (x >= event) return;
-    event = x;
-    passage.fired = guard.slot;
-  };
-  if (leaves(guard)) {
-    const std::size_t m = arming_.leading(guard.slot);
-    std::vector<double> q(p.begin() + static_cast<std::ptrdiff_t>(m), p.end());
-    double scale = 0.0, to_derivative = 1.0;
-    for (std::size_t i = 1; i <= m; ++i) to_derivative *= static_cast<double>(i) / h_;
-    for (std::size_t j = 0; j < q.size(); ++j) {
-      q[j] *= to_derivative;
-      scale += std::abs(q[j]);
-      to_derivative *= static_cast<double>(j + m + 1) / static_cast<double>(j + 1);
-    }
-    // The decision knows that it rises; what else is lost is the rest of the series.
-    q[0] -= std::min(guard.ripple + rounding::of_many * scale, 0.5 * q[0]);
-    if (!(q[0] > 0.0)) {
-      arming_.doubt(guard.slot);
-      return false;
-    }
-    const FirstFall fall = first_fall(q.data(), q.size() - 1, 0.0);
-    if (fall.kind == FirstFall::Kind::fall) limit = std::min(limit, 0.9 * fall.x);
-    return true;
-  }
-  if (unknown(guard)) {
-    p[0] += guard.noise + slack;
-    const FirstFall fall = first_fall(p.data(), degree_, 0.0);
-    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
-    return true;
-  }
-  if (all_slow) {
-    const FirstFall fall = first_fall(p.data(), degree_, slack);
-    if (fall.kind == FirstFall::Kind::fall) fires(fall.x);
-    if (fall.kind == FirstFall::Kind::touch) passage.touches.push_back(guard.slot);
-    return true;
-  }
-  const double off = slack + guard.ripple, start = p[0];
-  p[0] = start - 2.0 * off;
-  const FirstFall doubtful = first_fall(p.data(), degree_, 0.0);
-  if (doubtful.kind != FirstFall::Kind::fall || doubtful.x >= event) return true;
-  p[0] = start + off;
-  const FirstFall certain = first_fall(p.data(), degree_, 0.0);
-  if (certain.kind == FirstFall::Kind::fall && decreases(guard, p, doubtful.x, certain.x))
-    fires(only_fall(guard, at, doubtful.x, certain.x));
-  else
-    limit = std::min(limit, doubtful.x);
-  return true;
+  return settle_guard(on_step, guard.slot, h_, value_at, arming_, passage, limit, event);
 }
 
 Passage ModalProof::pass(const ModalPoint& at, double remaining) {

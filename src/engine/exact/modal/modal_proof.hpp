@@ -15,11 +15,9 @@
 #include <array>
 #include <optional>
 
+#include "engine/exact/modal/modal_flow.hpp"
 #include "engine/exact/modal/modal_system.hpp"
-#include "engine/exact/modal/oscillators.hpp"
 #include "engine/falls/arming.hpp"
-#include "engine/falls/turning_points.hpp"
-#include "engine/stepper.hpp"
 #include "motion/contact_series.hpp"
 
 namespace signorini {
@@ -27,13 +25,6 @@ namespace signorini {
 /// What a contact shows.
 struct Shown {
   double gap = 0.0, ut = 0.0, vn = 0.0, vt = 0.0;
-};
-
-/// A stretch without an event, or up to one.
-struct Passage {
-  double length = 0.0;
-  std::optional<std::size_t> fired;  ///< slot of the guard that falls at its end
-  std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
 };
 
 class ModalProof {
@@ -94,9 +85,6 @@ class ModalProof {
   [[nodiscard]] Size sum(const Amplitudes& row, double still, std::vector<double>& out) const;
   void expand(const ModalPoint& at);
   void combine(const Watched& guard, std::vector<double>& p, double& slack) const;
-  [[nodiscard]] bool decreases(const Watched& guard, const std::vector<double>& p, double from,
-                               double to) const;
-  [[nodiscard]] double only_fall(const Watched& guard, const ModalPoint& at, double from, double to) const;
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
   /// It starts at zero, and its leading derivative is watched; or nothing is known of it.

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "engine/exact/modal/modal_proof.hpp"
-#include "engine/falls/first_fall.hpp"
+#include "engine/exact/modal/settle_guard.hpp"
 
 namespace signorini {
 namespace {
@@ -65,38 +65,19 @@ ModalProof::Watch4 ModalProof::ripples(std::size_t c, bool of_rate) const {
           tangent};
 }
 
-namespace {
-
-/// The part of [0, 1] on which sign a(x x_end) + above > 0.
-double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,
-                   std::vector<double>& p) {
-  double power = 1.0;
-  for (std::size_t j = 0; j <= degree; ++j, power *= x_end) p[j] = sign * a[j] * power;
-  p[0] += above;
-  if (!(p[0] > 0.0)) return 0.0;
-  const FirstFall fall = first_fall(p.data(), degree, 0.0);
-  return fall.kind == FirstFall::Kind::none ? 1.0 : fall.x;
-}
-
-}  // namespace
-
-/// How far each of N, T, g and ut goes one way only, or not at all, of [0, 1]: without a turn.
+/// How far each of N, T, g and ut goes one way only, or not at all, of [0, 1]: without a turn. N goes with g,
+/// and T with g in slip, with ut in stick.
 ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
-  const std::array<std::pair<double, double>, 4> shares{
-      {{law.N_gap, 0.0}, {law.T_gap, law.T_ut}, {1.0, 0.0}, {0.0, 1.0}}};  // of vn and vt
   const Watch4 ripple = ripples(c, true);
-  const double *vn = slow_[c].of(ContactSeries::vn), *vt = slow_[c].of(ContactSeries::vt);
-  std::vector<double> rate(degree_ + 1);
-  Watch4 result{};
-  for (std::size_t f = 0; f < result.size(); ++f) {
-    const auto [of_normal, of_tangent] = shares[f];
-    for (std::size_t j = 0; j <= degree_; ++j) rate[j] = of_normal * vn[j] + of_tangent * vt[j];
-    const bool constant = of_normal == 0.0 && of_tangent == 0.0;
-    result[f] =
-        constant ? 1.0 : stays_above(rate.data(), degree_, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -ripple[f], p);
-  }
-  return result;
+  const auto goes = [&](ContactSeries::Field rate, double off) {
+    const double* a = slow_[c].of(rate);
+    return stays_above(a, degree_, x_end, a[0] < 0.0 ? -1.0 : 1.0, -off, p);
+  };
+  const double gap = goes(ContactSeries::vn, ripple[2]), ut = goes(ContactSeries::vt, ripple[3]);
+  const double N = law.N_gap != 0.0 ? gap : 1.0;
+  const double T = std::min(law.T_gap != 0.0 ? gap : 1.0, law.T_ut != 0.0 ? ut : 1.0);
+  return {N, T, gap, ut};
 }
 
 double ModalProof::within(const TurningPoints& known, double x_end) const {

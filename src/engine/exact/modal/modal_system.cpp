@@ -7,17 +7,6 @@
 #include "contact/law.hpp"
 
 namespace signorini {
-namespace {
-
-constexpr double same = rounding::of_many;  // of the norm of a matrix: a difference of two of its entries
-
-bool is_symmetric(const SparseMatrix& a) {
-  const SparseMatrix difference = a - SparseMatrix(a.transpose());
-  return difference.norm() <= same * a.norm();
-}
-
-}  // namespace
-
 ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing) {
   const Rows r = rows(contact, state);
   ForceLaw law;
@@ -29,7 +18,8 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double pre
   return law;
 }
 
-std::string modal_refusal(const Model& model) {
+std::string proportional_refusal(const Model& model) {
+  if (!stands_still(model)) return "loads or surfaces that change other than in jumps";
   if (model.size() == 0) return "nothing moves";
   std::size_t rank = 0;
   for (const Contact& contact : model.contacts) {
@@ -48,30 +38,16 @@ std::string modal_refusal(const Model& model) {
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
   if (!(alpha > 0.0)) return "no damping proportional to the mass";
   const SparseMatrix rest = model.damping - alpha * model.mass;
-  if (!(rest.norm() <= same * model.damping.norm())) return "damping that is not proportional to the mass";
+  if (!(rest.norm() <= rounding::of_many * model.damping.norm()))
+    return "damping that is not proportional to the mass";
   return {};
 }
 
-ModalSystem::ModalSystem(const Model& model)
+ModalSystem::ModalSystem(const Model& model, const OpenBasis& basis)
     : model_(model),
-      modes_(open_modes(model.mass, model.stiffness)),
-      alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {
-  if (!modes_.found()) return;
-  poles_ = Poles(modes_.square);
-  shapes_ = modes_.shapes;
-  projection_ = (model.mass * modes_.shapes).transpose();
-  const auto amplitudes_of = [&](const Combination& form) {
-    Vector x = Vector::Zero(model.size());
-    form.add_to(x, 1.0);
-    return Vector(modes_.shapes.transpose() * x);
-  };
-  for (const Contact& contact : model.contacts) {
-    normal_.push_back(amplitudes_of(contact.normal));
-    tangent_.push_back(amplitudes_of(contact.tangent));
-  }
-  for (const Load& load : model.loads) load_.push_back(amplitudes_of(load.direction));
-  modes_.shapes.resize(0, 0);  // kept by rows
-}
+      basis_(basis),
+      poles_(basis.square()),
+      alpha_(model.damping.coeff(0, 0) / model.mass.coeff(0, 0)) {}
 
 std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
   const std::vector<State> states = states_of(mode);
@@ -79,7 +55,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
   ++made_;
   auto made = std::make_shared<const StateModes>(make(mode));
   const auto rows = static_cast<std::size_t>(poles_.size());
-  const std::size_t lists = 2 * (normal_.size() + tangent_.size() + load_.size());
+  const std::size_t lists = 2 * (basis_.normals().size() + basis_.tangents().size() + basis_.loads().size());
   const auto pairs = static_cast<std::size_t>(made->pairs.e.size() + made->pairs.shared.size());
   const std::size_t bytes = made->spectrum.written_bytes() + sizeof(double) * pairs;
   return known_.insert(states, std::move(made),
@@ -96,11 +72,12 @@ StateModes ModalSystem::make(const Mode& mode) const {
   };
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const ForceLaw law = force_law(model_.contacts[c], mode[c], 0.0);
-    if (law.N_gap != 0.0) add(normal_[c] + (law.T_gap / law.N_gap) * tangent_[c], normal_[c], law.N_gap);
-    if (law.T_ut != 0.0) add(tangent_[c], tangent_[c], law.T_ut);
+    if (law.N_gap != 0.0)
+      add(basis_.normal(c) + (law.T_gap / law.N_gap) * basis_.tangent(c), basis_.normal(c), law.N_gap);
+    if (law.T_ut != 0.0) add(basis_.tangent(c), basis_.tangent(c), law.T_ut);
     symmetric = symmetric && law.T_gap == 0.0;
   }
-  Eigen::MatrixXd forces(modes_.square.size(), static_cast<Eigen::Index>(u.size())), forms = forces;
+  Eigen::MatrixXd forces(basis_.square().size(), static_cast<Eigen::Index>(u.size())), forms = forces;
   for (std::size_t a = 0; a < u.size(); ++a) {
     forces.col(static_cast<Eigen::Index>(a)) = u[a];
     forms.col(static_cast<Eigen::Index>(a)) = v[a];
@@ -117,9 +94,9 @@ StateModes ModalSystem::make(const Mode& mode) const {
       spectrum.to_modes(list[i], from[i]);
     }
   };
-  both(normal_, made.normal, made.from_normal);
-  both(tangent_, made.tangent, made.from_tangent);
-  both(load_, made.load, made.from_load);
+  both(basis_.normals(), made.normal, made.from_normal);
+  both(basis_.tangents(), made.tangent, made.from_tangent);
+  both(basis_.loads(), made.load, made.from_load);
   const bool slips =
       std::any_of(mode.begin(), mode.end(), [](const ContactState& c) { return slip_sign(c.state) != 0; });
   if (slips && spectrum.written_bytes() > 0) made.pairs = mode_pairs(spectrum, alpha_);

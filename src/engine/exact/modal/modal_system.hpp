@@ -11,9 +11,8 @@
 #include "base/bounded_cache.hpp"
 #include "contact/mode.hpp"
 #include "engine/exact/modal/mode_pairs.hpp"
-#include "engine/exact/modal/open_modes.hpp"
+#include "engine/exact/modal/open_basis.hpp"
 #include "engine/exact/modal/spectrum.hpp"
-#include "engine/exact/modal/thin_product.hpp"
 #include "motion/forcing.hpp"
 
 namespace signorini {
@@ -26,8 +25,8 @@ struct ForceLaw {
 /// pressing: of a slider, constant.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing);
 
-/// Why a scene cannot be followed in modes; empty: it can.
-[[nodiscard]] std::string modal_refusal(const Model& model);
+/// Why a scene cannot be followed in modes without coupling; empty: it can.
+[[nodiscard]] std::string proportional_refusal(const Model& model);
 
 /// One combination of contact states.
 struct StateModes {
@@ -43,28 +42,20 @@ inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 28};
 
 class ModalSystem {
  public:
-  explicit ModalSystem(const Model& model);
+  /// Both must outlive it.
+  ModalSystem(const Model& model, const OpenBasis& basis);
 
-  [[nodiscard]] const std::string& failure() const { return modes_.failure; }
   [[nodiscard]] double alpha() const { return alpha_; }
   /// The modes of a state, from the cache or made. Its spectrum may have failed.
   [[nodiscard]] std::shared_ptr<const StateModes> state(const Mode& mode);
   /// How many were made.
   [[nodiscard]] long made() const { return made_; }
 
-  [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
-  void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
-    thin_product(shapes_, q, u);
-  }
-
  private:
   const Model& model_;
-  OpenModes modes_;
+  const OpenBasis& basis_;
   Poles poles_;
   double alpha_ = 0.0;
-  RowMatrix shapes_;            // Phi
-  Eigen::MatrixXd projection_;  // Phi^T M
-  std::vector<Vector> normal_, tangent_, load_;
   [[nodiscard]] StateModes make(const Mode& mode) const;
 
   BoundedCache<std::vector<State>, std::shared_ptr<const StateModes>> known_{most_state_modes};

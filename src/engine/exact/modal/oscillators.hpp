@@ -11,9 +11,12 @@
 
 namespace signorini {
 
-/// Amplitudes and their rates.
+/// Amplitudes and their rates; of complex modes (damped_motion.hpp) those, and the time since the segment's
+/// beginning.
 struct ModalPoint {
   Amplitudes z, rate;
+  Eigen::VectorXcd y;
+  double time = 0.0;
 };
 
 class Oscillators {

@@ -9,34 +9,40 @@
 
 namespace signorini {
 
-struct Complex {
-  double re = 0.0, im = 0.0;
-  Complex() = default;
-  Complex(double real, double imaginary = 0.0)
-      : re(real), im(imaginary) {}  // NOLINT: a real is a complex number
+template <class R>
+struct BasicComplex {
+  R re{}, im{};
+  BasicComplex() = default;
+  BasicComplex(R real, R imaginary = R(0)) : re(real), im(imaginary) {}  // NOLINT: a real is a complex number
 
-  Complex& operator+=(Complex b) { return *this = {re + b.re, im + b.im}; }
-  Complex& operator-=(Complex b) { return *this = {re - b.re, im - b.im}; }
-  Complex& operator*=(Complex b) { return *this = {re * b.re - im * b.im, re * b.im + im * b.re}; }
-  Complex& operator*=(double b) { return *this = {re * b, im * b}; }
-  friend Complex operator+(Complex a, Complex b) { return a += b; }
-  friend Complex operator-(Complex a, Complex b) { return a -= b; }
-  friend Complex operator-(Complex a) { return {-a.re, -a.im}; }
-  friend Complex operator*(Complex a, Complex b) { return a *= b; }
-  friend Complex operator*(Complex a, double b) { return a *= b; }
-  friend Complex operator*(double a, Complex b) { return b *= a; }
+  BasicComplex& operator+=(BasicComplex b) { return *this = {re + b.re, im + b.im}; }
+  BasicComplex& operator-=(BasicComplex b) { return *this = {re - b.re, im - b.im}; }
+  BasicComplex& operator*=(BasicComplex b) { return *this = {re * b.re - im * b.im, re * b.im + im * b.re}; }
+  BasicComplex& operator*=(R b) { return *this = {re * b, im * b}; }
+  friend BasicComplex operator+(BasicComplex a, BasicComplex b) { return a += b; }
+  friend BasicComplex operator-(BasicComplex a, BasicComplex b) { return a -= b; }
+  friend BasicComplex operator-(BasicComplex a) { return {-a.re, -a.im}; }
+  friend BasicComplex operator*(BasicComplex a, BasicComplex b) { return a *= b; }
+  friend BasicComplex operator*(BasicComplex a, R b) { return a *= b; }
+  friend BasicComplex operator*(R a, BasicComplex b) { return b *= a; }
 };
+using Complex = BasicComplex<double>;
+using WideComplex = BasicComplex<long double>;
 
 [[nodiscard]] inline double inverse(double a) { return 1.0 / a; }
 [[nodiscard]] inline long double inverse(long double a) { return 1.0L / a; }
-[[nodiscard]] inline Complex inverse(Complex a) {
-  const double factor = 1.0 / (a.re * a.re + a.im * a.im);
+template <class R>
+[[nodiscard]] BasicComplex<R> inverse(BasicComplex<R> a) {
+  const R factor = R(1) / (a.re * a.re + a.im * a.im);
   return {a.re * factor, -a.im * factor};
 }
 [[nodiscard]] inline Complex operator/(Complex a, Complex b) { return a * inverse(b); }
 [[nodiscard]] inline double size_of(double a) { return std::abs(a); }
 [[nodiscard]] inline long double size_of(long double a) { return std::abs(a); }
-[[nodiscard]] inline double size_of(Complex a) { return std::hypot(a.re, a.im); }
+template <class R>
+[[nodiscard]] R size_of(BasicComplex<R> a) {
+  return std::hypot(a.re, a.im);
+}
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
 /// What a mode adds to a real quantity: itself, or itself and its conjugate.

@@ -98,12 +98,14 @@ class SmallLu {
     return result;
   }
 
-  /// c with G c = 0 and d with d^T G = 0, taking the last pivot for zero.
-  void null_vectors(SmallVector<S>& c, SmallVector<S>& d) const {
+  /// c with G c = 0 and d with d^T G = 0, taking the last `nullity` pivots for zero: one for each `which` of
+  /// those.
+  void null_vectors(SmallVector<S>& c, SmallVector<S>& d, std::size_t nullity = 1,
+                    std::size_t which = 0) const {
     SmallVector<S> x{}, w{};
-    const std::size_t last = rank_ - 1;
-    x[last] = w[last] = S(1.0);
-    for (std::size_t i = last; i-- > 0;) {
+    const std::size_t first = rank_ - nullity;
+    x[first + which] = w[first + which] = S(1.0);
+    for (std::size_t i = first; i-- > 0;) {
       S sum{}, left{};
       for (std::size_t j = i + 1; j < rank_; ++j) {
         sum += a_[i][j] * x[j];
@@ -117,6 +119,9 @@ class SmallLu {
       d[row_[i]] = w[i];
     }
   }
+
+  /// Size of pivot k, descending.
+  [[nodiscard]] auto pivot(std::size_t k) const { return size_of(a_[k][k]); }
 
  private:
   std::size_t rank_;

@@ -1,0 +1,20 @@
+#include "engine/exact/modal/damped_flow.hpp"
+
+namespace signorini {
+
+std::string DampedFlow::start(const Segment& segment, const Vector& q, const Vector& rate, ModalPoint& now) {
+  if (std::string why = motion_.start(segment, q, rate, now); !why.empty()) return why;
+  proof_.start();
+  works_.start();
+  return {};
+}
+
+void DampedFlow::forces(const ModalPoint& at, Point& point) const {
+  for (std::size_t c = 0; c < motion_.model().contacts.size(); ++c) {
+    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    point.forces[row] = motion_.value(motion_.contact(c).N, at);
+    point.forces[row + 1] = motion_.value(motion_.contact(c).T, at);
+  }
+}
+
+}  // namespace signorini

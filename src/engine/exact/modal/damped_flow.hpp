@@ -1,0 +1,53 @@
+// damped_flow.hpp: the flow in the complex modes of a contact state, for all linear laws and histories.
+//
+//   motion: damped_motion.hpp, proof: damped_proof.hpp, works: damped_works.hpp
+#pragma once
+
+#include "engine/exact/modal/damped_proof.hpp"
+#include "engine/exact/modal/damped_works.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
+
+namespace signorini {
+
+class DampedFlow final : public ModalFlow {
+ public:
+  /// All but t_end must outlive it.
+  DampedFlow(const Model& model, const OpenBasis& basis, double t_end)
+      : motion_(model, basis, t_end), proof_(motion_), works_(motion_) {}
+
+  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+                                  ModalPoint& now) override;
+  [[nodiscard]] Passage pass(const ModalPoint& at, double remaining) override {
+    return proof_.pass(at, remaining);
+  }
+  void rearm(const ModalPoint& at) override { proof_.rearm(at); }
+  void advance(const ModalPoint& from, double time, ModalPoint& to) const override {
+    motion_.advance(from, time, to);
+  }
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const override {
+    motion_.motion(at, q, rate, change);
+  }
+  void forces(const ModalPoint& at, Point& point) const override;
+  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const Point& /*point*/,
+                             double /*t*/) const override {
+    return proof_.slope(slot, at);
+  }
+  [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
+    return proof_.magnitude(slot, at);
+  }
+  void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                  LastTurns& turns) override {
+    proof_.find_turns(from, begin, length, turning, turns);
+  }
+  void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
+    works_.add(from, to, works);
+  }
+  [[nodiscard]] long states_made() const override { return motion_.system().made(); }
+
+ private:
+  DampedMotion motion_;
+  DampedProof proof_;
+  DampedWorks works_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,177 @@
+#include "engine/exact/modal/damped_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/friction.hpp"
+
+namespace signorini {
+namespace {
+
+/// What rounding may be multiplied with where a slow mode, or one near resonance, answers a force: as much as
+/// the closed form of works bears (modal_works.cpp).
+constexpr double most_loss = 1e3;
+
+}  // namespace
+
+/// u_c: what constraints hold, in open modes.
+Eigen::MatrixXd DampedMotion::held(const Segment& segment, const Vector& q) const {
+  const auto rigid = static_cast<Eigen::Index>(state_->rigid.size());
+  Eigen::MatrixXd asked = Eigen::MatrixXd::Zero(rigid, time_.size());
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const ContactRows& own = state_->contacts[c];
+    const auto row_of = [&](int term) {
+      return std::find(state_->rigid.begin(), state_->rigid.end(), term) - state_->rigid.begin();
+    };
+    if (own.normal.an != 0.0) asked(row_of(own.normal_term), 0) = -model_.contacts[c].gap;
+    if (own.tangent.at == 0.0) continue;
+    const double t = decision_->jet.t;
+    Course surface = time_.of(model_.contacts[c].surface_motion.piece(t));
+    surface[0] += basis_.tangent(c).dot(q) - segment.forcing->surface(c, t, 0);
+    asked.row(row_of(own.tangent_term)) = surface.transpose();
+  }
+  return state_->static_shapes * asked;
+}
+
+/// Of loads, and of contacts whose forces follow no term.
+Eigen::MatrixXd DampedMotion::forces() const {
+  const double t = decision_->jet.t;
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(basis_.square().size(), time_.size());
+  for (std::size_t i = 0; i < model_.loads.size(); ++i)
+    p += basis_.load(i) * time_.of(model_.loads[i].history.piece(t)).transpose();
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactRows& own = state_->contacts[c];
+    const ContactState& state = decision_->mode[c];
+    Course N = time_.constant(-own.normal.constant) - own.normal.pressing * contacts_[c].pressing;
+    if (own.normal.an != 0.0) N.setZero();
+    N[0] -= own.normal.gap * contact.gap;
+    p -= basis_.normal(c) * N.transpose();
+    const Form tangent = rows(contact, state).tangent;
+    if (tangent.at != 0.0) continue;
+    Course T = time_.constant(-tangent.constant) - tangent.N * N + tangent.ut * contacts_[c].surface;
+    p -= basis_.tangent(c) * T.transpose();
+  }
+  return p;
+}
+
+/// u_c'' + C u_c' + K u_c, springs and dashpots of contacts with it.
+Eigen::MatrixXd DampedMotion::inertia_of(const Eigen::MatrixXd& held) const {
+  const Eigen::MatrixXd rate = time_.derivative(held);
+  Eigen::MatrixXd p =
+      time_.derivative(rate) + system_.decay().asDiagonal() * rate + basis_.square().asDiagonal() * held;
+  for (const ModalTerm& term : state_->terms)
+    if (!term.rigid)
+      p += term.u * (term.stiffness * term.v.transpose() * held + term.damping * term.v.transpose() * rate);
+  return p;
+}
+
+std::string DampedMotion::start(const Segment& segment, const Vector& q, const Vector& rate,
+                                ModalPoint& now) {
+  decision_ = segment.decision;
+  state_ = system_.state(decision_->mode);
+  const DampedModes& modes = state_->modes;
+  if (!modes.failure.empty()) return modes.failure;
+  const double t = decision_->jet.t;
+  time_ = TimeBasis(model_, t);
+  for (Eigen::Index k = 0; k < modes.root.size(); ++k)
+    if (!(time_.loss(modes.root[k], t_end_) < most_loss))
+      return "decays that are neither none nor fast beside the run, or resonance";
+  contacts_.resize(model_.contacts.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    contacts_[c].surface = time_.of(model_.contacts[c].surface_motion.piece(t));
+    contacts_[c].pressing = time_.of(model_.contacts[c].normal_force.piece(t));
+  }
+  place_ = Eigen::MatrixXd::Zero(q.size(), time_.size());
+  if (!state_->rigid.empty()) place_ = held(segment, q);
+  Eigen::MatrixXd p = forces();
+  if (!state_->rigid.empty()) p -= inertia_of(place_);
+  const Eigen::MatrixXcd pressed = modes.from_rate * p;
+  Eigen::MatrixXcd answers(modes.root.size(), time_.size());
+  for (Eigen::Index k = 0; k < modes.root.size(); ++k)
+    answers.row(k) = time_.answer(modes.root[k], pressed.row(k).transpose()).transpose();
+  const Eigen::VectorXd b = time_.at(0.0);
+  now.y =
+      modes.from_q * (q - place_ * b) + modes.from_rate * (rate - time_.derivative(place_) * b) - answers * b;
+  now.time = 0.0;
+  place_ += (modes.shape * answers).real();
+  rate_ = time_.derivative(place_);
+  change_ = time_.derivative(rate_);
+  find_contacts(p, answers);
+  return {};
+}
+
+void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::MatrixXcd& answers) {
+  const DampedModes& modes = state_->modes;
+  const auto of_constraint = [&](int term) {
+    const Eigen::Index row =
+        std::find(state_->rigid.begin(), state_->rigid.end(), term) - state_->rigid.begin();
+    const Eigen::VectorXcd own = modes.force.row(term).transpose();
+    return Quantity{own,
+                    (answers.transpose() * own).real() + (state_->from_forces.row(row) * forces).transpose()};
+  };
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactRows& own = state_->contacts[c];
+    ContactQuantities& out = contacts_[c];
+    out.gap = {own.gap, place_.transpose() * basis_.normal(c)};
+    out.ut = {own.slide, place_.transpose() * basis_.tangent(c) - out.surface};
+    out.gap.course[0] += contact.gap;
+    if (own.normal.an != 0.0) {
+      out.gap.course.setZero();
+      out.N = of_constraint(own.normal_term);
+    } else {
+      out.N = -own.normal.gap * out.gap;
+      if (own.normal.vn != 0.0) out.N += -own.normal.vn * derivative(out.gap);
+      out.N.course[0] -= own.normal.constant;
+      out.N.course -= own.normal.pressing * out.pressing;
+    }
+    const Form tangent = rows(contact, decision_->mode[c]).tangent;
+    if (tangent.at != 0.0) {
+      out.T = of_constraint(own.tangent_term);
+      continue;
+    }
+    out.T = -tangent.ut * out.ut;
+    if (tangent.N != 0.0) out.T += -tangent.N * out.N;
+    out.T.course[0] -= tangent.constant;
+  }
+}
+
+Quantity DampedMotion::of(const Form& form, std::size_t c) const {
+  const ContactQuantities& own = contacts_[c];
+  Quantity sum{Eigen::VectorXcd::Zero(root().size()), time_.constant(form.constant)};
+  const auto add = [&](double factor, const auto& quantity) {
+    if (factor != 0.0) sum += factor * quantity();
+  };
+  add(form.N, [&] { return own.N; });
+  add(form.T, [&] { return own.T; });
+  add(form.gap, [&] { return own.gap; });
+  add(form.ut, [&] { return own.ut; });
+  add(form.vn, [&] { return derivative(own.gap); });
+  add(form.vt, [&] { return derivative(own.ut); });
+  add(form.an, [&] { return derivative(derivative(own.gap)); });
+  add(form.at, [&] { return derivative(derivative(own.ut)); });
+  sum.course += form.pressing * own.pressing + form.pressing_rate * time_.derivative(own.pressing);
+  return sum;
+}
+
+void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) const {
+  const Eigen::VectorXcd& l = root();
+  to.y.resize(l.size());
+  for (Eigen::Index k = 0; k < l.size(); ++k) {
+    const double size = std::exp(l[k].real() * time), turned = l[k].imag() * time;
+    to.y[k] = from.y[k] * std::complex<double>(size * std::cos(turned), size * std::sin(turned));
+  }
+  to.time = from.time + time;
+}
+
+void DampedMotion::motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const {
+  const Eigen::VectorXd b = time_.at(at.time);
+  const Eigen::MatrixXcd& shape = state_->modes.shape;
+  const Eigen::VectorXcd first = root().cwiseProduct(at.y), second = root().cwiseProduct(first);
+  q = (shape * at.y).real() + place_ * b;
+  rate = (shape * first).real() + rate_ * b;
+  change = (shape * second).real() + change_ * b;
+}
+
+}  // namespace signorini

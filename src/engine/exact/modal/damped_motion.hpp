@@ -1,0 +1,95 @@
+// damped_motion.hpp: the motion of a segment in complex modes, and every quantity on it in closed form.
+//
+//   q = Q b(x) + Re sum_k shape_k y_k,   y_k(x) = e^(l_k x) y_k(0),   x = t - t0
+//   f = Re sum_k row_k y_k + course . b(x)          gaps, slides, forces, guards
+//
+// Q is what forces and moving constraints ask for: mode by mode the answer to them (time_basis.hpp), and the
+// displacement u_c that constraints hold. A constraint's force is that of the modes and what forces press on it:
+//   lambda = sum_k force_k z_k + (V^T U)^-1 V^T p
+#pragma once
+
+#include "engine/exact/modal/damped_system.hpp"
+#include "engine/exact/modal/oscillators.hpp"
+#include "engine/exact/modal/time_basis.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+struct Quantity {
+  Eigen::VectorXcd row;
+  Course course;
+
+  Quantity& operator+=(const Quantity& b) {
+    row += b.row;
+    course += b.course;
+    return *this;
+  }
+  friend Quantity operator*(double factor, Quantity a) {
+    a.row *= factor;
+    a.course *= factor;
+    return a;
+  }
+};
+
+class DampedMotion {
+ public:
+  DampedMotion(const Model& model, const OpenBasis& basis, double t_end)
+      : model_(model), basis_(basis), t_end_(t_end), system_(model, basis, t_end) {}
+
+  /// As ModalFlow::start.
+  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+                                  ModalPoint& now);
+  void advance(const ModalPoint& from, double time, ModalPoint& to) const;
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const;
+
+  [[nodiscard]] const DampedState& state() const { return *state_; }
+  [[nodiscard]] const DampedSystem& system() const { return system_; }
+  [[nodiscard]] const Eigen::VectorXcd& root() const { return state_->modes.root; }
+  [[nodiscard]] const TimeBasis& time() const { return time_; }
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const Decision& decision() const { return *decision_; }
+  /// Q and its rate, n x b.
+  [[nodiscard]] const Eigen::MatrixXd& place() const { return place_; }
+  [[nodiscard]] const Eigen::MatrixXd& rate() const { return rate_; }
+
+  struct ContactQuantities {
+    Quantity N, T, gap, ut;
+    Course surface, pressing;
+  };
+  [[nodiscard]] const ContactQuantities& contact(std::size_t c) const { return contacts_[c]; }
+  [[nodiscard]] Quantity derivative(const Quantity& f) const {
+    return {f.row.cwiseProduct(root()), time_.derivative(f.course)};
+  }
+  /// A form on a contact.
+  [[nodiscard]] Quantity of(const Form& form, std::size_t contact) const;
+  /// What modes show of a form on the structure, in open modes.
+  [[nodiscard]] Quantity of(const Vector& form) const {
+    return {state_->modes.shape.transpose() * form, place_.transpose() * form};
+  }
+  [[nodiscard]] Quantity of_load(std::size_t load) const { return of(basis_.load(load)); }
+  [[nodiscard]] double value(const Quantity& f, const ModalPoint& at) const {
+    return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
+  }
+  /// Sum of the magnitudes of its terms.
+  [[nodiscard]] double magnitude(const Quantity& f, const ModalPoint& at) const {
+    return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd held(const Segment& segment, const Vector& q) const;
+  [[nodiscard]] Eigen::MatrixXd forces() const;
+  [[nodiscard]] Eigen::MatrixXd inertia_of(const Eigen::MatrixXd& held) const;
+  void find_contacts(const Eigen::MatrixXd& forces, const Eigen::MatrixXcd& answers);
+
+  const Model& model_;
+  const OpenBasis& basis_;
+  const double t_end_;
+  DampedSystem system_;
+  std::shared_ptr<const DampedState> state_;
+  const Decision* decision_ = nullptr;
+  TimeBasis time_;
+  Eigen::MatrixXd place_, rate_, change_;
+  std::vector<ContactQuantities> contacts_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,260 @@
+#include "engine/exact/modal/damped_proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "engine/exact/modal/settle_guard.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double quarter_of_guard = 0.25;          // that fast modes may take together
+constexpr double noise_beside_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
+constexpr std::size_t highest_degree = 30;
+constexpr double fine_ripple = 1e-4;  // of the range of what a peak is looked for in
+constexpr double slow_rounding = 1.0 + 1e-12;
+
+}  // namespace
+
+void DampedProof::start() {
+  guards_.clear();
+  arming_.start(motion_.decision().guards);
+  full_ = false;
+  size_ = motion_.root().cwiseAbs();
+  series_.resize(motion_.model().contacts.size());
+  for (std::size_t slot = 0; slot < motion_.decision().guards.size(); ++slot) {
+    if (arming_.idle(slot)) continue;
+    const GuardStart& start = motion_.decision().guards[slot];
+    Watched guard{slot, start.noise, motion_.of(start.form, contact_of_guard(slot)), {}, 0.0};
+    guard.lead = guard.guard;
+    for (std::size_t i = 0; i < arming_.leading(slot); ++i) guard.lead = motion_.derivative(guard.lead);
+    guards_.push_back(std::move(guard));
+  }
+}
+
+const DampedProof::Watched* DampedProof::find(std::size_t slot) const {
+  const auto found =
+      std::find_if(guards_.begin(), guards_.end(), [&](const Watched& w) { return w.slot == slot; });
+  return found == guards_.end() ? nullptr : &*found;
+}
+
+double DampedProof::magnitude(std::size_t slot, const ModalPoint& at) const {
+  const Watched* guard = find(slot);
+  return guard == nullptr ? 0.0 : motion_.magnitude(guard->guard, at);
+}
+
+double DampedProof::slope(std::size_t slot, const ModalPoint& at) const {
+  const Watched* guard = find(slot);
+  return guard == nullptr ? 0.0 : motion_.value(motion_.derivative(guard->guard), at);
+}
+
+void DampedProof::rearm(const ModalPoint& at) {
+  for (const Watched& guard : guards_)
+    if (!arming_.armed(guard.slot))
+      arming_.see(guard.slot, motion_.value(guard.guard, at), 4.0 * guard.noise);
+}
+
+void DampedProof::measure(const ModalPoint& at) {
+  amplitude_ = at.y.cwiseAbs();
+  for (Watched& guard : guards_) guard.now = motion_.value(watched(guard), at);
+}
+
+/// Modes below which all others together show at most `most`, `first` at least.
+Eigen::Index DampedProof::slow_for(const Quantity& f, Eigen::Index first, double most) const {
+  double sum = 0.0;
+  Eigen::Index k = amplitude_.size();
+  for (; k > first; --k) {
+    sum += std::abs(f.row[k - 1]) * amplitude_[k - 1];
+    if (sum > most) break;
+  }
+  return k;
+}
+
+void DampedProof::set_step(double h, bool all_slow) {
+  h_ = h;
+  turn_ = all_slow ? std::numeric_limits<double>::infinity() : turn_of_step * slow_rounding;
+  slow_ = all_slow ? size_.size() : std::partition_point(size_.begin(), size_.end(), [&](double size) {
+                                      return size * h_ <= turn_;
+                                    }) - size_.begin();
+}
+
+void DampedProof::choose_step(double remaining) {
+  const Eigen::Index n = size_.size();
+  Eigen::Index first = full_ ? n : 0;
+  double h = remaining;
+  for (const Watched& guard : guards_) {
+    if (first == n) break;
+    first = unknown(guard) || !(guard.now > 0.0)
+                ? n
+                : slow_for(watched(guard), first, quarter_of_guard * guard.now);
+  }
+  if (n > 0 && size_[std::min(first, n - 1)] > 0.0)
+    h = std::min(h, turn_of_step / size_[std::min(first, n - 1)]);
+  const auto& omega = motion_.time().omega();
+  auto place = static_cast<Eigen::Index>(motion_.time().degree()) + 1;
+  for (const double w : omega) {
+    const bool shows = std::any_of(guards_.begin(), guards_.end(), [&](const Watched& guard) {
+      const Course& c = watched(guard).course;
+      return std::hypot(c[place], c[place + 1]) * static_cast<double>(omega.size()) >
+             0.5 * quarter_of_guard * guard.now;
+    });
+    if (shows || first == n) h = std::min(h, turn_of_step / w);
+    place += 2;
+  }
+  set_step(h, first == n);
+}
+
+void DampedProof::expand(const ModalPoint& at) {
+  double reach = slow_ > 0 ? size_[slow_ - 1] * h_ : 0.0;
+  for (const double w : motion_.time().omega())
+    if (w * h_ <= turn_) reach = std::max(reach, w * h_);
+  count_ = std::min(highest_degree, std::max<std::size_t>(10 + static_cast<std::size_t>(5.5 * reach),
+                                                          motion_.time().degree())) +
+           1;
+  terms_.resize(slow_, static_cast<Eigen::Index>(count_));
+  const Eigen::VectorXcd turned = motion_.root().head(slow_) * h_;
+  terms_.col(0) = at.y.head(slow_);
+  for (Eigen::Index j = 1; j < terms_.cols(); ++j)
+    terms_.col(j) = terms_.col(j - 1).cwiseProduct(turned) / static_cast<double>(j);
+}
+
+DampedProof::Part DampedProof::part_of(const Quantity& f, const ModalPoint& at) const {
+  Part part;
+  part.p.resize(count_);
+  const TimeBasis::Ripple waves = motion_.time().taylor(f.course, at.time, h_, turn_, part.p);
+  part.ripple = waves.value;
+  part.ripple_rate = waves.rate;
+  const auto row = f.row.head(slow_);
+  const Eigen::VectorXd modes = (terms_.transpose() * row).real();
+  for (std::size_t j = 0; j < count_; ++j) part.p[j] += modes[static_cast<Eigen::Index>(j)];
+  // each mode's series falls by half and more a term from here on
+  part.rest = waves.rest + 2.0 * row.cwiseAbs().dot(terms_.col(terms_.cols() - 1).cwiseAbs());
+  for (Eigen::Index k = slow_; k < size_.size(); ++k) {
+    const double most =
+        std::abs(f.row[k]) * amplitude_[k] * std::exp(std::max(0.0, motion_.root()[k].real() * h_));
+    part.ripple += most;
+    part.ripple_rate += most * size_[k];
+  }
+  return part;
+}
+
+bool DampedProof::settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                         double& event) {
+  Part part = part_of(watched(guard), at);
+  GuardOnStep on_step;
+  on_step.p = std::move(part.p);
+  on_step.slack =
+      part.rest + rounding::of_few * motion_.magnitude(watched(guard), at) + noise_beside_guard * guard.noise;
+  on_step.ripple = part.ripple;
+  on_step.ripple_rate = part.ripple_rate;
+  on_step.noise = guard.noise;
+  on_step.leading = arming_.leading(guard.slot);
+  on_step.armed = arming_.armed(guard.slot);
+  ModalPoint point;
+  const auto value_at = [&](double x) {
+    motion_.advance(at, h_ * x, point);
+    return motion_.value(guard.guard, point);
+  };
+  return settle_guard(on_step, guard.slot, h_, value_at, arming_, passage, limit, event);
+}
+
+Passage DampedProof::pass(const ModalPoint& at, double remaining) {
+  measure(at);
+  for (const Watched& guard : guards_)
+    if (arming_.leading(guard.slot) > 0 && !(guard.now > 0.0)) arming_.doubt(guard.slot);
+  choose_step(remaining);
+  expand(at);
+  Passage passage;
+  double limit = 1.0, event = 2.0;
+  bool doubted = false;
+  for (const Watched& guard : guards_) doubted = !settle(guard, at, passage, limit, event) || doubted;
+  if (doubted || (limit == 0.0 && !full_)) {  // else a guard is too near to zero for any ripple
+    full_ = full_ || !doubted;
+    return pass(at, remaining);
+  }
+  if (limit < event) passage.fired.reset();
+  const double x = std::min(limit, event > 1.0 ? 1.0 : event);
+  full_ = !passage.fired && x < 1e-3;
+  passage.length = h_ * x;
+  return passage;
+}
+
+/// As TurningPoints::watched.
+std::array<const Quantity*, 4> DampedProof::shown(std::size_t c) const {
+  const DampedMotion::ContactQuantities& own = motion_.contact(c);
+  return {&own.N, &own.T, &own.gap, &own.ut};
+}
+
+/// The part of [0, x_end] of the last step on which N, T, g and ut of no contact turn beyond what they ranged
+/// over: they stay within it, or go one way.
+double DampedProof::within(const ModalPoint& at, const TurningPoints& known, double x_end) const {
+  std::vector<double> room(count_), rate(count_ - 1);
+  double safe = 1.0;
+  for (std::size_t c = 0; c < series_.size() && safe > 0.0; ++c)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const Part part = part_of(*shown(c)[f], at);
+      for (std::size_t j = 0; j < rate.size(); ++j) rate[j] = static_cast<double>(j + 1) * part.p[j + 1];
+      const double off = part.ripple_rate * h_ + part.rest * static_cast<double>(count_ + 1);
+      const double forth =
+          stays_above(rate.data(), rate.size() - 1, x_end, rate[0] < 0.0 ? -1.0 : 1.0, -off, room);
+      if (forth >= safe) continue;
+      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      for (const double sign : {-1.0, 1.0}) {
+        const double above = (sign < 0.0 ? range.greatest : -range.least) - part.ripple - part.rest;
+        safe =
+            std::min(safe, std::max(forth, stays_above(part.p.data(), count_ - 1, x_end, sign, above, room)));
+      }
+    }
+  return safe * x_end;
+}
+
+/// The contacts' motion from a point on, with ripples that are small beside those ranges; returns for how long.
+double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  amplitude_ = at.y.cwiseAbs();
+  const Eigen::Index n = size_.size();
+  Eigen::Index first = 0;
+  for (std::size_t c = 0; c < series_.size(); ++c)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
+      first = slow_for(*shown(c)[f], first, fine_ripple * (range.greatest - range.least));
+    }
+  double h = remaining;
+  if (n > 0 && size_[std::min(first, n - 1)] > 0.0)
+    h = std::min(h, turn_of_step / size_[std::min(first, n - 1)]);
+  for (const double w : motion_.time().omega()) h = std::min(h, turn_of_step / w);
+  set_step(h, first == n);
+  expand(at);
+  for (std::size_t c = 0; c < series_.size(); ++c) {
+    series_[c].reset(count_ - 1);
+    for (std::size_t f = 0; f < 4; ++f) {
+      const Part part = part_of(*shown(c)[f], at);
+      std::copy(part.p.begin(), part.p.end(), series_[c].place(TurningPoints::watched[f]));
+    }
+  }
+  return h_;
+}
+
+void DampedProof::find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                             LastTurns& turns) {
+  const double x_end = length / h_, x = within(from, turning, x_end);
+  if (x >= x_end) return;
+  double done = x * h_;
+  ModalPoint point, next;
+  motion_.advance(from, done, point);
+  while (done < length) {
+    const double step = expand_finely(point, turning, length - done);
+    if (!(step > 0.0)) return;
+    Series clock;
+    clock.t = begin + done;
+    clock.scale = h_;
+    turning.find(series_, clock, step / h_, TurningPoints::Ends::searched);
+    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    motion_.advance(point, step, next);
+    std::swap(point, next);
+    done += step;
+  }
+}
+
+}  // namespace signorini

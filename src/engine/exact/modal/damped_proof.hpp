@@ -1,0 +1,69 @@
+// damped_proof.hpp: how far no guard falls, in complex modes: modal_proof.hpp for roots of any kind.
+//
+//   g(t + h x) = sum of modes with |l| h <= 4 (a polynomial in x) + course + ripple,
+//   |ripple| <= sum |row_k y_k| e^max(0, Re l_k h)  of the others
+#pragma once
+
+#include "engine/exact/modal/damped_motion.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
+#include "engine/falls/arming.hpp"
+#include "motion/contact_series.hpp"
+
+namespace signorini {
+
+class DampedProof {
+ public:
+  explicit DampedProof(const DampedMotion& motion) : motion_(motion) {}
+
+  /// After motion.start.
+  void start();
+  [[nodiscard]] Passage pass(const ModalPoint& at, double remaining);
+  void rearm(const ModalPoint& at);
+  [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
+  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
+  void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                  LastTurns& turns);
+
+ private:
+  struct Watched {
+    std::size_t slot = 0;
+    double noise = 0.0;
+    Quantity guard, lead;  // lead: derivative number arming.leading of it
+    double now = 0.0;      // the value, or the leading derivative's
+  };
+  struct Part {  // a quantity on a step
+    std::vector<double> p;
+    double rest = 0.0, ripple = 0.0, ripple_rate = 0.0;
+  };
+  [[nodiscard]] const Quantity& watched(const Watched& guard) const {
+    return arming_.leading(guard.slot) > 0 ? guard.lead : guard.guard;
+  }
+  [[nodiscard]] bool unknown(const Watched& guard) const {
+    return !arming_.armed(guard.slot) && arming_.leading(guard.slot) == 0;
+  }
+  [[nodiscard]] const Watched* find(std::size_t slot) const;
+  [[nodiscard]] Eigen::Index slow_for(const Quantity& f, Eigen::Index first, double most) const;
+  void measure(const ModalPoint& at);
+  void choose_step(double remaining);
+  void set_step(double h, bool all_slow);
+  void expand(const ModalPoint& at);
+  [[nodiscard]] Part part_of(const Quantity& f, const ModalPoint& at) const;
+  [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
+                            double& event);
+  [[nodiscard]] std::array<const Quantity*, 4> shown(std::size_t contact) const;
+  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
+  [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
+
+  const DampedMotion& motion_;
+  Arming arming_;
+  std::vector<Watched> guards_;
+  Eigen::VectorXd amplitude_, size_;  // |y|, |l|
+  Eigen::Index slow_ = 0;             // modes
+  std::size_t count_ = 0;             // coefficients of the slow ones
+  double h_ = 0.0, turn_ = 0.0;       // turn_: of waves that are slow
+  bool full_ = false;                 // the next step takes all modes as slow
+  Eigen::MatrixXcd terms_;            // y_k (l_k h)^j / j!, slow modes
+  std::vector<ContactSeries> series_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,210 @@
+#include "engine/exact/modal/damped_system.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "contact/friction.hpp"
+#include "engine/exact/modal/open_modes.hpp"
+
+namespace signorini {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr Index most_damper_dofs = 24;  // that discrete dampers act on
+constexpr double hardly = 1e-3;         // |l_k + l_i| t_end: the integral of both is a series in it
+
+/// C = alpha M + beta K + R, R = sum of stiffness-like terms of a few dampers.
+struct Damping {
+  double alpha = 0.0, beta = 0.0;
+  std::vector<std::pair<double, Vector>> dampers;
+};
+
+std::optional<Damping> dampers_of(const Model& model, double alpha, double beta) {
+  const SparseMatrix rest = model.damping - alpha * model.mass - beta * model.stiffness;
+  std::vector<int> dofs;
+  for (int j = 0; j < rest.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(rest, j); it; ++it) {
+      const double terms = std::abs(model.damping.coeff(it.row(), it.col())) +
+                           std::abs(alpha * model.mass.coeff(it.row(), it.col())) +
+                           std::abs(beta * model.stiffness.coeff(it.row(), it.col()));
+      if (std::abs(it.value()) <= rounding::of_many * terms) continue;
+      for (const auto dof : {static_cast<int>(it.row()), static_cast<int>(it.col())})
+        if (std::find(dofs.begin(), dofs.end(), dof) == dofs.end()) dofs.push_back(dof);
+    }
+  if (static_cast<Index>(dofs.size()) > most_damper_dofs) return std::nullopt;
+  Damping result{alpha, beta, {}};
+  const auto m = static_cast<Index>(dofs.size());
+  Eigen::MatrixXd small(m, m);
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j)
+      small(i, j) = rest.coeff(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
+  if (m == 0) return result;
+  const EigenPairs pairs = symmetric_eigen(small);
+  const double most = pairs.values.cwiseAbs().maxCoeff();
+  for (Index k = 0; k < m; ++k) {
+    if (std::abs(pairs.values[k]) <= rounding::of_many * most) continue;
+    if (pairs.values[k] < 0.0) return std::nullopt;
+    Vector direction = Vector::Zero(model.size());
+    for (Index i = 0; i < m; ++i) direction[dofs[static_cast<std::size_t>(i)]] = pairs.vectors(i, k);
+    result.dampers.emplace_back(pairs.values[k], std::move(direction));
+  }
+  return result;
+}
+
+/// With the scene's factors, or with those that fit best.
+std::optional<Damping> damping_of(const Model& model) {
+  if (auto given = dampers_of(model, model.alpha, model.beta)) return given;
+  const auto product = [](const SparseMatrix& a, const SparseMatrix& b) { return a.cwiseProduct(b).sum(); };
+  Eigen::Matrix2d normal;
+  const double mk = product(model.mass, model.stiffness);
+  normal << product(model.mass, model.mass), mk, mk, product(model.stiffness, model.stiffness);
+  const Eigen::Vector2d right(product(model.mass, model.damping), product(model.stiffness, model.damping));
+  const auto factors = solve_regular(normal, right);
+  if (!factors) return std::nullopt;
+  return dampers_of(model, (*factors)[0], (*factors)[1]);
+}
+
+std::size_t terms_at_most(const Model& model) {
+  std::size_t count = 0;
+  for (const Contact& contact : model.contacts)
+    count +=
+        (contact.has_gap() ? 1u : 0u) + (contact.tangential_stiffness || contact.sticks_rigidly() ? 1u : 0u);
+  return count;
+}
+
+}  // namespace
+
+std::string damped_refusal(const Model& model) {
+  if (model.size() == 0) return "nothing moves";
+  for (const Contact& contact : model.contacts) {
+    if (contact.shear) return "shear elements";
+    if (friction_varies(contact)) return "friction that depends on the slip rate";
+  }
+  if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
+    return "massless degrees of freedom";
+  for (const SparseMatrix* matrix : {&model.mass, &model.damping, &model.stiffness})
+    if (!is_symmetric(*matrix)) return "matrices that are not symmetric";
+  if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
+  const auto damping = damping_of(model);
+  if (!damping) return "damping that is neither Rayleigh's nor that of a few dampers";
+  if (terms_at_most(model) + damping->dampers.size() > most_damped_terms)
+    return "more contacts than a state's modes are worth";
+  return {};
+}
+
+std::size_t DampedState::bytes() const {
+  const auto numbers = modes.shape.size() + modes.force.size() + 2 * modes.from_q.size() + 4 * loss.size() +
+                       static_cast<Index>(2 * contacts.size()) * modes.root.size();
+  return sizeof(std::complex<double>) * static_cast<std::size_t>(numbers);
+}
+
+DampedSystem::DampedSystem(const Model& model, const OpenBasis& basis, double t_end)
+    : model_(model), basis_(basis), t_end_(t_end) {
+  const Damping damping = damping_of(model).value_or(Damping{});
+  decay_ = (damping.alpha + damping.beta * basis.square().array()).matrix();
+  for (const auto& [strength, direction] : damping.dampers) {
+    const Vector d = basis.amplitudes_of_form(direction);
+    dampers_.push_back({d, d, 0.0, strength, false});
+  }
+  damped_ = !dampers_.empty() || decay_.cwiseAbs().maxCoeff() > 0.0;
+}
+
+std::shared_ptr<const DampedState> DampedSystem::state(const Mode& mode) {
+  const std::vector<State> states = states_of(mode);
+  if (const auto* known = known_.find(states)) return *known;
+  ++made_;
+  auto made = std::make_shared<const DampedState>(make(mode));
+  const std::size_t bytes = made->bytes();
+  return known_.insert(states, std::move(made), bytes);
+}
+
+void DampedSystem::add_contact(std::size_t c, const ContactState& state, DampedState& out) const {
+  const Contact& contact = model_.contacts[c];
+  const Rows r = rows(contact, state);
+  ContactRows own;
+  own.normal = r.normal;
+  own.tangent = r.tangent;
+  const auto add = [&](const Vector& u, const Vector& v, double stiffness, double damping, bool rigid) {
+    out.terms.push_back({u, v, stiffness, damping, rigid});
+    return static_cast<int>(out.terms.size()) - 1;
+  };
+  const bool rigid = r.normal.an != 0.0;
+  if (rigid || r.normal.gap != 0.0 || r.normal.vn != 0.0) {
+    const Vector force = r.tangent.T == 0.0 || r.tangent.N == 0.0
+                             ? basis_.normal(c)
+                             : Vector(basis_.normal(c) - r.tangent.N * basis_.tangent(c));
+    own.normal_term = add(force, basis_.normal(c), -r.normal.gap, -r.normal.vn, rigid);
+  }
+  if (r.tangent.at != 0.0)
+    own.tangent_term = add(basis_.tangent(c), basis_.tangent(c), 0.0, 0.0, true);
+  else if (r.tangent.ut != 0.0)
+    own.tangent_term = add(basis_.tangent(c), basis_.tangent(c), -r.tangent.ut, 0.0, false);
+  out.contacts.push_back(std::move(own));
+}
+
+void DampedSystem::find_constraints(DampedState& out) const {
+  for (std::size_t a = 0; a < out.terms.size(); ++a)
+    if (out.terms[a].rigid) out.rigid.push_back(static_cast<Index>(a));
+  const Index n = basis_.square().size(), m = static_cast<Index>(out.rigid.size());
+  if (m == 0) return;
+  Eigen::MatrixXd u(n, m), v(n, m);
+  for (Index i = 0; i < m; ++i) {
+    const ModalTerm& term = out.terms[static_cast<std::size_t>(out.rigid[static_cast<std::size_t>(i)])];
+    u.col(i) = term.u;
+    v.col(i) = term.v;
+  }
+  out.from_forces = solve_dense(v.transpose() * u, v.transpose());
+  // Soft motions take what constraints ask for, so that stiff modes have little to give back.
+  const Vector soft = (basis_.square().array() + basis_.square()[std::min(n - 1, m + 3)]).inverse().matrix();
+  const Eigen::MatrixXd weighted = soft.asDiagonal() * v;
+  out.static_shapes = weighted * solve_dense(v.transpose() * weighted, Eigen::MatrixXd::Identity(m, m));
+}
+
+void DampedSystem::find_losses(DampedState& out) const {
+  const Eigen::VectorXcd& l = out.modes.root;
+  const Index k = l.size();
+  const Eigen::MatrixXcd rates = out.modes.shape * l.asDiagonal();
+  Eigen::MatrixXcd damped = decay_.asDiagonal() * rates;
+  for (const ModalTerm& damper : dampers_)
+    damped += damper.u * (damper.damping * (damper.v.transpose() * rates));
+  out.loss = rates.transpose() * damped;
+  out.loss_turned = rates.transpose() * damped.conjugate();
+  RootSums& sums = out.sums;
+  sums.plain.setZero(k, k);
+  sums.turned.setZero(k, k);
+  for (Index i = 0; i < k; ++i)
+    for (Index j = 0; j < k; ++j)
+      for (const bool turned : {false, true}) {
+        const std::complex<double> sum = l[i] + (turned ? std::conj(l[j]) : l[j]);
+        Eigen::MatrixXcd& loss = turned ? out.loss_turned : out.loss;
+        if (std::abs(sum) * t_end_ < hardly)
+          sums.slow.push_back({i, j, turned, loss(i, j)});
+        else
+          (turned ? sums.turned : sums.plain)(i, j) = 1.0 / sum;
+      }
+  out.loss = out.loss.cwiseProduct(sums.plain).eval();
+  out.loss_turned = out.loss_turned.cwiseProduct(sums.turned).eval();
+}
+
+DampedState DampedSystem::make(const Mode& mode) const {
+  DampedState out;
+  out.terms = dampers_;
+  for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
+  out.modes = damped_modes(basis_.square(), decay_, out.terms);
+  if (!out.modes.failure.empty()) return out;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    ContactRows& own = out.contacts[c];
+    own.gap = out.modes.shape.transpose() * basis_.normal(c);
+    own.slide = out.modes.shape.transpose() * basis_.tangent(c);
+    if (own.normal.an != 0.0) own.gap.setZero();
+    if (own.tangent.at != 0.0) own.slide.setZero();
+  }
+  find_constraints(out);
+  find_losses(out);
+  return out;
+}
+
+}  // namespace signorini

@@ -1,0 +1,88 @@
+// damped_system.hpp: contact states as terms on the open modes, and what their complex modes show.
+//
+//   C = alpha M + beta K + sum_i r_i d_i d_i^T:   c_j = alpha + beta omega_j^2, and a dashpot for each d_i
+//
+//   state    terms of a contact                                      further forces
+//   closed   compliant: kn + cn d/dt along n;  rigid: n . u = -g0
+//   stick    kt along t;  without kt: t . u stays with the surface
+//   slip s   the force along n is that along n - s f t               slider: s f q t
+//
+// Shapes: n open modes, K complex ones (one of each pair).
+#pragma once
+
+#include <memory>
+
+#include "base/bounded_cache.hpp"
+#include "contact/law.hpp"
+#include "contact/mode.hpp"
+#include "engine/exact/modal/damped_modes.hpp"
+#include "engine/exact/modal/open_basis.hpp"
+
+namespace signorini {
+
+/// Why a scene cannot be followed in complex modes; empty: it can.
+[[nodiscard]] std::string damped_refusal(const Model& model);
+
+/// What complex modes show of one contact: forms times shapes, zero where a constraint holds them.
+struct ContactRows {
+  Eigen::VectorXcd gap, slide;
+  int normal_term = -1, tangent_term = -1;  ///< the contact's terms
+  Form normal, tangent;                     ///< its rows in the state
+};
+
+/// 1 / (l_k + l_i), and with the conjugate of l_i; zero where the two hardly differ in a run.
+struct RootSums {
+  Eigen::MatrixXcd plain, turned;
+  struct Slow {
+    Eigen::Index k, i;
+    bool turned;
+    std::complex<double> loss;  ///< as DampedState::loss, not divided
+  };
+  std::vector<Slow> slow;
+};
+
+struct DampedState {
+  DampedModes modes;
+  std::vector<ModalTerm> terms;  ///< dampers of the structure first
+  std::vector<ContactRows> contacts;
+  std::vector<Eigen::Index> rigid;  ///< terms
+  Eigen::MatrixXd from_forces;      ///< rigid x n: (V^T U)^-1 V^T
+  Eigen::MatrixXd static_shapes;    ///< n x rigid: V^T static_shapes = 1
+  RootSums sums;
+  /// What damping takes of rates of two modes, times root sums.
+  Eigen::MatrixXcd loss, loss_turned;
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+inline constexpr CacheBounds most_damped_states{1024, std::size_t{1} << 28};
+
+class DampedSystem {
+ public:
+  /// Both must outlive it.
+  DampedSystem(const Model& model, const OpenBasis& basis, double t_end);
+
+  /// From the cache or made; its modes may have failed.
+  [[nodiscard]] std::shared_ptr<const DampedState> state(const Mode& mode);
+  [[nodiscard]] long made() const { return made_; }
+  /// c_j, and the dampers beside them.
+  [[nodiscard]] const Vector& decay() const { return decay_; }
+  [[nodiscard]] const std::vector<ModalTerm>& dampers() const { return dampers_; }
+  [[nodiscard]] bool damped() const { return damped_; }
+
+ private:
+  [[nodiscard]] DampedState make(const Mode& mode) const;
+  void add_contact(std::size_t c, const ContactState& state, DampedState& out) const;
+  void find_constraints(DampedState& out) const;
+  void find_losses(DampedState& out) const;
+
+  const Model& model_;
+  const OpenBasis& basis_;
+  const double t_end_;
+  Vector decay_;
+  std::vector<ModalTerm> dampers_;
+  bool damped_ = false;
+  BoundedCache<std::vector<State>, std::shared_ptr<const DampedState>> known_{most_damped_states};
+  long made_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,57 @@
+// modal_flow.hpp: what engine `exact` in modes asks of a way to follow a segment in modes.
+//
+//   start -> pass -> advance -> rearm -> pass ... ;   motion, forces and works of any point in between
+//
+// Two there are: modes that damping by the mass leaves uncoupled (proportional_flow.hpp), and complex modes
+// for all other linear laws (damped_flow.hpp).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "engine/exact/modal/oscillators.hpp"
+#include "engine/falls/turning_points.hpp"
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+/// A stretch without an event, or up to one.
+struct Passage {
+  double length = 0.0;
+  std::optional<std::size_t> fired;  ///< slot of the guard that falls at its end
+  std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
+};
+
+/// Of one kind the last turn counts: see TurningPoints::Turn.
+using LastTurns = std::map<std::size_t, double>;
+
+class ModalFlow {
+ public:
+  virtual ~ModalFlow() = default;
+  /// q, rate: amplitudes of the open modes at the beginning; now: the same motion as this flow holds it. The
+  /// segment must live until the next start. Returns why it cannot be followed; empty: it can.
+  [[nodiscard]] virtual std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+                                          ModalPoint& now) = 0;
+  [[nodiscard]] virtual Passage pass(const ModalPoint& at, double remaining) = 0;
+  /// After a passage without event: which guards are armed now.
+  virtual void rearm(const ModalPoint& at) = 0;
+  virtual void advance(const ModalPoint& from, double time, ModalPoint& to) const = 0;
+  /// Amplitudes of the open modes, their rates and the rates of those.
+  virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const = 0;
+  /// N and T of all contacts, at a point whose u and v are known.
+  virtual void forces(const ModalPoint& at, Point& point) const = 0;
+  /// Rate of a guard at time t.
+  [[nodiscard]] virtual double slope(std::size_t slot, const ModalPoint& at, const Point& point,
+                                     double t) const = 0;
+  /// Sum of the magnitudes of a guard's terms.
+  [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
+  /// Where N, T, g and ut turn beyond all before, in a part of the last passage that begins at time `begin`.
+  virtual void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                          LastTurns& turns) = 0;
+  virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const = 0;
+  /// Contact states whose modes were made.
+  [[nodiscard]] virtual long states_made() const = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,118 @@
+#include "engine/exact/modal/proportional_flow.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+
+ProportionalFlow::ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end)
+    : model_(model),
+      t_end_(t_end),
+      system_(model, basis),
+      proof_(model, system_.alpha()),
+      works_(model, system_.alpha()) {}
+
+/// Why a segment is followed by the series; empty: it is not.
+std::string ProportionalFlow::obstacle(const Segment& segment) {
+  if (segment.forcing->varies()) return "forces or surfaces that change";
+  state_ = system_.state(segment.decision->mode);
+  if (!state_->spectrum.failure().empty()) return state_->spectrum.failure();
+  if (!ModalWorks::suits(state_->spectrum, t_end_))
+    return "frequencies that are neither zero nor fast beside the run";
+  return {};
+}
+
+void ProportionalFlow::set_forces(const Segment& segment) {
+  const Decision& decision = *segment.decision;
+  forces_.real.assign(oscillators_.real().size(), 0.0);
+  forces_.pair.assign(oscillators_.pairs().size(), Complex());
+  const auto add = [&](const Amplitudes& from, double factor) {
+    if (factor == 0.0) return;
+    for (std::size_t k = 0; k < forces_.real.size(); ++k) forces_.real[k] += factor * from.real[k];
+    for (std::size_t k = 0; k < forces_.pair.size(); ++k) forces_.pair[k] += from.pair[k] * factor;
+  };
+  const double t = decision.jet.t;
+  for (std::size_t i = 0; i < model_.loads.size(); ++i)
+    add(state_->from_load[i], model_.loads[i].history.piece(t).value(t));
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const ForceLaw law = force_law(model_.contacts[c], decision.mode[c], segment.forcing->pressing(c, t, 0));
+    const double gap = model_.contacts[c].gap, surface = segment.forcing->surface(c, t, 0);
+    if (model_.contacts[c].has_gap()) add(state_->from_normal[c], -(law.N_constant + law.N_gap * gap));
+    add(state_->from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
+  }
+}
+
+std::string ProportionalFlow::start(const Segment& segment, const Vector& q, const Vector& rate,
+                                    ModalPoint& now) {
+  if (std::string why = obstacle(segment); !why.empty()) return why;
+  segment_ = &segment;
+  oscillators_ = Oscillators(state_->spectrum, system_.alpha());
+  state_->spectrum.to_modes(q, now.z);
+  state_->spectrum.to_modes(rate, now.rate);
+  set_forces(segment);
+  proof_.start(segment, *state_, oscillators_, forces_);
+  works_.start(segment, *state_, oscillators_, forces_, t_end_);
+  return {};
+}
+
+/// Peaks are looked for only where one may exceed all before.
+void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                                  LastTurns& turns) {
+  const double x_end = length / proof_.unit(), x = proof_.within(turning, x_end);
+  if (x >= x_end) return;
+  double done = x * proof_.unit();
+  ModalPoint point, next;
+  oscillators_.advance(from, forces_, done, point);
+  while (done < length) {
+    const double step = proof_.expand_finely(point, turning, length - done);
+    if (!(step > 0.0)) return;
+    Series clock;
+    clock.t = begin + done;
+    clock.scale = proof_.unit();
+    turning.find(proof_.slow(), clock, step / proof_.unit(), TurningPoints::Ends::searched);
+    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    oscillators_.advance(point, forces_, step, next);
+    std::swap(point, next);
+    done += step;
+  }
+}
+
+void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector& change) const {
+  Amplitudes second;
+  const double alpha = system_.alpha();
+  for (std::size_t k = 0; k < z.z.real.size(); ++k)
+    second.real.push_back(forces_.real[k] - alpha * z.rate.real[k] - oscillators_.real()[k] * z.z.real[k]);
+  for (std::size_t k = 0; k < z.z.pair.size(); ++k)
+    second.pair.push_back(forces_.pair[k] - z.rate.pair[k] * alpha - oscillators_.pairs()[k] * z.z.pair[k]);
+  state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, &change});
+}
+
+void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const ForceLaw law = proof_.law(c);
+    const Contact& contact = model_.contacts[c];
+    const double gap = contact.gap_at(point.u);
+    const double ut =
+        contact.tangent.dot(point.u) - segment_->forcing->surface(c, segment_->decision->jet.t, 0);
+    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    point.forces[row] = law.N_gap * gap + law.N_constant;
+    point.forces[row + 1] = law.T_gap * gap + law.T_ut * ut + law.T_constant;
+  }
+}
+
+double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const Point& point,
+                               double /*t*/) const {
+  const std::size_t c = contact_of_guard(slot);
+  const ContactMotion now =
+      motion_of(model_.contacts[c], c, *segment_->forcing, segment_->decision->jet.t, point);
+  const ForceLaw law = proof_.law(c);
+  ContactMotion rate;
+  rate.N = law.N_gap * now.vn;
+  rate.T = law.T_gap * now.vn + law.T_ut * now.vt;
+  rate.gap = now.vn;
+  rate.ut = now.vt;
+  rate.vn = now.an;
+  rate.vt = now.at;
+  return segment_->decision->guards[slot].form.rate(rate);
+}
+
+}  // namespace signorini

@@ -1,0 +1,54 @@
+// proportional_flow.hpp: the flow in the modes of a contact state where damping is alpha M.
+//
+//   z'' + alpha z' + L z = Y p,   q = X z           modal_system.hpp, modal_proof.hpp, modal_works.hpp
+#pragma once
+
+#include "engine/exact/modal/modal_flow.hpp"
+#include "engine/exact/modal/modal_works.hpp"
+
+namespace signorini {
+
+class ProportionalFlow final : public ModalFlow {
+ public:
+  /// All but t_end must outlive it.
+  ProportionalFlow(const Model& model, const OpenBasis& basis, double t_end);
+
+  [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
+                                  ModalPoint& now) override;
+  [[nodiscard]] Passage pass(const ModalPoint& at, double remaining) override {
+    return proof_.pass(at, remaining);
+  }
+  void rearm(const ModalPoint& at) override { proof_.rearm(at); }
+  void advance(const ModalPoint& from, double time, ModalPoint& to) const override {
+    oscillators_.advance(from, forces_, time, to);
+  }
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const override;
+  void forces(const ModalPoint& at, Point& point) const override;
+  [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const Point& point,
+                             double t) const override;
+  [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
+    return proof_.magnitude(slot, at);
+  }
+  void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+                  LastTurns& turns) override;
+  void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const override {
+    works_.add(proof_, from, to, time, works);
+  }
+  [[nodiscard]] long states_made() const override { return system_.made(); }
+
+ private:
+  [[nodiscard]] std::string obstacle(const Segment& segment);
+  void set_forces(const Segment& segment);
+
+  const Model& model_;
+  const double t_end_;
+  ModalSystem system_;
+  ModalProof proof_;
+  ModalWorks works_;
+  const Segment* segment_ = nullptr;
+  std::shared_ptr<const StateModes> state_;  // kept while proof and works refer to it
+  Oscillators oscillators_;
+  Amplitudes forces_;
+};
+
+}  // namespace signorini

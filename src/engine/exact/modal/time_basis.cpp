@@ -1,0 +1,181 @@
+#include "engine/exact/modal/time_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/exact/gauss_rule.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double turn_of_panel = 2.0;  // rad of the fastest wave in a panel of quadrature: exact to rounding
+
+std::size_t degree_of(const Piece& piece) {
+  std::size_t degree = piece.coefficients.size();
+  while (degree > 1 && piece.coefficients[degree - 1] == 0.0) --degree;
+  return degree > 0 ? degree - 1 : 0;
+}
+
+}  // namespace
+
+TimeBasis::TimeBasis(const Model& model, double t) : t0_(t) {
+  std::size_t degree = 0;
+  const auto take = [&](const History& history) {
+    const Piece& piece = history.piece(t);
+    degree = std::max(degree, degree_of(piece));
+    if (piece.amplitude != 0.0 && piece.omega != 0.0 &&
+        std::find(omega_.begin(), omega_.end(), std::abs(piece.omega)) == omega_.end())
+      omega_.push_back(std::abs(piece.omega));
+  };
+  for (const Load& load : model.loads) take(load.history);
+  for (const Contact& contact : model.contacts) {
+    take(contact.normal_force);
+    take(contact.surface_motion);
+  }
+  degree_ = degree + 1;
+}
+
+Eigen::VectorXd TimeBasis::at(double x) const {
+  Eigen::VectorXd b(size());
+  double power = 1.0;
+  Eigen::Index i = 0;
+  for (; i <= static_cast<Eigen::Index>(degree_); ++i, power *= x) b[i] = power;
+  for (const double w : omega_) {
+    b[i++] = std::cos(w * x);
+    b[i++] = std::sin(w * x);
+  }
+  return b;
+}
+
+Course TimeBasis::of(const Piece& piece) const {
+  Course c = Course::Zero(size());
+  Piece polynomial = piece;
+  polynomial.amplitude = 0.0;
+  polynomial.taylor(t0_, 1.0, degree_ + 1, c.data());
+  if (piece.amplitude == 0.0) return c;
+  const double phase = piece.omega * (t0_ - piece.origin) + piece.phase;
+  if (piece.omega == 0.0) {
+    c[0] += piece.amplitude * std::sin(phase);
+    return c;
+  }
+  const auto wave = std::find(omega_.begin(), omega_.end(), std::abs(piece.omega)) - omega_.begin();
+  const Eigen::Index i = static_cast<Eigen::Index>(degree_) + 1 + 2 * wave;
+  c[i] = piece.amplitude * std::sin(phase);
+  c[i + 1] = piece.amplitude * std::cos(phase) * (piece.omega < 0.0 ? -1.0 : 1.0);
+  return c;
+}
+
+Course TimeBasis::constant(double value) const {
+  Course c = Course::Zero(size());
+  c[0] = value;
+  return c;
+}
+
+Course TimeBasis::derivative(const Course& c) const {
+  Course d = Course::Zero(size());
+  const auto degree = static_cast<Eigen::Index>(degree_);
+  for (Eigen::Index j = 1; j <= degree; ++j) d[j - 1] = static_cast<double>(j) * c[j];
+  Eigen::Index i = degree + 1;
+  for (const double w : omega_) {
+    d[i] = w * c[i + 1];
+    d[i + 1] = -w * c[i];
+    i += 2;
+  }
+  return d;
+}
+
+Eigen::MatrixXd TimeBasis::derivative(const Eigen::MatrixXd& c) const {
+  Eigen::MatrixXd d(c.rows(), c.cols());
+  for (Eigen::Index row = 0; row < c.rows(); ++row)
+    d.row(row) = derivative(Course(c.row(row).transpose())).transpose();
+  return d;
+}
+
+ComplexCourse TimeBasis::answer(std::complex<double> l, const ComplexCourse& p) const {
+  ComplexCourse c = ComplexCourse::Zero(size());
+  const auto degree = static_cast<Eigen::Index>(degree_);
+  if (l == 0.0)
+    for (Eigen::Index j = 0; j < degree; ++j) c[j + 1] = p[j] / static_cast<double>(j + 1);
+  else
+    for (Eigen::Index j = degree; j-- > 0;) c[j] = (static_cast<double>(j + 1) * c[j + 1] - p[j]) / l;
+  Eigen::Index i = degree + 1;
+  for (const double w : omega_) {
+    const std::complex<double> all = l * l + w * w;
+    c[i] = -(l * p[i] + w * p[i + 1]) / all;
+    c[i + 1] = (w * p[i] - l * p[i + 1]) / all;
+    i += 2;
+  }
+  return c;
+}
+
+double TimeBasis::loss(std::complex<double> l, double time) const {
+  const double size = std::abs(l);
+  double most = 0.0;
+  if (size > 0.0) {  // j! / (l time)^j beside one, and 1 / l beside time
+    double term = 1.0 / (size * time);
+    for (std::size_t j = 0; j < degree_; ++j) {
+      most = std::max(most, term);
+      term *= static_cast<double>(j + 1) / (size * time);
+    }
+  }
+  for (const double w : omega_) most = std::max(most, (size + w) / (std::abs(l * l + w * w) * time));
+  return most;
+}
+
+TimeBasis::Ripple TimeBasis::taylor(const Course& c, double x0, double h, double turn,
+                                    std::vector<double>& p) const {
+  const std::size_t count = p.size();
+  std::fill(p.begin(), p.end(), 0.0);
+  double power = 1.0;
+  for (std::size_t k = 0; k < std::min(count, degree_ + 1); ++k, power *= h) {
+    double sum = 0.0;
+    for (std::size_t j = degree_ + 1; j-- > k;) {
+      double binomial = 1.0;
+      for (std::size_t i = 1; i <= k; ++i)
+        binomial *= static_cast<double>(j + 1 - i) / static_cast<double>(i);
+      sum = sum * x0 + binomial * c[static_cast<Eigen::Index>(j)];
+    }
+    p[k] = sum * power;
+  }
+  Ripple ripple;
+  auto i = static_cast<Eigen::Index>(degree_) + 1;
+  for (const double w : omega_) {
+    const double a = c[i], b = c[i + 1];
+    i += 2;
+    if (a == 0.0 && b == 0.0) continue;
+    if (w * h > turn) {
+      const double size = std::hypot(a, b);
+      ripple.value += size;
+      ripple.rate += size * w;
+      continue;
+    }
+    double even = a * std::cos(w * x0) + b * std::sin(w * x0),
+           odd = b * std::cos(w * x0) - a * std::sin(w * x0);
+    double factor = 1.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      p[k] += factor * even;
+      factor *= w * h / static_cast<double>(k + 1);
+      const double next = -even;
+      even = odd;
+      odd = next;
+    }
+    ripple.rest += 2.0 * factor * std::hypot(a, b);
+  }
+  return ripple;
+}
+
+double TimeBasis::integral(const Course& c, const Course& d, double x0, double x1) const {
+  const double fastest = omega_.empty() ? 0.0 : *std::max_element(omega_.begin(), omega_.end());
+  const double h = x1 - x0;
+  const auto panels = static_cast<int>(std::ceil(std::max(1.0, fastest * h / turn_of_panel)));
+  const GaussRule& rule = gauss_rule();
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel)
+    for (std::size_t i = 0; i < rule.x.size(); ++i) {
+      const Eigen::VectorXd b = at(x0 + h * (panel + rule.x[i]) / panels);
+      sum += rule.w[i] * c.dot(b) * d.dot(b);
+    }
+  return sum * h / panels;
+}
+
+}  // namespace signorini

@@ -1,0 +1,99 @@
+// Functions of time in one basis: what histories are in it, what answers them, their integrals and series.
+#include "engine/exact/modal/time_basis.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace signorini;
+
+namespace {
+
+/// A model with one load: 2 - t + 3 t^2 about 0.5, and a sine.
+Model driven() {
+  Model model;
+  Load load;
+  load.history = History(Piece{0.5, {2.0, -1.0, 3.0}, 1.5, 4.0, 0.3});
+  model.loads.push_back(load);
+  return model;
+}
+
+double history(double t) {
+  const double s = t - 0.5;
+  return 2.0 - s + 3.0 * s * s + 1.5 * std::sin(4.0 * s + 0.3);
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/exact/modal/time_basis");
+
+TEST_CASE("a history in the basis, its derivative and its series") {
+  const Model model = driven();
+  const TimeBasis basis(model, 1.25);
+  const Course c = basis.of(model.loads[0].history.piece(1.25)), rate = basis.derivative(c);
+  CHECK(basis.degree() == 3);
+  for (const double x : {0.0, 0.4, 2.0}) {
+    CHECK(c.dot(basis.at(x)) == doctest::Approx(history(1.25 + x)).epsilon(1e-13));
+    const double slope = (history(1.25 + x + 1e-5) - history(1.25 + x - 1e-5)) / 2e-5;
+    CHECK(rate.dot(basis.at(x)) == doctest::Approx(slope).epsilon(1e-8));
+  }
+  std::vector<double> p(31);
+  const TimeBasis::Ripple slow = basis.taylor(c, 0.4, 0.7, 4.0, p);
+  CHECK(slow.value == 0.0);
+  CHECK(slow.rest < 1e-12);
+  for (const double x : {0.0, 0.3, 1.0}) {
+    double sum = 0.0;
+    for (std::size_t k = p.size(); k-- > 0;) sum = sum * x + p[k];
+    CHECK(sum == doctest::Approx(history(1.25 + 0.4 + 0.7 * x)).epsilon(1e-13));
+  }
+  // A wave that turns too far is left out, and bounded.
+  const TimeBasis::Ripple fast = basis.taylor(c, 0.4, 2.0, 4.0, p);
+  CHECK(fast.value == doctest::Approx(1.5).epsilon(1e-13));
+  CHECK(fast.rate == doctest::Approx(6.0).epsilon(1e-13));
+  double sum = 0.0;
+  for (std::size_t k = p.size(); k-- > 0;) sum = sum * 0.5 + p[k];
+  CHECK(std::abs(sum - history(1.25 + 1.4)) < 1.5);
+  CHECK(std::abs(sum - (history(1.25 + 1.4) - 1.5 * std::sin(4.0 * 2.15 + 0.3))) < 1e-12);
+}
+
+TEST_CASE("answers solve z' = l z + p, with frequency and without") {
+  const Model model = driven();
+  const TimeBasis basis(model, 0.0);
+  const Course c = basis.of(model.loads[0].history.piece(0.0));
+  const std::complex<double> factor(0.7, -0.2);
+  const ComplexCourse p = factor * c.cast<std::complex<double>>();
+  for (const std::complex<double> l : {std::complex<double>(-0.5, 3.0), {-2.0, 0.0}, {0.0, 0.0}}) {
+    const ComplexCourse z = basis.answer(l, p);
+    const Course re = z.real(), im = z.imag();
+    for (const double x : {0.0, 0.8, 2.5}) {
+      const auto b = basis.at(x);
+      const std::complex<double> rate(basis.derivative(re).dot(b), basis.derivative(im).dot(b));
+      const std::complex<double> value(re.dot(b), im.dot(b));
+      CHECK(std::abs(rate - l * value - factor * c.dot(b)) < 1e-11);
+    }
+  }
+}
+
+TEST_CASE("integrals of products") {
+  const Model model = driven();
+  const TimeBasis basis(model, 0.0);
+  const Course c = basis.of(model.loads[0].history.piece(0.0));
+  double sum = 0.0;  // Simpson
+  const int n = 20000;
+  for (int i = 0; i <= n; ++i) {
+    const double f = history(0.2 + 3.0 * i / n);
+    sum += (i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * f * f;
+  }
+  CHECK(basis.integral(c, c, 0.2, 3.2) == doctest::Approx(sum * 3.0 / n / 3.0).epsilon(1e-11));
+}
+
+TEST_CASE("what answers lose to rounding") {
+  const TimeBasis still(Model{}, 0.0);
+  CHECK(still.loss(0.0, 2.0) == 0.0);
+  CHECK(still.loss({-0.01, 0.0}, 2.0) == doctest::Approx(50.0));
+  const TimeBasis waves(driven(), 0.0);
+  CHECK(waves.loss({0.0, 4.0}, 2.0) > 1e12);   // resonance
+  CHECK(waves.loss({-0.4, 4.0}, 2.0) < 10.0);  // with damping
+}
+
+TEST_SUITE_END();

@@ -17,7 +17,6 @@ constexpr int fewest_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
 constexpr int most_damped_unknowns = 500;  // a state's complex modes take 120 n^2 bytes and some 5 s there
-constexpr double clear_gain = 2.0;         // of what the series costs, over complex modes of all states
 
 }  // namespace
 
@@ -36,9 +35,8 @@ FlowChoice choose_flow(const Model& model, const RunSpec& run) {
     if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
     if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
     if (!damped) return {true, "auto: modes follow all of it"};
-    if (seconds_of_series(model, run) < clear_gain * seconds_of_damped_states(model))
-      return {false, "auto: the series is expected to cost less than complex modes"};
-    return {true, "auto: complex modes follow all of it"};
+    // A symmetric trestle on rigid feet does not stay symmetric in them, and a random scene parted (seed 74).
+    return {false, "auto: complex modes are followed where they are asked for"};
   }
   if (!why.empty())
     throw SceneError(run.place, "run.flow",

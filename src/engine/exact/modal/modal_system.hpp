@@ -46,12 +46,11 @@ class ModalSystem {
   ModalSystem(const Model& model, const OpenBasis& basis);
 
   [[nodiscard]] double alpha() const { return alpha_; }
+  [[nodiscard]] const OpenBasis& basis() const { return basis_; }
   /// The modes of a state, from the cache or made. Its spectrum may have failed.
   [[nodiscard]] std::shared_ptr<const StateModes> state(const Mode& mode);
   /// How many were made.
   [[nodiscard]] long made() const { return made_; }
-
-  [[nodiscard]] const OpenBasis& basis() const { return basis_; }
 
  private:
   const Model& model_;

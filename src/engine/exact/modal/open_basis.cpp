@@ -9,7 +9,7 @@ namespace {
 
 bool stands_still(const History& history) {
   return std::all_of(history.pieces().begin(), history.pieces().end(), [](const Piece& piece) {
-    return piece.amplitude == 0.0 &&
+    return !piece.function && piece.amplitude == 0.0 &&
            std::all_of(piece.coefficients.begin(), piece.coefficients.end(),
                        [&](const double& c) { return &c == piece.coefficients.data() || c == 0.0; });
   });

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-
 using namespace signorini;
 
 TEST_SUITE_BEGIN("unit/model/modes/rounding_floor");

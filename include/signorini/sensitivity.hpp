@@ -7,8 +7,8 @@
 //   w+ = w- + (u'- - u'+) dt/dp,   w'+ = w'- + (u''- - u''+) dt/dp          across it
 //
 // _p: derivatives by p of what is given, at fixed time; grad G . w stands for all that G is made of. Where
-// rigid contacts are hit, w' follows from the derivative of the impact's equations. Engine `exact`, Taylor
-// series.
+// rigid contacts are hit, w' follows from the derivative of the impact's equations. The run is that of the
+// scene's engine and flow; between its events w is computed to rounding, in modes or along series.
 //
 //   Sensitivities s = sensitivities(reader_of("models/pipeline.toml"), {"contacts.*.friction"});
 //   s.event_rates[0][0].t                       dt/dp of the first event, in the scene's units
@@ -78,6 +78,12 @@ struct Response {
   std::vector<double> rates, t_rates;  ///< one a parameter; t_rates: of a peak's time
 };
 
+/// How many stretches between two events were followed in modes, and along series; those whose engine makes no
+/// series (`ida`, `newmark`) once more, from its state after one event to its time of the next.
+struct Stretches {
+  long modes = 0, series = 0, followed = 0;
+};
+
 struct Sensitivities {
   std::vector<Parameter> parameters;
   std::vector<std::string> contacts;  ///< names
@@ -90,13 +96,15 @@ struct Sensitivities {
   std::vector<Response> responses;
   Units units;
   std::string title;
+  Stretches stretches;
   Report report;
 };
 
-/// Where, to first order, the order of two events of one sequence changes.
+/// Where, to first order, the sequence changes: two neighbours swap or, of one contact, both vanish.
 struct Swap {
   std::size_t parameter = 0, first = 0, second = 0;  ///< indices of events, times ascending
   double change = 0.0;                               ///< of the parameter at which their times meet
+  bool vanish = false;                               ///< they are of one contact
 };
 
 /// The least change of each parameter upwards, and downwards, at which two neighbours meet; none where no two
@@ -104,7 +112,7 @@ struct Swap {
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
 /// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for
-/// one of which the model does not depend smoothly, and for laws that engine `exact` does not know.
+/// one of which the model does not depend smoothly, and what the engine refuses.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr);
 

@@ -7,8 +7,8 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/keyed.hpp"
 #include "cli/owned_folder.hpp"
-#include "cli/settings.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"
@@ -20,21 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FitOptions : OutputOptions {
-  std::string scene, data;
-  std::optional<std::string> directory;
-  std::vector<std::string> parameters, settings;
+struct FitOptions : KeyedOptions {
+  std::string data;
 };
 
 const OwnedFolder& fit_folder() {
   static const OwnedFolder folder = {"fit", "fit.json", {"residuals.csv", "report.html"}};
   return folder;
-}
-
-fs::path folder_of(const FitOptions& options) {
-  if (!options.directory) return fs::path(options.scene).stem().string() + "-fit";
-  if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
-  return *options.directory;
 }
 
 std::string text_of(const Fit& fit, const Measurements& measured) {
@@ -49,7 +41,7 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
 
 ExitCode run_fit(const FitOptions& options) {
   if (options.parameters.empty()) throw UsageError("expected --parameter PATH");
-  const fs::path path = folder_of(options);
+  const fs::path path = directory_of(options, "-fit");
   check_folder(path, fit_folder(), options.force, options.scene);
   const Measurements measured = read_measurements(options.data);
   std::optional<Interrupt> interrupt(std::in_place);
@@ -76,20 +68,10 @@ void add_fit(Program& program) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* command =
       program.app.add_subcommand("fit", "find keys of a scene from measured event times or columns");
-  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  add_scene(*command, *options);
   command->add_option("DATA", options->data, "event_index,t[,sigma] or t,COLUMN,...[,sigma] (CSV)")
       ->required();
-  command->add_option("--parameter", options->parameters, "a key of the scene to find (may be repeated)")
-      ->option_text("PATH")
-      ->allow_extra_args(false);
-  command
-      ->add_option("-o,--output", options->directory,
-                   "directory of the results (default: SCENE's name with -fit)")
-      ->option_text("DIR");
-  add_settings(*command, options->settings);
-  command->add_flag("--force", options->force, "replace an earlier fit in the directory");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print fit.json instead of tables");
+  add_keyed_options(*command, *options, "a key of the scene to find", "an earlier fit", "-fit", "fit.json");
   command->callback([&program, options] { program.action = [options] { return run_fit(*options); }; });
 }
 

@@ -8,15 +8,17 @@
 
 #include "base/number.hpp"
 #include "cli/command.hpp"
+#include "cli/gnuplot.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/keyed.hpp"
 #include "cli/owned_folder.hpp"
-#include "cli/settings.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
 #include "result/writers.hpp"
 #include "signorini/error.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
+#include "study/sensitivity/sensitivity_plots.hpp"
 
 namespace signorini::cli {
 
@@ -24,29 +26,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct SensitivityOptions : OutputOptions {
-  std::string scene;
-  std::optional<std::string> directory;
-  std::vector<std::string> parameters, sigmas, settings;
+struct SensitivityOptions : KeyedOptions {
+  std::vector<std::string> sigmas;
 };
 
 /// "columns-1.csv" and so on are removed by number.
 const OwnedFolder& sensitivity_folder() {
   static const OwnedFolder folder = [] {
-    OwnedFolder f{"sensitivities",
-                  "sensitivity.json",
-                  {"events.csv", "sensitivities.csv", "figures.csv", "spread.csv", "report.html"}};
+    OwnedFolder f{
+        "sensitivities",
+        "sensitivity.json",
+        {"events.csv", "sensitivities.csv", "figures.csv", "sequence.csv", "spread.csv", "report.html"}};
     constexpr int most_parameters = 1000;
     for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
     return f;
   }();
   return folder;
-}
-
-fs::path directory_of(const SensitivityOptions& options) {
-  if (!options.directory) return fs::path(options.scene).stem().string() + "-sensitivity";
-  if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
-  return *options.directory;
 }
 
 /// Stops where an interrupt asks for it.
@@ -131,6 +126,17 @@ std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
   return text;
 }
 
+/// What was computed how, in a line.
+std::string method_of(const Sensitivities& s) {
+  const Method& method = s.report.method;
+  std::string text = fmt::format("engine {}", to_string(method.engine));
+  if (!method.flow.empty()) text += fmt::format(", flow {}", method.flow);
+  const Stretches& n = s.stretches;
+  text += fmt::format("; derivatives of {} stretches in modes, of {} along series", n.modes, n.series);
+  if (n.followed > 0) text += fmt::format("; {} followed from event to event", n.followed);
+  return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
+}
+
 ExitCode code_of(const Outcome& outcome) {
   switch (outcome.kind) {
     case Outcome::Kind::done:
@@ -150,13 +156,10 @@ void write_events(const fs::path& path, const Model& model, const Sensitivities&
 
 ExitCode run(const SensitivityOptions& options) {
   const std::vector<Override> changes = overrides_of(options.settings);
-  for (const Override& change : changes)
-    if (change.path == "run.engine" && change.value != "exact" && change.value != "auto")
-      throw UsageError(fmt::format("--set run.engine={}: derivatives follow engine \"exact\"", change.value));
   std::vector<std::string> paths = options.parameters;
   const Sigmas sigmas = take_sigmas(options, paths);
   if (paths.empty()) throw UsageError("expected --parameter PATH or --sigma PATH=VALUE");
-  const fs::path path = directory_of(options);
+  const fs::path path = directory_of(options, "-sensitivity");
   check_folder(path, sensitivity_folder(), options.force, options.scene);
   const SceneReader read = reader_of(options.scene, changes);
   std::optional<Interrupt> interrupt(std::in_place);
@@ -164,15 +167,18 @@ ExitCode run(const SensitivityOptions& options) {
   const Sensitivities s = sensitivities(read, paths, &recorder);
   interrupt.reset();
   begin_folder(path, sensitivity_folder());
+  remove_sensitivity_plots(path);
   write_events(path, build_model(read({})), s);
   write_sensitivities(path, s, sigmas);
   const std::string json = sensitivity_json(s, sigmas);
   write_file(path / "sensitivity.json", json);
+  const std::string drawn =
+      options.no_plots ? "" : draw_pictures(path, write_sensitivity_plots(path, s, sigmas));
   if (options.json) print(json);
   if (options.tables()) {
     if (!s.title.empty()) print(s.title + "\n\n");
-    print(summary_of(s, sigmas) + "results: " + path.string() +
-          "/ (sensitivities.csv, figures.csv, columns-1.csv)\n");
+    print(summary_of(s, sigmas) + method_of(s) + "results: " + path.string() +
+          "/ (sensitivities.csv, figures.csv, columns-1.csv)\n" + drawn);
   }
   for (const std::string& warning : s.report.warnings) print_warning(warning);
   if (s.report.outcome.kind != Outcome::Kind::done) print_error("stopped: " + s.report.outcome.reason);
@@ -185,26 +191,16 @@ void add_sensitivity(Program& program) {
   auto options = std::make_shared<SensitivityOptions>();
   CLI::App* command =
       program.app.add_subcommand("sensitivity", "how events, peaks and columns move with keys of a scene");
-  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
-  command
-      ->add_option(
-          "--parameter", options->parameters,
-          "a key of the scene to derive by: contacts.*.friction, loads.1.amplitude (may be repeated)")
-      ->option_text("PATH")
-      ->allow_extra_args(false);
+  add_scene(*command, *options);
+  add_keyed_options(*command, *options,
+                    "a key of the scene to derive by: contacts.*.friction, loads.1.amplitude",
+                    "earlier sensitivities", "-sensitivity", "sensitivity.json");
+  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
   command
       ->add_option("--sigma", options->sigmas,
                    "the standard deviation of a key; times and figures get theirs (may be repeated)")
       ->option_text("PATH=VALUE")
       ->allow_extra_args(false);
-  command
-      ->add_option("-o,--output", options->directory,
-                   "directory of the results (default: SCENE's name with -sensitivity)")
-      ->option_text("DIR");
-  add_settings(*command, options->settings);
-  command->add_flag("--force", options->force, "replace earlier sensitivities in the directory");
-  command->add_flag("--quiet", options->quiet, "print errors only");
-  command->add_flag("--json", options->json, "print sensitivity.json instead of tables");
   command->callback([&program, options] { program.action = [options] { return run(*options); }; });
 }
 

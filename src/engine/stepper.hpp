@@ -17,6 +17,8 @@
 
 namespace signorini {
 
+class ModalSystem;
+
 /// The stretch up to the next discontinuity of the forcing, in one mode.
 struct Segment {
   double end = 0.0;
@@ -38,6 +40,7 @@ struct Expansion {
   const Series* series = nullptr;  ///< null: the engine knows none
   std::size_t degree = 0;          ///< up to which u, v, a and forces are complete
   double x = 0.0;
+  const ModeSystem* system = nullptr;  ///< with friction at the slip rates where the series begins
 };
 
 class Stepper {
@@ -70,6 +73,8 @@ class Stepper {
   }
 
   [[nodiscard]] virtual Expansion expansion() const { return {}; }
+  /// The modes that it follows motions in; null: it knows none.
+  [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
 
   /// Brings `counters` up to date.
   virtual void count() {}

@@ -1,6 +1,6 @@
 // observer.hpp: somebody who follows the motion of a run from inside: its series, its decisions.
 //
-//   begin(decision at 0)  { step(series of the step) ... instant(decision before, after) } ...
+//   begin(decision at 0)  { step(series of the step) ... instant(decision before, after) } ... end
 //
 // All in the units of the model that is computed, the machine's. What is handed over lives until the call
 // ends.
@@ -17,6 +17,7 @@ struct ObservedStep {
   const Decision& decision;  ///< the mode of the step
   const Forcing& forcing;
   const std::vector<double>& turns;  ///< Stepper::turning_points()
+  ModalSystem* modes = nullptr;      ///< Stepper::modes()
 };
 
 /// An instant at which states were decided.
@@ -27,6 +28,7 @@ struct ObservedInstant {
   const Mode& mode_before;
   const Decision& after;
   const Forcing &forcing_before, &forcing_after;
+  const Vector& v_before;  ///< u is that of `after`
 };
 
 class MotionObserver {
@@ -35,9 +37,11 @@ class MotionObserver {
   virtual void begin(const ObservedInstant& start) = 0;
   virtual void step(const ObservedStep& step) = 0;
   virtual void instant(const ObservedInstant& instant) = 0;
+  /// The run ends here, between events.
+  virtual void end(double /*t*/) {}
 };
 
-/// signorini/simulate.hpp, and the observer follows: of an engine that has expansions (`exact`, its series).
+/// signorini/simulate.hpp, and the observer follows: of any engine.
 [[nodiscard]] Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
                               MotionObserver& observer);
 

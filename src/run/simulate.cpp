@@ -110,7 +110,7 @@ class Loop {
     const std::vector<std::string> cut = cut_shears(model_, decision_);
     report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
     warn_of_gain();
-    if (observer_) observer_->begin({0.0, 0.0, {}, false, guessed, decision_, forcing_, forcing_});
+    if (observer_) observer_->begin({0.0, 0.0, {}, false, guessed, decision_, forcing_, forcing_, model_.v0});
     auditor_.begin(decision_, guessed, forcing_);
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
     take_decision(std::nullopt);
@@ -131,7 +131,8 @@ class Loop {
       if (step.kind == Step::Kind::failed) return stop(step.reason);
       resolution_ = step.resolution;
       if (observer_)
-        observer_->step({step, engine_->expansion(), decision_, forcing_, engine_->turning_points()});
+        observer_->step(
+            {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
       pass(step);
       if (step.kind == Step::Kind::event)
         return instant(std::move(step.fired), std::move(step.adopted)) && steered();
@@ -232,7 +233,7 @@ class Loop {
     }
     if (observer_)
       observer_->instant(
-          {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_});
+          {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_, point_.v});
     touches_.instant(t_, old_mode, next);
     if (all || next.mode != old_mode || !next.impulses.empty())
       response_.before(t_, point_, auditor_.losses());
@@ -303,6 +304,7 @@ class Loop {
 
   void finish() {
     report_.outcome.t = t_;
+    if (observer_) observer_->end(t_);
     engine_->count();
     report_.counters = engine_->counters;
     log_.finish();

@@ -61,6 +61,16 @@ ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor)
   return m;
 }
 
+WatchedMotion watched(const Contact& contact, std::size_t k, const Vector& u0, const SeriesPoint& point,
+                      const Vector& force_bends) {
+  const auto n = static_cast<Eigen::Index>(normal_slot(k));
+  const Combination& body = contact.body_tangent();
+  const Vector moved = point.u - u0;
+  return {{point.forces[n], point.forces[n + 1], contact.normal.dot(moved), body.dot(moved)},
+          {point.force_rates[n], point.force_rates[n + 1], contact.normal.dot(point.v), body.dot(point.v)},
+          {force_bends[n], force_bends[n + 1], contact.normal.dot(point.a), body.dot(point.a)}};
+}
+
 BodySlide slide_rate(const Contact& contact, const ContactRates& rates, const SeriesPoint& point,
                      const SeriesPoint& w, const DrivenRates& driven) {
   const Combination& body = contact.body_tangent();

@@ -30,6 +30,13 @@ struct DrivenRates {
 /// a + factor b
 [[nodiscard]] ContactMotion sum(const ContactMotion& a, const ContactMotion& b, double factor);
 
+/// What peaks are of, and how it changes: N, T, and the body from where it was at the start along n and t.
+struct WatchedMotion {
+  std::array<double, 4> values{}, slopes{}, bends{};
+};
+[[nodiscard]] WatchedMotion watched(const Contact& contact, std::size_t k, const Vector& u0,
+                                    const SeriesPoint& point, const Vector& force_bends);
+
 /// The body's own ut and ut': those of the motion unless there is a shear element.
 [[nodiscard]] BodySlide slide_rate(const Contact& contact, const ContactRates& rates,
                                    const SeriesPoint& point, const SeriesPoint& tangent,

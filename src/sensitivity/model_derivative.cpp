@@ -4,41 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "base/rounding.hpp"
-#include "contact/friction.hpp"
 #include "model/rescale.hpp"
+#include "sensitivity/model_numbers.hpp"
 #include "sensitivity/parameter.hpp"
 #include "sensitivity/static_rates.hpp"
+#include "sensitivity/stencils.hpp"
 
 namespace signorini {
 namespace {
-
-/// Points in units of the step, and weights over it.
-struct Stencil {
-  std::vector<int> points;
-  std::vector<double> weights, check;  ///< check: of lower order, through the same points
-};
-
-const Stencil& two_points() {
-  static const Stencil s{{1, -1}, {0.5, -0.5}, {0.5, -0.5}};
-  return s;
-}
-const Stencil& six_points() {
-  static const Stencil s{{1, -1, 2, -2, 3, -3},
-                         {0.75, -0.75, -0.15, 0.15, 1.0 / 60.0, -1.0 / 60.0},
-                         {2.0 / 3.0, -2.0 / 3.0, -1.0 / 12.0, 1.0 / 12.0, 0.0, 0.0}};
-  return s;
-}
-/// To the upper side; to the lower one h is negative.
-const Stencil& one_side() {
-  static const Stencil s{{0, 1, 2, 3, 4, 5},
-                         {-137.0 / 60.0, 5.0, -5.0, 10.0 / 3.0, -1.25, 0.2},
-                         {-25.0 / 12.0, 4.0, -3.0, 4.0 / 3.0, -0.25, 0.0}};
-  return s;
-}
 
 constexpr double first_step = 1.0 / 512.0;  // of the size of the value
 constexpr double shorter = 1.0 / 16.0;
@@ -51,166 +27,15 @@ constexpr double rounding_of_data = 4096.0 * rounding::eps;
 // Chosen; the pipeline's own equilibrium is known to 1e-11.
 constexpr double rounding_of_solves = 1e-8;
 
-template <class Visit>
-void visit_form(Form& f, const Visit& visit) {
-  for (double* x :
-       {&f.N, &f.T, &f.gap, &f.ut, &f.vn, &f.vt, &f.an, &f.at, &f.pressing, &f.pressing_rate, &f.constant})
-    visit(*x);
-}
-
-template <class Visit>
-void visit_rates(HistoryRates& h, const Visit& visit) {
-  for (double& t : h.starts) visit(t);
-  for (Piece& piece : h.pieces) {
-    visit(piece.origin);
-    for (double& c : piece.coefficients) visit(c);
-    visit(piece.amplitude);
-    visit(piece.omega);
-    visit(piece.phase);
-  }
-}
-
-template <class Visit>
-void visit_combinations(ModelDerivative& d, const Visit& visit) {
-  for (LoadRates& load : d.loads) visit(load.direction);
-  for (ContactRates& c : d.contacts)
-    for (Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) visit(*form);
-}
-
-/// What is zero here and not there has no term: all get those of each.
-void align(const std::vector<ModelDerivative*>& all) {
-  std::vector<std::map<int, double>> none;
-  for (ModelDerivative* data : all) {
-    std::size_t i = 0;
-    visit_combinations(*data, [&](Combination& c) {
-      if (none.size() == i) none.emplace_back();
-      for (const auto& term : c.terms) none[i][term.first] = 0.0;
-      ++i;
-    });
-  }
-  for (ModelDerivative* data : all) {
-    std::size_t i = 0;
-    visit_combinations(*data, [&](Combination& c) {
-      std::map<int, double> factors = none[i++];
-      for (const auto& [index, factor] : c.terms) factors[index] += factor;
-      c.terms.assign(factors.begin(), factors.end());
-    });
-  }
-}
-
-template <class Visit>
-void visit_all(ModelDerivative& d, const Visit& visit) {
-  visit_combinations(d, [&](Combination& c) {
-    for (auto& [index, factor] : c.terms) visit(factor);
-  });
-  for (LoadRates& load : d.loads) visit_rates(load.history, visit);
-  for (ContactRates& c : d.contacts) {
-    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction})
-      visit(*x);
-    visit_rates(c.normal_force, visit);
-    visit_rates(c.surface_motion, visit);
-    for (Rows& rows : c.rows) {
-      visit_form(rows.normal, visit);
-      visit_form(rows.tangent, visit);
-    }
-    for (auto& guards : c.guards)
-      for (Form& guard : guards) visit_form(guard, visit);
-  }
-  for (double& u : d.u0) visit(u);
-  for (double& v : d.v0) visit(v);
-}
-
-// Coefficients of a piece at least, so that what is zero at the value has a place beside it: a cubic's integral.
-constexpr std::size_t fewest_coefficients = 5;
-
-HistoryRates numbers_of(const History& history) {
-  HistoryRates numbers{history.starts(), history.pieces()};
-  for (Piece& piece : numbers.pieces)
-    if (piece.coefficients.size() < fewest_coefficients) piece.coefficients.resize(fewest_coefficients, 0.0);
-  return numbers;
-}
-
-ContactRates numbers_of(const Contact& contact) {
-  ContactRates c;
-  c.normal = contact.normal;
-  c.tangent = contact.tangent;
-  c.body_tangent = contact.body_tangent();
-  c.gap = contact.gap;
-  c.tangential_stiffness = contact.tangential_stiffness.value_or(0.0);
-  c.initial_shear = contact.initial_shear;
-  c.restitution = contact.restitution;
-  c.kinetic_friction = kinetic_friction(contact);
-  c.normal_force = numbers_of(contact.normal_force);
-  c.surface_motion = numbers_of(contact.surface_motion);
-  for (const State state : all_states) {
-    c.rows[index_of(state)] = rows(contact, {state, 0.0});
-    if (state == State::inside && !(contact.normal_stiffness > 0.0)) continue;
-    const auto forms = guards(contact, {state, 0.0});
-    for (std::size_t i = 0; i < forms.size(); ++i) c.guards[index_of(state)][i] = forms[i].form;
-  }
-  return c;
-}
-
-/// The data themselves in the place of their derivatives.
-ModelDerivative data_of(const Model& model) {
-  ModelDerivative d;
-  d.mass = model.mass;
-  d.damping = model.damping;
-  d.stiffness = model.stiffness;
-  for (const Load& load : model.loads) d.loads.push_back({load.direction, numbers_of(load.history)});
-  for (const Contact& contact : model.contacts) d.contacts.push_back(numbers_of(contact));
-  d.u0 = model.u0;
-  d.v0 = model.v0;
-  return d;
-}
-
-/// What must be the same for differences to mean something.
-std::vector<long> shape_of(const Model& model) {
-  std::vector<long> shape{static_cast<long>(model.dofs.size())};
-  const auto history = [&](const History& h) {
-    for (const Piece& piece : h.pieces())
-      shape.push_back(static_cast<long>(std::max(piece.coefficients.size(), fewest_coefficients)));
-    shape.push_back(-1);
-  };
-  for (const Dof& dof : model.dofs) shape.push_back(dof.massless);
-  for (const Load& load : model.loads) history(load.history);
-  for (const Contact& c : model.contacts) {
-    history(c.normal_force);
-    history(c.surface_motion);
-    for (const bool has : {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(),
-                           c.normal_damping > 0.0, c.friction.stribeck_velocity.has_value()})
-      shape.push_back(has);
-    shape.push_back(static_cast<long>(c.law));
-  }
-  for (const double reaction : model.statics.reactions) shape.push_back(reaction > 0.0);
-  return shape;
-}
-
-std::vector<double> values_of(ModelDerivative& data) {
-  std::vector<double> values;
-  visit_all(data, [&](double& x) { values.push_back(x); });
-  return values;
-}
-
-/// What the rounding of each number is relative to: itself, in a form its greatest factor.
-std::vector<double> sizes_of(ModelDerivative data) {
-  visit_combinations(data, [](Combination& c) {
-    double greatest = 0.0;
-    for (const auto& term : c.terms) greatest = std::max(greatest, std::abs(term.second));
-    for (auto& term : c.terms) term.second = greatest;
-  });
-  std::vector<double> sizes = values_of(data);
-  for (double& size : sizes) size = std::abs(size);
-  return sizes;
-}
-
 class Differences {
  public:
-  Differences(const SceneReader& read, const Model& model, const std::string& path, double value)
+  Differences(const SceneReader& read, const Model& model, const std::string& path, double value,
+              bool start_follows)
       : read_(read),
         model_(model),
         path_(path),
         value_(value),
+        start_follows_(start_follows),
         base_(data_of(model)),
         shape_(shape_of(model)) {}
 
@@ -281,6 +106,10 @@ class Differences {
     return *std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; });
   }
 
+  /// Of all numbers, those before u0 and v0 where these follow from the others.
+  [[nodiscard]] std::size_t judged(std::size_t count) const {
+    return start_follows_ ? count - 2 * static_cast<std::size_t>(model_.size()) : count;
+  }
   static bool is_straight(double a, double b, double c) {
     return std::abs(a - 2.0 * b + c) <= 8.0 * rounding::eps * (std::abs(a) + 2.0 * std::abs(b) + std::abs(c));
   }
@@ -295,7 +124,7 @@ class Differences {
   [[nodiscard]] bool is_linear() {
     const Moved &up = at_point(1), &down = at_point(-1);
     const std::vector<double> here = values_of(base_);
-    for (std::size_t i = 0; i < here.size(); ++i)
+    for (std::size_t i = 0; i < judged(here.size()); ++i)
       if (!is_straight(up.values[i], here[i], down.values[i])) return false;
     return is_straight(up.data.mass, base_.mass, down.data.mass) &&
            is_straight(up.data.damping, base_.damping, down.data.damping) &&
@@ -308,7 +137,7 @@ class Differences {
     const std::vector<double> least = sizes_of(base_);
     const std::size_t states = 2 * static_cast<std::size_t>(model_.size());  // u0 and v0 come last
     const double motion = std::max(base_.u0.cwiseAbs().maxCoeff(), base_.v0.cwiseAbs().maxCoeff());
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < judged(count); ++i) {
       double better = 0.0, check = 0.0, size = least[i];
       for (std::size_t k = 0; k < stencil.points.size(); ++k) {
         const double x = at_point(stencil.points[k]).values[i];
@@ -382,6 +211,7 @@ class Differences {
   const Model& model_;
   const std::string& path_;
   double value_, step_ = 0.0;
+  bool start_follows_;  // u0 is found from the other data (static_rates.hpp)
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;
@@ -392,16 +222,23 @@ class Differences {
 
 ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
                            double size) {
-  Differences differences(read, model, path, value);
-  double h = first_step * size;
-  for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter)
-    if (auto d = differences.at(h)) {
-      if (model.static_start && !model.statics.frictional)
-        if (auto w = static_rate(model, *d)) d->u0 = std::move(*w);
+  std::string why = "the data of the model do not depend smoothly on it at its value";
+  const bool follows = model.static_start && !model.statics.frictional;
+  for (const bool start_follows : {true, false}) {
+    if (start_follows && !follows) continue;
+    Differences differences(read, model, path, value, start_follows);
+    double h = first_step * size;
+    for (int attempt = 0; attempt < most_attempts; ++attempt, h *= shorter) {
+      auto d = differences.at(h);
+      if (!d) continue;
+      if (!start_follows) return *d;
+      auto w = static_rate(model, *d);
+      if (!w) break;
+      d->u0 = std::move(*w);
       return *d;
     }
-  std::string why = "the data of the model do not depend smoothly on it at its value";
-  if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
+    if (differences.refusal()) why = "it cannot be varied: " + *differences.refusal();
+  }
   throw UsageError(fmt::format("--parameter {}: {}", path, why));
 }
 

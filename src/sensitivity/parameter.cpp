@@ -23,7 +23,9 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       for (const char* key : {"static", "kinetic"})
         if (const auto f = (*both)[key].value<double>()) found.insert(*f);
       if (both->contains("stribeck_velocity"))
-        fail_at(path, "friction that depends on the slip rate has no derivatives here");
+        fail_at(path,
+                "expected friction.static, friction.kinetic or friction.stribeck_velocity: three numbers "
+                "make the friction");
       return;
     }
     const auto number = node.value<double>();

@@ -123,13 +123,9 @@ void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
 /// At a turn the rate is zero, so a peak's value moves as the quantity does at fixed time.
 void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
   const Contact& contact = model_.contacts[c];
-  const ContactMotion m = motion_of(contact, c, s.forcing, s.t, s.point);
   const Vector first = s.point.u - model_.u0;
   const auto n = static_cast<Eigen::Index>(normal_slot(c));
-  const std::array<double, 4> values = {m.N, m.T, contact.normal.dot(first),
-                                        contact.body_tangent().dot(first)};
-  const std::array<double, 4> bends = {s.force_bends[n], s.force_bends[n + 1], contact.normal.dot(s.point.a),
-                                       contact.body_tangent().dot(s.point.a)};
+  const auto [values, unused, bends] = watched(contact, c, model_.u0, s.point, s.force_bends);
   for (std::size_t which = 0; which < values.size(); ++which) {
     if (!(std::abs(values[which]) > peaks_[c][which].size)) continue;
     Seen seen{values[which], {}, {}};

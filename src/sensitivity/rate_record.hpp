@@ -4,6 +4,7 @@
 //   rest:        what is left at the last output time
 #pragma once
 
+#include "run/physical.hpp"
 #include "sensitivity/tangent_run.hpp"
 
 namespace signorini {
@@ -16,6 +17,9 @@ class RateRecord final : public TangentListener, public Recorder {
 
   void sample(const TangentSample& sample, bool row, bool turn) override;
   void instant(const InstantMotion& motion, const std::vector<TangentState>& states) override;
+  [[nodiscard]] bool exceeds(std::size_t contact, std::size_t which, double value) const override {
+    return std::abs(value) > peaks_[contact][which].size;
+  }
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;

@@ -19,13 +19,8 @@ void check_path(const std::string& path) {
       throw UsageError(fmt::format("--parameter {}: it is no datum of the motion", path));
 }
 
-RunSpec along_series(RunSpec run) {
-  if (run.flow == Flow::modal)
-    throw SceneError(
-        run.place, "run.flow",
-        "derivatives follow the Taylor series; found \"modal\", expected \"taylor\" or \"auto\"");
-  run.engine = Engine::exact;
-  run.flow = Flow::taylor;
+/// A companion has no part in derivatives.
+RunSpec without_companion(RunSpec run) {
   run.certify = Certify::no;
   return run;
 }
@@ -44,7 +39,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
                             Recorder* recorder) {
   const Scene scene = read({});
   const Model model = build_model(scene);
-  const RunSpec run = along_series(scene.run);
+  const RunSpec run = without_companion(scene.run);
   const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
   const Model computed = rescaled(model, to_machine);
   Sensitivities result;
@@ -68,6 +63,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
   const RunSpec inside = rescaled(run, to_machine);
   TangentRun tangents(computed, inside, derivatives, sizes, record);
   result.report = simulate(model, run, record, tangents);
+  result.stretches = tangents.stretches();
   record.finish();
   for (std::size_t p = 0; p < paths.size(); ++p)
     if (const TangentState& state = tangents.states()[p]; !state.alive) {
@@ -85,7 +81,8 @@ std::vector<Swap> least_swaps(const Sensitivities& s) {
       const double apart = s.events[i + 1].t - s.events[i].t;
       const double closing = s.event_rates[i][p].t - s.event_rates[i + 1][p].t;
       if (!(apart > 0.0) || !(std::abs(closing) > 0.0)) continue;
-      const Swap swap{p, i, i + 1, apart / closing};
+      const bool vanish = s.events[i].contact >= 0 && s.events[i].contact == s.events[i + 1].contact;
+      const Swap swap{p, i, i + 1, apart / closing, vanish};
       std::optional<Swap>& least = swap.change > 0.0 ? up : down;
       if (!least || std::abs(swap.change) < std::abs(least->change)) least = swap;
     }

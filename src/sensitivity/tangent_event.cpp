@@ -302,7 +302,7 @@ TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefor
   if (!course.after.reason.empty()) return std::move(course.after);
   const double t = motion.instant.t;
   const ForcingRates forcing(model_, derivative_, t, Side::after);
-  series.expand_to(*motion.instant.after.system, motion.series_after, forcing, course.after.start,
+  series.expand_to(*motion.instant.after.jet.system, motion.series_after, forcing, course.after.start,
                    has_massless(model_) ? 2 : 0);
   course.after.point = series.at(0.0);
   for (std::size_t c = 0; c < count; ++c)

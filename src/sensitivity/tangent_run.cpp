@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace signorini {
 namespace {
 
 constexpr int most_halvings = 30;
 constexpr int fewest_tangent_levels = 12;
-constexpr double bolder = 1.5;  // than the last part that converged
+constexpr double bolder = 1.5;             // than the last part that converged
+constexpr Eigen::Index fewest_modal = 16;  // as run/choose_flow.hpp: below, the series is as fast
+constexpr int most_turn_steps = 6;
+constexpr std::size_t forcing_terms = 6;  // of a constant all but the first are zero
 
 Vector force_bends(const Series& series, std::size_t degree, double x) {
   Vector sum = Vector::Zero(series.forces.rows());
@@ -39,13 +44,31 @@ Series series_of(const Jet& jet, const Forcing& forcing) {
 
 }  // namespace
 
+/// Its system with friction at the slip rates at the beginning of a series.
+ModeSystemPtr TangentRun::system_at(const ModeSystem& system, const Series& series) {
+  std::vector<double> coefficients;
+  for (const std::size_t c : system.factorised().by_rate)
+    coefficients.push_back(
+        FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state), series).coefficient());
+  return systems_.at_friction(system, coefficients);
+}
+
 TangentRun::TangentRun(const Model& model, const RunSpec& run,
                        const std::vector<ModelDerivative>& derivatives, const std::vector<double>& sizes,
                        TangentListener& listener)
-    : model_(model), structure_(model), systems_(model, structure_), listener_(listener), grid_(run.grid()) {
+    : model_(model),
+      structure_(model),
+      systems_(model, structure_),
+      listener_(listener),
+      grid_(run.grid()),
+      t_end_(run.t_end) {
   states_.reserve(derivatives.size());
-  for (std::size_t p = 0; p < derivatives.size(); ++p)
+  for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
+    data_.push_back(&derivatives[p]);
+  }
+  if (model.size() >= fewest_modal && model.size() <= most_modal_tangents && modal_refusal(model).empty())
+    modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
 
 void TangentRun::begin(const ObservedInstant& start) {
@@ -80,23 +103,166 @@ void TangentRun::begin(const ObservedInstant& start) {
   pass(start);
 }
 
+/// The stretch that begins here, in modes, if they can follow it.
+bool TangentRun::starts_in_modes(const ObservedStep& step) {
+  if (!modal_ || step.forcing.varies()) return false;
+  ModalSystem* modes = step.modes;
+  if (modes == nullptr) {
+    if (!modal_engine_) modal_engine_ = std::make_unique<ModalEngine>(model_, structure_, systems_, t_end_);
+    modes = modal_engine_->modes();
+  }
+  std::vector<TangentSource> sources(states_.size());
+  for (std::size_t p = 0; p < states_.size(); ++p) {
+    if (!states_[p].alive) continue;
+    sources[p].start = &states_[p].now.start;
+    states_[p].forcing->expand(step.step.begin, 1.0, forcing_terms, sources[p].forcing);
+  }
+  return modal_->start(*modes, step.decision, step.forcing, std::move(sources));
+}
+
+TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
+  const bool foreign = step.modes == nullptr && step.expansion.series == nullptr;
+  const bool modes = starts_in_modes(step);
+  if (modes && !foreign) return Way::modes;
+  if (!modes && step.expansion.series != nullptr) return Way::series;
+  decision_ = step.decision;
+  for (GuardStart& guard : decision_.guards) guard = {};
+  forcing_.emplace(step.forcing);
+  return modes ? Way::own_modes : Way::own_series;
+}
+
+void TangentRun::step(const ObservedStep& step) {
+  if (way_ == Way::unknown) {
+    way_ = way_of(step);
+    ++(way_ == Way::modes || way_ == Way::own_modes ? stretches_.modes : stretches_.series);
+    if (way_ == Way::own_series || way_ == Way::own_modes) ++stretches_.followed;
+  }
+  if (way_ == Way::series || way_ == Way::modes) observe(step);
+}
+
+void TangentRun::observe(const ObservedStep& step) {
+  if (way_ == Way::series || way_ == Way::own_series)
+    observe_series(step);
+  else
+    observe_modes(step);
+}
+
+/// The stretch that has ended at t once more.
+void TangentRun::follow(double t) {
+  if (way_ != Way::own_series && way_ != Way::own_modes) return;
+  if (way_ == Way::own_series && !series_engine_)
+    series_engine_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
+  Stepper& engine = way_ == Way::own_series ? static_cast<Stepper&>(*series_engine_) : *modal_engine_;
+  engine.start({t, &decision_, &*forcing_});
+  for (;;) {
+    const Step step = engine.advance();
+    if (step.kind == Step::Kind::failed) {
+      for (TangentState& state : states_)
+        if (std::exchange(state.alive, false)) {
+          state.until = step.begin;
+          state.reason = step.reason;
+        }
+      return;
+    }
+    observe({step, engine.expansion(), decision_, *forcing_, engine.turning_points(), engine.modes()});
+    if (step.end >= t) return;
+  }
+}
+
+/// The tangents just before the instant at t.
+void TangentRun::arrive(double t) {
+  follow(t);
+  if (way_ != Way::modes && way_ != Way::own_modes) return;
+  TangentsAt at = modal_->at(t, true);
+  end_ = std::move(at.motion);
+  for (std::size_t p = 0; p < states_.size(); ++p) {
+    TangentState& state = states_[p];
+    if (!state.alive) continue;
+    state.now.start.u = at.tangents[p].u;
+    state.now.start.v = at.tangents[p].v;
+    state.now.point = std::move(at.tangents[p]);
+  }
+}
+
+/// Of an engine that was followed: what it knows itself, with the forces of the mode.
+SeriesPoint TangentRun::just_before(const ObservedInstant& instant) {
+  const ModeSystemPtr system = systems_.of(instant.mode_before);
+  if (!system) return end_;
+  Taylor taylor(systems_);
+  Series series;
+  const int levels = taylor.massless() ? 4 : 2;
+  taylor.expand(system, instant.forcing_before, instant.t, instant.after.u, instant.v_before, levels, 1.0,
+                series);
+  return point_at(series.u, series.forces, 1.0, 2, 0.0);
+}
+
 std::vector<TangentRun::Output> TangentRun::outputs(const ObservedStep& step) {
   std::vector<Output> list;
-  const Series& series = *step.expansion.series;
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_)
     list.push_back({grid_[next_], 0.0, true, false});
   for (const double t : step.turns) list.push_back({t, 0.0, false, true});
   std::sort(list.begin(), list.end(), [](const Output& a, const Output& b) { return a.t < b.t; });
-  for (Output& output : list)
-    output.x = std::clamp((output.t - series.t) / series.scale, 0.0, step.expansion.x);
   return list;
+}
+
+/// Newton's method on the rate, from where the engine saw it turn: it sees no more than what is slow.
+double TangentRun::turn_near(double t, std::size_t c, std::size_t which, const ObservedStep& step) const {
+  double at = t;
+  for (int i = 0; i < most_turn_steps; ++i) {
+    const TangentsAt here = modal_->motion(at);
+    const WatchedMotion m = watched(model_.contacts[c], c, model_.u0, here.motion, here.force_bends);
+    if (m.bends[which] == 0.0) return t;
+    const double next = at - m.slopes[which] / m.bends[which];
+    if (!(next > step.step.begin && next < step.step.end)) return t;
+    if (std::abs(next - at) <= 4.0 * rounding::eps * next) return next;
+    at = next;
+  }
+  return at;
+}
+
+/// Where something turns beyond all before.
+std::vector<double> TangentRun::turns_in_modes(const ObservedStep& step) const {
+  std::vector<double> turns;
+  for (const double t : step.turns) {
+    if (t < step.step.begin || t > step.step.end) continue;
+    const TangentsAt here = modal_->motion(t);
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      const WatchedMotion m = watched(model_.contacts[c], c, model_.u0, here.motion, here.force_bends);
+      for (std::size_t which = 0; which < m.values.size(); ++which)
+        if (listener_.exceeds(c, which, m.values[which])) turns.push_back(turn_near(t, c, which, step));
+    }
+  }
+  std::sort(turns.begin(), turns.end());
+  turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+  return turns;
+}
+
+void TangentRun::observe_modes(const ObservedStep& step) {
+  const std::vector<double> turns = turns_in_modes(step);
+  for (const Output& output : outputs({step.step, step.expansion, step.decision, step.forcing, turns})) {
+    TangentsAt at = modal_->at(output.t, false);
+    TangentSample sample{output.t,
+                         step.forcing,
+                         step.decision.mode,
+                         std::move(at.motion),
+                         std::move(at.force_bends),
+                         std::move(at.tangents),
+                         {},
+                         {}};
+    for (const TangentState& state : states_) {  // nothing drives it but what is constant
+      sample.driven.push_back(state.now.driven);
+      sample.anchors.push_back(state.now.start.anchors);
+    }
+    listener_.sample(sample, output.row, output.turn);
+  }
 }
 
 /// One tangent to the end of the step, part by part.
 void TangentRun::advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& wanted,
-                         std::vector<TangentSample>& samples, std::size_t p) const {
+                         std::vector<TangentSample>& samples, std::size_t p) {
   const Expansion& e = step.expansion;
-  const ModeSystem& system = *step.decision.system;
+  const ModeSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
+  ModeSystemPtr own;
   const int levels = std::max(fewest_tangent_levels, static_cast<int>(step.forcing.greatest_degree()) + 2);
   Series moved;
   std::size_t next = 0;
@@ -109,8 +275,10 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
     if (length < rest && length > 0.6 * rest) length = 0.5 * rest;
     if (from > 0.0) recentre(*e.series, step.forcing, from, 1.0, moved);
     const Series& motion = from > 0.0 ? moved : *e.series;
+    if (from > 0.0 && !system->factorised().by_rate.empty() && (own = system_at(*system, moved)))
+      system = own.get();
     while (length > 0.0 &&
-           !state.series.expand(system, motion, *state.forcing, state.now.start, length, levels)) {
+           !state.series.expand(*system, motion, *state.forcing, state.now.start, length, levels)) {
       if (++halvings > most_halvings) {
         state.alive = false;
         state.until = motion.t;
@@ -121,7 +289,7 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
       state.reach = length * e.series->scale;
     }
     if (length == 0.0)
-      state.series.expand_to(system, motion, *state.forcing, state.now.start, motion.levels);
+      state.series.expand_to(*system, motion, *state.forcing, state.now.start, motion.levels);
     else
       state.reach = std::max(state.reach, length * e.series->scale);
     const double to = length == rest ? e.x : from + length;
@@ -143,9 +311,10 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
   }
 }
 
-void TangentRun::step(const ObservedStep& step) {
+void TangentRun::observe_series(const ObservedStep& step) {
   const Expansion& e = step.expansion;
-  const std::vector<Output> wanted = outputs(step);
+  std::vector<Output> wanted = outputs(step);
+  for (Output& output : wanted) output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
   for (const Output& output : wanted) {
     samples.push_back({output.t, step.forcing, step.decision.mode,
@@ -162,7 +331,14 @@ void TangentRun::step(const ObservedStep& step) {
   end_ = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
 }
 
-void TangentRun::instant(const ObservedInstant& instant) { pass(instant); }
+void TangentRun::instant(const ObservedInstant& instant) {
+  arrive(instant.t);
+  if (way_ == Way::own_series || way_ == Way::own_modes) end_ = just_before(instant);
+  pass(instant);
+  way_ = Way::unknown;
+}
+
+void TangentRun::end(double t) { follow(t); }
 
 void TangentRun::pass(const ObservedInstant& instant) {
   const Jet& jet = instant.after.jet;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 
 namespace signorini {
 namespace {
@@ -97,6 +98,10 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
   u_.setZero(model_.size(), columns);
   forces_.setZero(static_cast<Eigen::Index>(2 * model_.contacts.size()), columns);
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
+  friction_.clear();
+  for (const std::size_t c : system.factorised().by_rate)
+    friction_.emplace_back(model_.contacts[c], derivative_.contacts[c], c, slip_sign(system.mode()[c].state),
+                           motion);
   u_.col(0) = start.u;
   for (Eigen::Index i = 0; i < start.u.size(); ++i)
     if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
@@ -189,7 +194,7 @@ void TangentSeries::add_rows(int k) {
       m.pressing_rate = to_velocity * s.forcing.pressing[f + 1];
       const Rows& row_rates = rates.rows[index_of(state.state)];
       r += row_rates.normal.rate(m);
-      q += row_rates.tangent.rate(m);
+      if (!slips_nonlinearly(contact, state.state)) q += row_rates.tangent.rate(m);
       const std::size_t p = c * forcing_.count + static_cast<std::size_t>(k);
       const double* surface = forcing_.surface.data() + p;
       r += normal.gap * rates.normal.dot(u) + normal.vn * to_velocity * rates.normal.dot(v) +
@@ -206,6 +211,22 @@ void TangentSeries::add_rows(int k) {
     }
     x_[at.normal(c)] = -r;
     x_[at.tangent(c)] = -q;
+  }
+}
+
+/// Friction that depends on the slip rate (friction_rates.hpp).
+void TangentSeries::add_friction(int k) {
+  const double to_velocity = (k + 1) / scale_;
+  for (FrictionRates& friction : friction_) {
+    const std::size_t c = friction.contact();
+    const ContactRates& rates = derivative_.contacts[c];
+    double slip = model_.contacts[c].tangent.dot(u_.col(k + 1));
+    if (k <= motion_->levels)
+      slip += rates.tangent.dot(motion_->u.col(k + 1)) -
+              forcing_.surface[c * forcing_.count + static_cast<std::size_t>(k) + 1];
+    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    x_[system_->unknowns().tangent(c)] -= friction.known(
+        k, to_velocity * slip, [&](std::size_t i) { return forces_(row, static_cast<Eigen::Index>(i)); });
   }
 }
 
@@ -227,6 +248,7 @@ void TangentSeries::level(int k) {
   }
   if (k <= motion_->levels) add_sources(k);
   add_rows(k);
+  add_friction(k);
   system_->solve(x_.data(), work_.data());
   ++solves_;
   for (std::size_t i = 0; i < n; ++i) {

@@ -14,6 +14,7 @@
 #include "motion/mode_systems.hpp"
 #include "motion/series.hpp"
 #include "sensitivity/forcing_rates.hpp"
+#include "sensitivity/friction_rates.hpp"
 
 namespace signorini {
 
@@ -62,6 +63,7 @@ class TangentSeries {
   void level(int k);
   void add_sources(int k);
   void add_rows(int k);
+  void add_friction(int k);
   [[nodiscard]] double size_of(const Eigen::Ref<const Vector>& x) const;
   [[nodiscard]] int late() const { return massless_ ? 2 : 0; }
 
@@ -73,6 +75,7 @@ class TangentSeries {
   const Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
   ForcingRatesSeries forcing_;
+  std::vector<FrictionRates> friction_;  // of contacts whose friction depends on their slip rates
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;

@@ -21,7 +21,11 @@ SceneReader rubbed() {
       matrix_scene("t_end = 9.0\noutput_dt = 1.0\ninitial = { u = [1.03], v = [0.0] }",
                    "mass = [[1.0]]\nstiffness = [[4.0]]",
                    "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.3");
-  return [text](const std::vector<Override>& changes) { return parse_scene(text, "test.toml", changes); };
+  return [text](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"run.engine", "exact"}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return parse_scene(text, "test.toml", all);
+  };
 }
 
 std::filesystem::path written(const std::string& name, const std::string& text) {
@@ -61,7 +65,8 @@ TEST_CASE("friction and stiffness of the pipeline from its first thirty events, 
   REQUIRE(data.rows.size() == 30);
   CHECK(data.has_sigma);
   const Fit found =
-      fit(reader_of(models + "/pipeline.toml", {{"run.t_end", "0.187"}, {"run.output_dt", "0.1"}}),
+      fit(reader_of(models + "/pipeline.toml",
+                    {{"run.engine", "exact"}, {"run.t_end", "0.187"}, {"run.output_dt", "0.1"}}),
           {"contacts.*.friction", "contacts.*.normal_stiffness"}, data);
   CHECK(found.converged);
   const std::vector<double> truth{0.302, 1.01e6};

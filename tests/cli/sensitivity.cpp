@@ -50,6 +50,15 @@ TEST_CASE("cli sensitivity: tables, spreads, and its exit code") {
   const json j = json::parse(shell.read("belt-sensitivity/sensitivity.json"));
   REQUIRE(j["parameters"].size() == 2);
   CHECK(j["parameters"][0]["path"] == "contacts.1.friction.static");
+  CHECK(j["settings"]["engine"] == "ida");  // none was named: that of `run`
+  CHECK(j["stretches"]["followed"] == j["stretches"]["series"]);
+  CHECK(has(ending.out, "engine ida"));
+  for (const char* picture : {"tornado", "times-1", "times-2", "sequence"})
+    CHECK(exists(shell, std::string("belt-sensitivity/plots/") + picture + ".gp"));
+  CHECK(lines_of(shell.read("belt-sensitivity/plots/tornado-1.csv"))[0] == "place,length,parameter");
+  const auto sequence = lines_of(shell.read("belt-sensitivity/sequence.csv"));
+  CHECK(sequence[0] == "parameter,value,change,kind,first,second,t");
+  CHECK(sequence.size() > 1);
   CHECK(j["parameters"][0]["sigma"] == 0.0);
   CHECK(j["parameters"][1]["sigma"] == 0.01);
   // sigma of a time is |dt/dp| sigma_p: the second row of the first event is of the kinetic coefficient
@@ -61,8 +70,9 @@ TEST_CASE("cli sensitivity: tables, spreads, and its exit code") {
   CHECK(shell.run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.static"}).code == 6);
   CHECK(shell
             .run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.static", "--force",
-                  "--quiet"})
+                  "--quiet", "--no-plots", "--set", "run.engine=exact"})
             .code == 0);
+  CHECK_FALSE(exists(shell, "belt-sensitivity/plots"));
   CHECK_FALSE(exists(shell, "belt-sensitivity/spread.csv"));
 }
 
@@ -81,7 +91,8 @@ TEST_CASE("cli sensitivity: what it refuses, it names") {
   refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: it is no datum of the motion");
   refused({"--parameter", "contacts.1.frictoin"}, 2, "there is no \"frictoin\"");
   refused({"--parameter", "contacts.1.law"}, 2, "expected the key of a number");
-  refused({"--parameter", "contacts.1.friction.static", "--set", "run.engine=ida"}, 2, "engine \"exact\"");
-  refused({"--parameter", "contacts.1.friction.static", "--set", "run.flow=modal"}, 3, "run.flow");
+  refused(
+      {"--parameter", "contacts.1.friction.static", "--set", "run.engine=exact", "--set", "run.flow=modal"},
+      3, "run.flow");
   refused({"--sigma", "contacts.1.friction.static=-1"}, 2, "standard deviation");
 }

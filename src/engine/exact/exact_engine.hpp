@@ -39,7 +39,9 @@ class ExactEngine final : public Stepper {
     return 0.0;
   }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
-  [[nodiscard]] Expansion expansion() const override { return {&series_, degree_, end_x_}; }
+  [[nodiscard]] Expansion expansion() const override {
+    return {&series_, degree_, end_x_, taylor_.system().get()};
+  }
 
  private:
   [[nodiscard]] double growth_of(const ModeSystemPtr& system);

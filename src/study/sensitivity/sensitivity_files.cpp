@@ -51,6 +51,24 @@ std::string figure_table(const Sensitivities& s) {
   return block.str();
 }
 
+const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; }
+
+std::string sequence_table(const Sensitivities& s) {
+  CsvBlock block;
+  for (const char* name : {"parameter", "value", "change", "kind", "first", "second", "t"}) block.text(name);
+  block.end_row();
+  for (const Swap& swap : least_swaps(s))
+    block.text(s.parameters[swap.parameter].path)
+        .number(s.parameters[swap.parameter].value)
+        .number(swap.change)
+        .text(kind_of(swap))
+        .text(std::to_string(swap.first + 1))
+        .text(std::to_string(swap.second + 1))
+        .number(s.events[swap.first].t)
+        .end_row();
+  return block.str();
+}
+
 std::string column_table(const Sensitivities& s, std::size_t p) {
   CsvBlock block;
   block.text("t");
@@ -96,6 +114,15 @@ std::string contact_of(const Sensitivities& s, const Event& event) {
 std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
   Json json = {{"title", s.title}, {"units", units_json(s.units)}, {"events", s.events.size()}};
   json["outcome"] = s.report.outcome.reason.empty() ? "done" : s.report.outcome.reason;
+  const Method& method = s.report.method;
+  json["settings"] = {{"engine", to_string(method.engine)}, {"engine_reason", method.reason}};
+  if (!method.flow.empty()) {
+    json["settings"]["flow"] = method.flow;
+    json["settings"]["flow_reason"] = method.flow_reason;
+  }
+  json["stretches"] = {
+      {"modes", s.stretches.modes}, {"series", s.stretches.series}, {"followed", s.stretches.followed}};
+  json["wall_time"] = s.report.wall_time;
   json["parameters"] = Json::array();
   const std::vector<Swap> swaps = least_swaps(s);
   std::optional<Spread> spreads;
@@ -108,8 +135,9 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     row["sequence_changes"] = Json::array();
     for (const Swap& swap : swaps)
       if (swap.parameter == p)
-        row["sequence_changes"].push_back(
-            {{"change", swap.change}, {"events", {swap.first + 1, swap.second + 1}}});
+        row["sequence_changes"].push_back({{"change", swap.change},
+                                           {"events", {swap.first + 1, swap.second + 1}},
+                                           {"kind", kind_of(swap)}});
     if (spreads) {
       row["sigma"] = sigmas[p];
       row["reach"] = json_number(spreads->reach[p]);
@@ -123,6 +151,7 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
 void write_sensitivities(const fs::path& directory, const Sensitivities& s, const Sigmas& sigmas) {
   write_file(directory / "sensitivities.csv", event_table(s));
   write_file(directory / "figures.csv", figure_table(s));
+  write_file(directory / "sequence.csv", sequence_table(s));
   for (std::size_t p = 0; p < s.parameters.size(); ++p)
     write_file(directory / fmt::format("columns-{}.csv", p + 1), column_table(s, p));
   if (!sigmas.empty()) write_file(directory / "spread.csv", spread_table(s, spread(s, sigmas)));

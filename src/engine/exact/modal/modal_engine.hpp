@@ -30,6 +30,8 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] const std::vector<double>& turning_points() const override {
     return modal_ ? turns_ : taylor_.turning_points();
   }
+  [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
+  [[nodiscard]] ModalSystem* modes() override { return &system_; }
   void count() override;
 
  private:

@@ -53,6 +53,8 @@ class ModalSystem {
   [[nodiscard]] long made() const { return made_; }
 
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
+  /// Phi, by rows
+  [[nodiscard]] const RowMatrix& shapes() const { return shapes_; }
   void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
     thin_product(shapes_, q, u);
   }

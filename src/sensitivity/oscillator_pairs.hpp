@@ -1,0 +1,59 @@
+// oscillator_pairs.hpp: how the motion of one mode drives another of a neighbouring frequency.
+//
+//   y_l'' + alpha y_l' + l y_l = p:   y_l(t) = z c(l) + r s(l) + p h(l)       z, r: y_l and y_l' at 0
+//   w'' + alpha w' + k w = -y_l,  w(0) = w'(0) = 0:   w(t) = z C + r S + p H
+//   C = c[k, l] = (c(k) - c(l)) / (k - l),   S and H likewise
+//
+// c, s and h are entire functions of l, so that C, S and H have no poles where k comes near to l: with
+// m = l - alpha^2/4, w^2 = m, they are products of sines of (w_k + w_l) t/2 and (w_k - w_l) t/2; where m t^2 is
+// small of both, series in m t^2. Rates follow from c' = -l s, s' = c - alpha s, h' = s by
+// (l s)[k, l] = k S + s(l).
+// alpha t <= 4. S: double or Complex. Unit: that of t and l.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "engine/exact/modal/plain_complex.hpp"
+
+namespace signorini {
+
+template <class S>
+class OscillatorPairs {
+ public:
+  /// Of the frequencies squared l, at this time.
+  void fill(const std::vector<S>& l, double alpha, double t);
+
+  [[nodiscard]] std::size_t size() const { return l_.size(); }
+  [[nodiscard]] S c(std::size_t k) const { return c_[k]; }
+  [[nodiscard]] S s(std::size_t k) const { return s_[k]; }
+  [[nodiscard]] S h(std::size_t k) const { return h_[k]; }
+  /// Rows of size() numbers, symmetric.
+  [[nodiscard]] const S* C_row(std::size_t k) const { return big_c_.data() + k * l_.size(); }
+  [[nodiscard]] const S* S_row(std::size_t k) const { return big_s_.data() + k * l_.size(); }
+  /// H[k, l] of all k.
+  [[nodiscard]] const std::vector<S>& H_column(std::size_t l);
+
+ private:
+  struct Both {
+    S c{}, s{};
+  };
+  [[nodiscard]] Both near_zero(std::size_t k, std::size_t l) const;
+  [[nodiscard]] Both turning(std::size_t k, std::size_t l) const;
+  [[nodiscard]] Both apart(std::size_t k, std::size_t l) const;
+  [[nodiscard]] S h_of(std::size_t k) const;
+  [[nodiscard]] S h_pair(std::size_t k, std::size_t l) const;
+  void fill_turning(std::size_t k);
+
+  double alpha_ = 0.0, t_ = 0.0, decay_ = 1.0;
+  std::vector<S> l_, m_, w_, inverse_w_, sine_, cosine_, half_sine_, half_cosine_, c_, s_;
+  std::vector<unsigned char> turns_, slow_;
+  std::vector<S> big_c_, big_s_, h_;
+  std::map<std::size_t, std::vector<S>> columns_;  // of H, as they were asked for
+};
+
+extern template class OscillatorPairs<double>;
+extern template class OscillatorPairs<Complex>;
+
+}  // namespace signorini

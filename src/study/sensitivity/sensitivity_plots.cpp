@@ -1,0 +1,255 @@
+#include "study/sensitivity/sensitivity_plots.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.hpp"
+#include "result/csv.hpp"
+#include "result/plot_folder.hpp"
+#include "result/plot_parts.hpp"
+#include "study/sensitivity/sensitivity_files.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t most_figures = 6, most_bars = 16, most_time_pictures = 12, most_tangents = 400;
+constexpr double widest = 0.1;  // of a parameter, that a picture of event times shows to each side
+constexpr const char* rising = "#2166ac";
+constexpr const char* falling = "#c0182b";
+
+bool is_picture_of_sensitivities(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const bool named = stem == "tornado" || stem == "sequence" || stem.starts_with("times-");
+  return (is_picture(file) && named) ||
+         (file.extension() == ".csv" && (named || stem.starts_with("tornado-")));
+}
+
+PlottedRun facts_of(const Sensitivities& s) {
+  PlottedRun run;
+  run.facts.title = s.title;
+  run.facts.outcome = "done";
+  run.facts.units = s.units;
+  return run;
+}
+
+struct Bar {
+  std::string name;
+  double length = 0.0;
+};
+
+/// Longest on top; gnuplot's axis goes upwards.
+void sort_bars(std::vector<Bar>& bars) {
+  std::stable_sort(bars.begin(), bars.end(),
+                   [](const Bar& a, const Bar& b) { return std::abs(a.length) > std::abs(b.length); });
+  if (bars.size() > most_bars) bars.resize(most_bars);
+  std::reverse(bars.begin(), bars.end());
+}
+
+std::string bar_table(const std::vector<Bar>& bars) {
+  CsvBlock block;
+  block.text("place").text("length").text("parameter").end_row();
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    block.text(std::to_string(i + 1)).number(bars[i].length).text(bars[i].name).end_row();
+  return block.str();
+}
+
+std::string bar_ticks(const std::vector<Bar>& bars) {
+  std::string s = "set ytics (";
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    s += (i > 0 ? ", " : "") + quoted_tick(bars[i].name) + fmt::format(" {}", i + 1);
+  return s + fmt::format(")\nset yrange [0.4:{:.1f}]\n", static_cast<double>(bars.size()) + 0.6);
+}
+
+/// What a parameter does to a figure: elasticity, or sigma dx/dp.
+double reach_of(const Sensitivities& s, const Sigmas& sigmas, const Response& r, std::size_t p) {
+  return sigmas.empty() ? elasticity(s.parameters[p].value, r.value, r.rates[p]) : sigmas[p] * r.rates[p];
+}
+
+/// The figures that parameters move most, by their elasticities.
+std::vector<const Response*> moved_figures(const Sensitivities& s) {
+  std::vector<std::pair<double, const Response*>> sizes;
+  for (const Response& r : s.responses) {
+    double size = 0.0;
+    for (std::size_t p = 0; p < s.parameters.size(); ++p) {
+      const double e = elasticity(s.parameters[p].value, r.value, r.rates[p]);
+      if (std::isfinite(e)) size = std::max(size, std::abs(e));
+    }
+    if (size > 0.0) sizes.emplace_back(size, &r);
+  }
+  std::stable_sort(sizes.begin(), sizes.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<const Response*> list;
+  for (std::size_t i = 0; i < std::min(sizes.size(), most_figures); ++i) list.push_back(sizes[i].second);
+  return list;
+}
+
+/// Room for names of keys at the left of a panel.
+std::string wide_margin() { return "set lmargin at screen 0.3\n"; }
+
+std::string bars_plot(const std::string& table) {
+  return plot_command(
+      {fmt::format("'{0}' skip 1 using (0.5*$2):1:(0.5*abs($2)):(0.36):($2 < 0 ? {1} : {2}) with boxxyerror "
+                   "fillstyle solid 0.75 noborder linecolor rgb variable notitle",
+                   table, "0xc0182b", "0x2166ac")});
+}
+
+std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder) {
+  const std::vector<const Response*> figures = moved_figures(s);
+  if (figures.empty()) return {};
+  const PlottedRun run = facts_of(s);
+  const auto bars_each = static_cast<int>(std::min(s.parameters.size(), most_bars));
+  const int each = 70 + 26 * bars_each, height = 110 + (each + 50) * static_cast<int>(figures.size());
+  std::string text = begin_script(run, {"tornado",
+                                        sigmas.empty() ? "What one per cent of each key does, in per cent"
+                                                       : "What the standard deviation of each key does",
+                                        height, false});
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const Response& r = *figures[i];
+    std::vector<Bar> bars;
+    for (std::size_t p = 0; p < s.parameters.size(); ++p)
+      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x))
+        bars.push_back({s.parameters[p].path, x});
+    sort_bars(bars);
+    const std::string table = fmt::format("tornado-{}.csv", i + 1);
+    write_file(folder / table, bar_table(bars));
+    const auto [bottom, top] = stacked(i, figures.size(), height, 60.0, 64.0);
+    text += panel(run, bottom, top, "", true) + wide_margin();
+    text += "set xlabel " +
+            quoted(r.name + " of '" + s.contacts[static_cast<std::size_t>(r.contact)] +
+                   fmt::format("' = {:.6g}", r.value)) +
+            "\n";
+    text +=
+        "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange "
+        "[*:*]\n";
+    text += bar_ticks(bars) + bars_plot(table);
+  }
+  return text + end_script();
+}
+
+/// How far to each side a picture of event times goes: past the first changes of the sequence.
+double span_of(const Sensitivities& s, std::size_t p) {
+  const double value = std::abs(s.parameters[p].value);
+  double least = 0.0;
+  for (const Swap& swap : least_swaps(s))
+    if (swap.parameter == p) least = std::max(least, std::abs(swap.change));
+  const double most = widest * (value > 0.0 ? value : 1.0);
+  return least > 0.0 ? std::min(3.0 * least, most) : most;
+}
+
+std::string tangent_table(const Sensitivities& s, std::size_t p, double span) {
+  CsvBlock block;
+  block.text("p").text("t").text("dp").text("dt").text("contact").end_row();
+  const std::size_t stride = std::max<std::size_t>(1, s.events.size() / most_tangents);
+  for (std::size_t i = 0; i < s.events.size(); i += stride) {
+    const double rate = s.event_rates[i][p].t;
+    if (!std::isfinite(rate)) continue;
+    block.number(s.parameters[p].value - span).number(s.events[i].t - span * rate);
+    block.number(2.0 * span).number(2.0 * span * rate);
+    block.text(std::to_string(s.events[i].contact + 1)).end_row();
+  }
+  return block.str();
+}
+
+std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder) {
+  const Parameter& parameter = s.parameters[p];
+  const double span = span_of(s, p);
+  const std::string name = fmt::format("times-{}", p + 1);
+  write_file(folder / (name + ".csv"), tangent_table(s, p, span));
+  const PlottedRun run = facts_of(s);
+  const int height = 760;
+  std::string text =
+      begin_script(run, {name, "Event times over " + parameter.path + ", to first order", height, false});
+  const auto [bottom, top] = stacked(0, 1, height, 70.0, 0.0);
+  text += panel(run, bottom, top, "t [" + s.units.time + "]", true);
+  text += "set xlabel " + quoted(parameter.path) + "\n";
+  text += fmt::format("set xrange [{}:{}]\nset yrange [*:*]\n", shortest(parameter.value - span),
+                      shortest(parameter.value + span));
+  text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead dashtype 3 linecolor '#808080'\n",
+                      shortest(parameter.value));
+  int arrow = 2;
+  for (const Swap& swap : least_swaps(s))
+    if (swap.parameter == p)
+      text +=
+          fmt::format("set arrow {0} from {1}, graph 0 to {1}, graph 1 nohead dashtype 2 linecolor '{2}'\n",
+                      arrow++, shortest(parameter.value + swap.change), falling);
+  std::vector<std::string> elements;
+  const std::size_t count = std::min<std::size_t>(s.contacts.size(), event_looks.size());
+  for (std::size_t c = 0; c <= count; ++c) {
+    const std::string title = c == 0 ? "" : s.contacts[c - 1];
+    elements.push_back(
+        fmt::format("'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 "
+                    "linecolor '{}' {}",
+                    name, c, c == 0 ? "#808080" : event_looks[(c - 1) % event_looks.size()].colour,
+                    c == 0 ? "notitle" : "title " + quoted(title)));
+  }
+  elements.push_back(
+      fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
+  return text + plot_command(elements) + end_script();
+}
+
+std::string sequence(const Sensitivities& s, const fs::path& folder) {
+  const std::vector<Swap> swaps = least_swaps(s);
+  std::vector<Bar> bars;
+  for (const Swap& swap : swaps) {
+    const Parameter& parameter = s.parameters[swap.parameter];
+    if (parameter.value == 0.0) continue;
+    bars.push_back({parameter.path + (swap.change > 0.0 ? " up" : " down"),
+                    100.0 * swap.change / std::abs(parameter.value)});
+  }
+  if (bars.empty()) return {};
+  sort_bars(bars);
+  std::reverse(bars.begin(), bars.end());  // the least change on top
+  CsvBlock block;
+  block.text("place").text("per_cent").text("parameter").end_row();
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    block.text(std::to_string(i + 1)).number(bars[i].length).text(bars[i].name).end_row();
+  write_file(folder / "sequence.csv", block.str());
+  const PlottedRun run = facts_of(s);
+  const int height = 170 + 30 * static_cast<int>(bars.size());
+  std::string text = begin_script(
+      run, {"sequence", "Least change of each key at which, to first order, two events meet", height, false});
+  const auto [bottom, top] = stacked(0, 1, height, 70.0, 0.0);
+  text += panel(run, bottom, top, "", true) + wide_margin();
+  text += "set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\nset xrange [*:*]\n" +
+          bar_ticks(bars);
+  const std::string point =
+      "'sequence.csv' skip 1 using ($2 {0} 0 ? abs($2) : NaN):1 with points pointtype 7 pointsize 1.4 "
+      "linecolor '{1}' "
+      "title '{2}'";
+  return text +
+         plot_command({fmt::format(fmt::runtime(point), ">", rising, "upwards"),
+                       fmt::format(fmt::runtime(point), "<", falling, "downwards")}) +
+         end_script();
+}
+
+}  // namespace
+
+std::vector<fs::path> write_sensitivity_plots(const fs::path& directory, const Sensitivities& s,
+                                              const Sigmas& sigmas) {
+  if (s.events.empty() && s.responses.empty()) return {};
+  const fs::path folder = directory / "plots";
+  begin_plot_folder(folder, is_picture_of_sensitivities);
+  std::vector<fs::path> scripts;
+  const auto add = [&](const std::string& name, const std::string& text) {
+    if (text.empty()) return;
+    scripts.push_back(folder / (name + ".gp"));
+    write_file(scripts.back(), text);
+  };
+  add("tornado", tornado(s, sigmas, folder));
+  if (!s.events.empty())
+    for (std::size_t p = 0; p < std::min(s.parameters.size(), most_time_pictures); ++p)
+      add(fmt::format("times-{}", p + 1), times(s, p, folder));
+  add("sequence", sequence(s, folder));
+  return scripts;
+}
+
+void remove_sensitivity_plots(const fs::path& directory) {
+  clear_plot_folder(directory / "plots", is_picture_of_sensitivities);
+}
+
+}  // namespace signorini

@@ -67,7 +67,8 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
     data_.push_back(&derivatives[p]);
   }
-  if (model.size() >= fewest_modal && model.size() <= most_modal_tangents && proportional_refusal(model).empty())
+  if (model.size() >= fewest_modal && model.size() <= most_modal_tangents &&
+      proportional_refusal(model).empty())
     modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
 

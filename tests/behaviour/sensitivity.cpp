@@ -246,9 +246,12 @@ TEST_CASE("the pipeline in modes, along the series and with `ida`: the same deri
                                        "damping.alpha_over_omega1",
                                        "loads.1.history.end"};
   const auto with = [&](const std::string& engine, const std::string& flow) {
-    return rates_of_model(
-        "pipeline", paths,
-        {{"run.engine", engine}, {"run.flow", flow}, {"run.t_end", "0.19"}, {"run.output_dt", "0.01"}});
+    return rates_of_model("pipeline", paths,
+                          {{"run.engine", engine},
+                           {"run.flow", flow},
+                           {"run.rtol", "1e-10"},
+                           {"run.t_end", "0.19"},
+                           {"run.output_dt", "0.01"}});
   };
   const Sensitivities modes = with("exact", "modal"), series = with("exact", "taylor"),
                       ida = with("ida", "auto");
@@ -282,7 +285,7 @@ TEST_CASE("the pipeline in modes, along the series and with `ida`: the same deri
   };
   agree(modes, 1e-7);
   CHECK(peaks > 6 * paths.size());
-  agree(ida, 1e-4);  // at rtol 1e-8: what w inherits from the states of the run
+  agree(ida, 1e-5);  // what w inherits from the states of the run; at rtol 1e-8 up to 2.5e-4
 }
 
 TEST_CASE("friction that depends on the slip rate, by its constants and by the belt, against differences") {

@@ -31,6 +31,8 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] const std::vector<double>& turning_points() const override {
     return modal_ ? turns_ : taylor_.turning_points();
   }
+  /// A guard that leaves zero is followed by its leading derivative.
+  [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
   [[nodiscard]] ModalSystem* modes() override { return flow_ ? flow_->modes() : nullptr; }
   void count() override;

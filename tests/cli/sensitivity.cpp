@@ -91,8 +91,5 @@ TEST_CASE("cli sensitivity: what it refuses, it names") {
   refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: it is no datum of the motion");
   refused({"--parameter", "contacts.1.frictoin"}, 2, "there is no \"frictoin\"");
   refused({"--parameter", "contacts.1.law"}, 2, "expected the key of a number");
-  refused(
-      {"--parameter", "contacts.1.friction.static", "--set", "run.engine=exact", "--set", "run.flow=modal"},
-      3, "run.flow");
   refused({"--sigma", "contacts.1.friction.static=-1"}, 2, "standard deviation");
 }

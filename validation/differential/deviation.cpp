@@ -158,11 +158,16 @@ bool rests_by_rounding(const Track& a, const Track& b, double t_end) {
   if (here.type != to_string(EventType::impact)) return false;
   const bool first_goes_on = here.to == to_string(State::open);
   const std::vector<LoggedEvent>& goes_on = first_goes_on ? a.events : b.events;
-  const auto rest = std::find_if(
-      goes_on.begin() + static_cast<std::ptrdiff_t>(i), goes_on.end(),
-      [&](const LoggedEvent& e) { return e.contact == here.contact && e.to != to_string(State::open); });
-  return rest != goes_on.end() &&
-         rest->t - here.t < std::sqrt(64.0 * std::numeric_limits<double>::epsilon()) * t_end;
+  const double longest = std::sqrt(64.0 * std::numeric_limits<double>::epsilon()) * t_end;
+  double left = here.t;
+  for (std::size_t k = i; k < goes_on.size(); ++k) {
+    const LoggedEvent& e = goes_on[k];
+    if (e.contact != here.contact) continue;
+    if (!(e.t - left < longest)) return false;
+    if (e.to != to_string(State::open)) return true;
+    left = e.t;
+  }
+  return false;
 }
 
 }  // namespace signorini::differential

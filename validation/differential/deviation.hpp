@@ -49,9 +49,9 @@ struct Deviation {
 [[nodiscard]] Deviation deviation(const Track& reference, const Track& other, const Weights& weights,
                                   double t_end);
 
-/// Do both runs hit at the first event that differs, one comes to rest with it, and the other within a time
-/// in which it flies lower than rounding? A flight of length tau under a is a tau^2/8 high, the motion of
-/// the run of the size a t_end^2.
+/// Do both runs hit at the first event that differs, one comes to rest with it, and the other after flights
+/// that are all lower than rounding? A flight of length tau under a is a tau^2/8 high, the motion of the run
+/// of the size a t_end^2.
 [[nodiscard]] bool rests_by_rounding(const Track& a, const Track& b, double t_end);
 
 }  // namespace signorini::differential

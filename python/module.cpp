@@ -188,8 +188,7 @@ py::dict response_table(const Model& model, const std::vector<Result::Response>&
 py::dict response_units(const Model& model) {
   py::dict units;
   units["t"] = model.units.time;
-  for (const Output& output : model.outputs)
-    units[output.name.c_str()] = unit_text(output.unit, model.units);
+  for (const Output& output : model.outputs) units[output.name.c_str()] = unit_text(output.unit, model.units);
   return units;
 }
 

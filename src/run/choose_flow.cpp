@@ -35,7 +35,7 @@ FlowChoice choose_flow(const Model& model, const RunSpec& run) {
     if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
     if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
     if (!damped) return {true, "auto: modes follow all of it"};
-    // A symmetric trestle on rigid feet does not stay symmetric in them, and a random scene parted (seed 74).
+    // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
     return {false, "auto: complex modes are followed where they are asked for"};
   }
   if (!why.empty())

@@ -1,10 +1,35 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <string>
+#include <thread>
+
 #include "program.hpp"
 
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
 using signorini::cli_test::Shell;
+
+namespace {
+
+/// Waits until the program runs in the process and has a handler for the signal: before that, as the loader works, it
+/// would just end.
+bool has_handler(pid_t process, int signal) {
+  for (int i = 0; i < 3000; ++i) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    bool is_program = false;  // no longer the test that has forked
+    for (std::string line; std::getline(status, line);) {
+      is_program = is_program || line == "Name:\tsignorini";
+      if (is_program && line.starts_with("SigCgt:") &&
+          ((std::stoull(line.substr(7), nullptr, 16) >> static_cast<unsigned>(signal - 1)) & 1U) != 0)
+        return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+}  // namespace
 
 TEST_SUITE_BEGIN("cli/command_line");
 
@@ -151,7 +176,8 @@ TEST_CASE("cli: INT and TERM end a set-up that has nothing to keep, with 130") {
       CAPTURE(signal);
       CAPTURE(command);
       const pid_t child = shell.start({command, "many.toml"});
-      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      REQUIRE(has_handler(child, signal));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
       kill(child, signal);
       const Ending ending = shell.wait(child);
       CHECK(ending.code == 130);

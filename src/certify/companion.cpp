@@ -14,8 +14,8 @@ namespace signorini {
 namespace {
 
 // See companion.hpp.
-constexpr double by_exact = 1.5, by_tolerance = 1.5, by_step = 3.0, by_rounding = 5.0;
-constexpr double local_beside_sharper = 0.1;
+constexpr double by_exact = 1.5, by_tolerance = 2.0, by_step = 3.0, by_rounding = 5.0;
+constexpr double local_beside_exact = 0.1, local_beside_finer = 0.5;
 constexpr double finer_tolerance = 0.01, finer_step = 0.5;
 
 /// What is the same in all companions.
@@ -31,7 +31,7 @@ CompanionPlan exact_plan(const Model& model, const RunSpec& run) {
   CompanionPlan plan;
   plan.name = "exact";
   plan.factor = by_exact;
-  if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_sharper;
+  if (name_of(run.engine).accuracy == Accuracy::tolerance) plan.local = local_beside_exact;
   plan.runs.push_back(companion_of(model, run));
   plan.runs.back().run.engine = Engine::exact;
   return plan;
@@ -56,7 +56,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
       return plan;
     case Accuracy::tolerance:
       plan.factor = by_tolerance;
-      plan.local = local_beside_sharper;
+      plan.local = local_beside_finer;
       companion.run.rtol *= finer_tolerance;
       companion.run.flight_tolerances /= finer_tolerance;
       make_finer(companion.run.atol);

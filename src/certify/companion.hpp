@@ -2,12 +2,13 @@
 //
 //   run       companion  how                              c    why
 //   not exact exact      as it is                         1.5  the difference is the error
-//   ida       finer      rtol / 100, atol / 100           1.5  the same to a hundredth; rtol / 10 is not enough
+//   ida       finer      rtol / 100, atol / 100           2    at rtol / 10 errors may be alike
 //   of a dt   finer      dt / 2                           3    4/3 at order two, 2 at order one
 //   exact     finer      twice, data off by one rounding  5    two draws of a random error
 //
-// Beside exact, or at rtol / 100, the difference contains ida's own local error: a tenth of t_uncertainty is
-// added, for what guards that graze hide of it. Else all of it, since the companion's own error is as large.
+// Beside exact the difference contains ida's own local error: a tenth of t_uncertainty is added, for what
+// guards that graze hide of it; half of it at rtol / 100, since in chatter the companion errs alike. Else all
+// of it, since the companion's own error is as large.
 //
 // What is decided by a tolerance is decided by the run's in all of them: velocities below which
 // rebounds rest, and heights below which ida leaves flights to the series. A finer run that integrated

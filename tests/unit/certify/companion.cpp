@@ -50,8 +50,8 @@ TEST_CASE("companion: the cheaper where both take the scene, and what is asked f
   CHECK(automatic.runs.at(0).run.engine == Engine::exact);
   const CompanionPlan finer =
       plan_of(scene_of("engine = \"ida\"\nrtol = 1e-6\natol = { velocity = 1e-3 }\ncompanion = \"finer\""));
-  CHECK(finer.factor == 1.5);
-  CHECK(finer.local == 0.1);
+  CHECK(finer.factor == 2.0);
+  CHECK(finer.local == 0.5);
   CHECK(finer.runs.at(0).run.engine == Engine::ida);
   CHECK(finer.runs.at(0).run.rtol == doctest::Approx(1e-8));
   CHECK(*finer.runs.at(0).run.atol.velocity == doctest::Approx(1e-5));

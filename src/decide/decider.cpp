@@ -348,7 +348,8 @@ void Decider::finish(Course& course) const {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);
-        const MotionJet* base = course.instant.has_rested(c, guard.kind) ? &course.so_far[c] : nullptr;
+        const MotionJet* base =
+            course.so_far.empty() ? nullptr : rested(guard, c, course.so_far[c], course.instant);
         const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
         start.at_zero =
             known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));

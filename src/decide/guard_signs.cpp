@@ -33,7 +33,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     Known guard_known = known.of(guard.kind);
     if (fell && guard.form.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    const MotionJet* base = instant.has_rested(c, guard.kind) ? so_far : nullptr;
+    const MotionJet* base = so_far ? rested(guard, c, *so_far, instant) : nullptr;
     Sign sign = sign_of_guard(guard.form, jet, instant, guard_known, base);
     if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
@@ -58,6 +58,12 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
 }
 
 }  // namespace
+
+const MotionJet* rested(const GuardForm& guard, std::size_t contact, const MotionJet& so_far,
+                        const Instant& instant) {
+  const bool is_zero = guard.form.value(so_far.motion[0]) <= zero_of(guard.form, so_far, instant, 0);
+  return is_zero && instant.has_rested(contact, guard.kind) ? &so_far : nullptr;
+}
 
 Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first,
                 const MotionJet* base) {

@@ -64,6 +64,9 @@ struct Sign {
   double excess = 0.0;  // that derivative's magnitude over what counts as zero
 };
 
+/// so_far, the motion of the contact up to the instant, where the guard has rested and has not risen since; else null.
+[[nodiscard]] const MotionJet* rested(const GuardForm& guard, std::size_t contact, const MotionJet& so_far,
+                                      const Instant& instant);
 /// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
 /// base: a motion in which the form is zero, whatever rounding has left of it; what counts is the difference.
 [[nodiscard]] Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant,

@@ -12,10 +12,8 @@
 
 #include <memory>
 
-#include "decide/decision.hpp"
-#include "engine/exact/modal/modal_system.hpp"
 #include "engine/exact/modal/oscillators.hpp"
-#include "sensitivity/contact_rates.hpp"
+#include "sensitivity/law_rates.hpp"
 
 namespace signorini {
 
@@ -27,12 +25,6 @@ struct TangentsAt {
   SeriesPoint motion;
   Vector force_bends;                 ///< second derivatives of the contact forces
   std::vector<SeriesPoint> tangents;  ///< one a parameter; empty vectors: it is not followed
-};
-
-/// One parameter on a stretch.
-struct TangentSource {
-  const Tangent* start = nullptr;  ///< null: it is not followed
-  ForcingRatesSeries forcing;      ///< of scale 1
 };
 
 class ModalTangents {

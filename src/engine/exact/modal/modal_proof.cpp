@@ -275,15 +275,8 @@ Passage ModalProof::pass(const ModalPoint& at, double remaining) {
   double limit = 1.0, event = 2.0;
   bool doubted = false;
   for (const Watched& guard : guards_) doubted = !settle(guard, at, passage, limit, event) || doubted;
-  if (doubted || (limit == 0.0 && !full_)) {  // else a guard is too near to zero for any ripple
-    full_ = full_ || !doubted;
-    return pass(at, remaining);
-  }
-  if (limit < event) passage.fired.reset();
-  const double x = std::min(limit, event > 1.0 ? 1.0 : event);
-  full_ = !passage.fired && x < 1e-3;
-  passage.length = h_ * x;
-  return passage;
+  const auto done = end_of_step(std::move(passage), doubted, limit, event, h_, full_);
+  return done ? *done : pass(at, remaining);
 }
 
 }  // namespace signorini

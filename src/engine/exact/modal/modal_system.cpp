@@ -43,6 +43,26 @@ std::string proportional_refusal(const Model& model) {
   return {};
 }
 
+Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,
+                           const Forcing& forcing, double t) {
+  Amplitudes forces = state.spectrum.zero();
+  const auto add = [&](const Amplitudes& from, double factor) {
+    if (factor == 0.0) return;
+    for (std::size_t k = 0; k < forces.real.size(); ++k) forces.real[k] += factor * from.real[k];
+    for (std::size_t k = 0; k < forces.pair.size(); ++k) forces.pair[k] += from.pair[k] * factor;
+  };
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    add(state.from_load[i], model.loads[i].history.piece(t).value(t));
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const ForceLaw law = force_law(contact, mode[c], forcing.pressing(c, t, 0));
+    const double gap = contact.gap, surface = forcing.surface(c, t, 0);
+    if (contact.has_gap()) add(state.from_normal[c], -(law.N_constant + law.N_gap * gap));
+    add(state.from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
+  }
+  return forces;
+}
+
 ModalSystem::ModalSystem(const Model& model, const OpenBasis& basis)
     : model_(model),
       basis_(basis),

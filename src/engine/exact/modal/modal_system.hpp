@@ -21,6 +21,11 @@ namespace signorini {
 struct ForceLaw {
   double N_gap = 0.0, N_constant = 0.0;
   double T_gap = 0.0, T_ut = 0.0, T_constant = 0.0;
+
+  [[nodiscard]] double N(double gap) const { return N_gap * gap + N_constant; }
+  [[nodiscard]] double T(double gap, double ut) const { return T_gap * gap + T_ut * ut + T_constant; }
+  [[nodiscard]] double N_rate(double vn) const { return N_gap * vn; }
+  [[nodiscard]] double T_rate(double vn, double vt) const { return T_gap * vn + T_ut * vt; }
 };
 /// pressing: of a slider, constant.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing);
@@ -36,6 +41,10 @@ struct StateModes {
   std::vector<Amplitudes> load, from_load;            ///< of each load's direction
   ModePairs pairs;                                    ///< where a contact slips and X is written out
 };
+
+/// Y p: what loads and the constant parts of contact forces do to the modes of the state from t on.
+[[nodiscard]] Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,
+                                         const Forcing& forcing, double t);
 
 /// At once in memory: those of a motion that comes back to its states.
 inline constexpr CacheBounds most_state_modes{1024, std::size_t{1} << 28};

@@ -34,6 +34,11 @@ class OpenBasis {
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
   /// What the modes show of a form or a direction of the structure.
   [[nodiscard]] Vector amplitudes_of_form(const Vector& form) const { return shapes_.transpose() * form; }
+  [[nodiscard]] Vector amplitudes_of(const Combination& form) const {
+    Vector q = Vector::Zero(shapes_.cols());
+    for (const auto& [dof, factor] : form.terms) q += factor * shapes_.row(dof).transpose();
+    return q;
+  }
   void motions(const std::vector<const Vector*>& q, const std::vector<Vector*>& u) const {
     thin_product(shapes_, q, u);
   }

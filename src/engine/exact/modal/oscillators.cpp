@@ -121,6 +121,15 @@ void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double ti
       by_series(to.z.pair[k], to.rate.pair[k], complex_area, p.pair[k], pairs_[k], alpha_, time);
 }
 
+Amplitudes Oscillators::second(const ModalPoint& at, const Amplitudes& p) const {
+  Amplitudes second;
+  for (std::size_t k = 0; k < at.z.real.size(); ++k)
+    second.real.push_back(p.real[k] - alpha_ * at.rate.real[k] - real_[k] * at.z.real[k]);
+  for (std::size_t k = 0; k < at.z.pair.size(); ++k)
+    second.pair.push_back(p.pair[k] - at.rate.pair[k] * alpha_ - pairs_[k] * at.z.pair[k]);
+  return second;
+}
+
 void Oscillators::integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                             Amplitudes& out) const {
   out.real.resize(real_.size());

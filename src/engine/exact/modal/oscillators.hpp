@@ -31,6 +31,8 @@ class Oscillators {
   [[nodiscard]] const std::vector<double>& turning() const { return turning_; }
   /// The motion a time later; alpha time <= 4. Forces p are constant.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
+  /// z''
+  [[nodiscard]] Amplitudes second(const ModalPoint& at, const Amplitudes& p) const;
   /// Integrals of z over the time between the two.
   void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                  Amplitudes& out) const;

@@ -21,26 +21,6 @@ std::string ProportionalFlow::obstacle(const Segment& segment) {
   return {};
 }
 
-void ProportionalFlow::set_forces(const Segment& segment) {
-  const Decision& decision = *segment.decision;
-  forces_.real.assign(oscillators_.real().size(), 0.0);
-  forces_.pair.assign(oscillators_.pairs().size(), Complex());
-  const auto add = [&](const Amplitudes& from, double factor) {
-    if (factor == 0.0) return;
-    for (std::size_t k = 0; k < forces_.real.size(); ++k) forces_.real[k] += factor * from.real[k];
-    for (std::size_t k = 0; k < forces_.pair.size(); ++k) forces_.pair[k] += from.pair[k] * factor;
-  };
-  const double t = decision.jet.t;
-  for (std::size_t i = 0; i < model_.loads.size(); ++i)
-    add(state_->from_load[i], model_.loads[i].history.piece(t).value(t));
-  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
-    const ForceLaw law = force_law(model_.contacts[c], decision.mode[c], segment.forcing->pressing(c, t, 0));
-    const double gap = model_.contacts[c].gap, surface = segment.forcing->surface(c, t, 0);
-    if (model_.contacts[c].has_gap()) add(state_->from_normal[c], -(law.N_constant + law.N_gap * gap));
-    add(state_->from_tangent[c], -(law.T_constant + law.T_gap * gap - law.T_ut * surface));
-  }
-}
-
 std::string ProportionalFlow::start(const Segment& segment, const Vector& q, const Vector& rate,
                                     ModalPoint& now) {
   if (std::string why = obstacle(segment); !why.empty()) return why;
@@ -48,7 +28,8 @@ std::string ProportionalFlow::start(const Segment& segment, const Vector& q, con
   oscillators_ = Oscillators(state_->spectrum, system_.alpha());
   state_->spectrum.to_modes(q, now.z);
   state_->spectrum.to_modes(rate, now.rate);
-  set_forces(segment);
+  forces_ =
+      constant_forces(model_, *state_, segment.decision->mode, *segment.forcing, segment.decision->jet.t);
   proof_.start(segment, *state_, oscillators_, forces_);
   works_.start(segment, *state_, oscillators_, forces_, t_end_);
   return {};
@@ -77,12 +58,7 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
 }
 
 void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector& change) const {
-  Amplitudes second;
-  const double alpha = system_.alpha();
-  for (std::size_t k = 0; k < z.z.real.size(); ++k)
-    second.real.push_back(forces_.real[k] - alpha * z.rate.real[k] - oscillators_.real()[k] * z.z.real[k]);
-  for (std::size_t k = 0; k < z.z.pair.size(); ++k)
-    second.pair.push_back(forces_.pair[k] - z.rate.pair[k] * alpha - oscillators_.pairs()[k] * z.z.pair[k]);
+  const Amplitudes second = oscillators_.second(z, forces_);
   state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, &change});
 }
 
@@ -94,8 +70,8 @@ void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {
     const double ut =
         contact.tangent.dot(point.u) - segment_->forcing->surface(c, segment_->decision->jet.t, 0);
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    point.forces[row] = law.N_gap * gap + law.N_constant;
-    point.forces[row + 1] = law.T_gap * gap + law.T_ut * ut + law.T_constant;
+    point.forces[row] = law.N(gap);
+    point.forces[row + 1] = law.T(gap, ut);
   }
 }
 
@@ -106,8 +82,8 @@ double ProportionalFlow::slope(std::size_t slot, const ModalPoint& /*at*/, const
       motion_of(model_.contacts[c], c, *segment_->forcing, segment_->decision->jet.t, point);
   const ForceLaw law = proof_.law(c);
   ContactMotion rate;
-  rate.N = law.N_gap * now.vn;
-  rate.T = law.T_gap * now.vn + law.T_ut * now.vt;
+  rate.N = law.N_rate(now.vn);
+  rate.T = law.T_rate(now.vn, now.vt);
   rate.gap = now.vn;
   rate.ut = now.vt;
   rate.vn = now.an;

@@ -39,7 +39,6 @@ class ProportionalFlow final : public ModalFlow {
 
  private:
   [[nodiscard]] std::string obstacle(const Segment& segment);
-  void set_forces(const Segment& segment);
 
   const Model& model_;
   const double t_end_;

@@ -120,6 +120,19 @@ bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
   return true;
 }
 
+std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event, double h,
+                                   bool& full) {
+  if (doubted || (limit == 0.0 && !full)) {  // else a guard is too near to zero for any ripple
+    full = full || !doubted;
+    return std::nullopt;
+  }
+  if (limit < event) passage.fired.reset();
+  const double x = std::min(limit, event > 1.0 ? 1.0 : event);
+  full = !passage.fired && x < 1e-3;
+  passage.length = h * x;
+  return passage;
+}
+
 double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,
                    std::vector<double>& p) {
   double power = 1.0;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/exact/modal/modal_flow.hpp"
@@ -33,6 +34,11 @@ struct GuardOnStep {
 [[nodiscard]] bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
                                 const std::function<double(double)>& value_at, Arming& arming,
                                 Passage& passage, double& limit, double& event);
+
+/// What the step comes to once its guards are settled, as far as `limit` and `event` let it; none: it is to be tried
+/// again, with all modes taken as slow (`full`) unless a guard is newly doubted. h: length of the step.
+[[nodiscard]] std::optional<Passage> end_of_step(Passage passage, bool doubted, double limit, double event,
+                                                 double h, bool& full);
 
 /// The part of [0, 1] on which sign a(x x_end) + above > 0; p: room for degree + 1 numbers.
 [[nodiscard]] double stays_above(const double* a, std::size_t degree, double x_end, double sign, double above,

@@ -80,6 +80,9 @@ class Spectrum {
   [[nodiscard]] double condition() const { return condition_; }
   [[nodiscard]] double round_trip() const { return round_trip_; }
 
+  [[nodiscard]] Amplitudes zero() const {
+    return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
+  }
   /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
   void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { project(q, false, z); }
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }

@@ -1,0 +1,86 @@
+// listed_modes.hpp: all modes of a state one after the other, and square tables of them.
+//
+//   S double: real modes alone;   S Complex: real ones, those of pairs, and their conjugates
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "engine/exact/modal/spectrum.hpp"
+
+namespace signorini {
+
+/// Real amplitudes, then real and imaginary parts of pairs.
+inline Vector flat_modes(const Amplitudes& a) {
+  const auto n = static_cast<Eigen::Index>(a.real.size()), pairs = static_cast<Eigen::Index>(a.pair.size());
+  Vector x(n + 2 * pairs);
+  std::copy(a.real.begin(), a.real.end(), x.data());
+  for (Eigen::Index k = 0; k < pairs; ++k) {
+    x[n + k] = a.pair[static_cast<std::size_t>(k)].re;
+    x[n + pairs + k] = a.pair[static_cast<std::size_t>(k)].im;
+  }
+  return x;
+}
+
+inline Complex conjugate(Complex a) { return {a.re, -a.im}; }
+
+/// A number as the kind that it is known to be.
+template <class T>
+T of_kind(double a) {
+  return T(a);
+}
+template <class T>
+T of_kind(Complex a) {
+  if constexpr (std::is_same_v<T, double>)
+    return a.re;
+  else
+    return a;
+}
+
+/// All modes one after the other: real ones, pairs, and their conjugates.
+inline void list_modes(const Amplitudes& a, std::vector<double>& out) { out = a.real; }
+inline void list_modes(const Amplitudes& a, std::vector<Complex>& out) {
+  out.assign(a.real.begin(), a.real.end());
+  out.insert(out.end(), a.pair.begin(), a.pair.end());
+  for (const Complex z : a.pair) out.push_back(conjugate(z));
+}
+template <class S>
+std::vector<S> modes_of(const Amplitudes& a) {
+  std::vector<S> out;
+  list_modes(a, out);
+  return out;
+}
+inline void add_modes(const std::vector<double>& x, Amplitudes& a) {
+  for (std::size_t k = 0; k < a.real.size(); ++k) a.real[k] += x[k];
+}
+inline void add_modes(const std::vector<Complex>& x, Amplitudes& a) {
+  for (std::size_t k = 0; k < a.real.size(); ++k) a.real[k] += x[k].re;
+  for (std::size_t k = 0; k < a.pair.size(); ++k) a.pair[k] += x[a.real.size() + k];
+}
+template <class S>
+using Square = std::vector<S>;  // rows of N numbers
+
+template <class S>
+void add_outer(const std::vector<S>& a, const std::vector<S>& b, double factor, Square<S>& out) {
+  if (factor == 0.0) return;
+  const std::size_t n = a.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const S x = a[k] * factor;
+    S* row = out.data() + k * n;
+    for (std::size_t l = 0; l < n; ++l) row[l] += x * b[l];
+  }
+}
+
+template <class S>
+void add_product(const Square<S>& b, const std::vector<S>& x, double factor, std::vector<S>& out) {
+  const std::size_t n = x.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const S* row = b.data() + k * n;
+    S sum(0.0);
+    for (std::size_t l = 0; l < n; ++l) sum += row[l] * x[l];
+    out[k] += sum * factor;
+  }
+}
+
+}  // namespace signorini

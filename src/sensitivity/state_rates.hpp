@@ -1,0 +1,168 @@
+// state_rates.hpp: what a parameter does to the modes of a state, B and G of modal_tangents.hpp.
+//
+//   B = Y Phi^T ( K_p + contacts' ) Phi X - Y Phi^T M_p Phi X L,    G = Y Phi^T ( C_p - alpha M_p ) Phi X
+//   contacts' = sum of n (N_gap,p n + N_gap n_p)^T + n_p N_gap n^T + ..., outer products of forms
+//
+// Column k of a product is that of mode k: shape, times the open matrix, back into modes.
+#pragma once
+
+#include "engine/exact/modal/thin_product.hpp"
+#include "sensitivity/law_rates.hpp"
+#include "sensitivity/listed_modes.hpp"
+
+namespace signorini {
+
+/// Of one parameter in open modes; empty: none.
+struct OpenRates {
+  Eigen::MatrixXd mass, drag, stiffness;  ///< drag: C_p - alpha M_p
+};
+
+/// What a parameter does to a state that does not depend on the stretch.
+template <class S>
+struct ParameterModes {
+  Square<S> b, g;  ///< g: empty where it is zero
+};
+
+/// A state of the contacts and its modes, at the begin of a stretch.
+struct StateAt {
+  const Model& model;
+  const ModalSystem& modes;
+  const StateModes& state;
+  const Mode& mode;
+  const Forcing& forcing;
+  double begin;
+};
+
+inline bool any_term(const Combination& c) {
+  return std::any_of(c.terms.begin(), c.terms.end(), [](const auto& term) { return term.second != 0.0; });
+}
+
+template <class S>
+class StateRatesOf {
+ public:
+  /// All must outlive it; l: eigenvalues of the listed modes.
+  StateRatesOf(const StateAt& at, const std::vector<S>& l) : at_(at), spectrum_(at.state.spectrum), l_(l) {}
+
+  /// Rows: the degrees of freedom named; columns: flat modes (flat_modes).
+  [[nodiscard]] RowMatrix shown(const std::vector<Eigen::Index>& dofs) const {
+    const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
+    RowMatrix out(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(reals + 2 * pairs));
+    for (std::size_t k = 0; k < reals + 2 * pairs; ++k) {
+      Amplitudes unit = spectrum_.zero();
+      if (k < reals)
+        unit.real[k] = 1.0;
+      else if (k < reals + pairs)
+        unit.pair[k - reals] = Complex(1.0);
+      else
+        unit.pair[k - reals - pairs] = Complex(0.0, 1.0);
+      const Vector q = in_open_modes(unit);
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        out(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+            at_.modes.basis().shapes().row(dofs[i]).dot(q);
+    }
+    return out;
+  }
+
+  [[nodiscard]] ParameterModes<S> by(const OpenRates& open, const std::vector<ContactRates>& contacts,
+                                     const TangentSource& source) const {
+    ParameterModes<S> m;
+    m.b.assign(l_.size() * l_.size(), S(0.0));
+    add_matrices(open, m);
+    add_contacts(contacts, source, m.b);
+    return m;
+  }
+
+ private:
+  [[nodiscard]] Vector in_open_modes(const Amplitudes& a) const {
+    Vector q;
+    spectrum_.from_modes({&a}, {&q});
+    return q;
+  }
+
+  /// Column k of X, its real part and, of pairs, its imaginary one: of a mode, or the conjugate one.
+  [[nodiscard]] std::vector<Vector> shape(std::size_t k) const {
+    const std::size_t reals = spectrum_.real().size(), pairs = spectrum_.pairs().size();
+    Amplitudes unit = spectrum_.zero();
+    if (k < reals) {
+      unit.real[k] = 1.0;
+      return {in_open_modes(unit)};
+    }
+    const std::size_t j = k < reals + pairs ? k - reals : k - reals - pairs;
+    unit.pair[j] = Complex(0.5);
+    const Vector real = in_open_modes(unit);
+    unit.pair[j] = Complex(0.0, k < reals + pairs ? -0.5 : 0.5);
+    return {real, in_open_modes(unit)};
+  }
+
+  void add_column(const std::vector<Vector>& q, std::size_t k, S factor, Square<S>& out) const {
+    Amplitudes part;
+    for (std::size_t imaginary = 0; imaginary < q.size(); ++imaginary) {
+      spectrum_.to_modes(q[imaginary], part);
+      const std::vector<S> x = modes_of<S>(part);
+      const S turned = imaginary == 0 ? factor : quarter_turn(factor);
+      for (std::size_t i = 0; i < x.size(); ++i) out[i * x.size() + k] += x[i] * turned;
+    }
+  }
+  static double quarter_turn(double) { return 0.0; }  // real modes have one part
+  static Complex quarter_turn(Complex a) { return {-a.im, a.re}; }
+
+  void add_matrices(const OpenRates& open, ParameterModes<S>& m) const {
+    if (open.mass.size() + open.drag.size() + open.stiffness.size() == 0) return;
+    if (open.drag.size() > 0) m.g.assign(m.b.size(), S(0.0));
+    const auto product = [](const Eigen::MatrixXd& a, std::vector<Vector> q) {
+      for (Vector& part : q) part = a * part;
+      return q;
+    };
+    for (std::size_t k = 0; k < l_.size(); ++k) {
+      const std::vector<Vector> x = shape(k);
+      if (open.stiffness.size() > 0) add_column(product(open.stiffness, x), k, S(1.0), m.b);
+      if (open.mass.size() > 0) add_column(product(open.mass, x), k, -l_[k], m.b);
+      if (open.drag.size() > 0) add_column(product(open.drag, x), k, S(1.0), m.g);
+    }
+  }
+
+  /// A form's modes: what forces along it do, and what modes show of it.
+  struct Seen {
+    std::vector<S> from, row;
+  };
+  [[nodiscard]] Seen seen(const Combination& form) const {
+    const Vector q = at_.modes.basis().amplitudes_of(form);
+    Amplitudes from, row;
+    spectrum_.to_modes(q, from);
+    spectrum_.of_form(q, row);
+    return {modes_of<S>(from), modes_of<S>(row)};
+  }
+
+  void add_contacts(const std::vector<ContactRates>& contacts, const TangentSource& source,
+                    Square<S>& b) const {
+    const StateModes& state = at_.state;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const ContactRates& rates = contacts[c];
+      const LawRates at =
+          law_rates(at_.model.contacts[c], c, at_.mode[c], rates, at_.forcing, at_.begin, source);
+      const Seen n{modes_of<S>(state.from_normal[c]), modes_of<S>(state.normal[c])};
+      const Seen t{modes_of<S>(state.from_tangent[c]), modes_of<S>(state.tangent[c])};
+      add_outer(n.from, n.row, at.rates.N_gap, b);
+      add_outer(t.from, n.row, at.rates.T_gap, b);
+      add_outer(t.from, t.row, at.rates.T_ut, b);
+      if (any_term(rates.normal)) {
+        const Seen by = seen(rates.normal);
+        add_outer(n.from, by.row, at.law.N_gap, b);
+        add_outer(t.from, by.row, at.law.T_gap, b);
+        add_outer(by.from, n.row, at.law.N_gap, b);
+      }
+      if (any_term(rates.tangent)) {
+        const Seen by = seen(rates.tangent);
+        add_outer(t.from, by.row, at.law.T_ut, b);
+        add_outer(by.from, n.row, at.law.T_gap, b);
+        add_outer(by.from, t.row, at.law.T_ut, b);
+      }
+    }
+  }
+
+  const StateAt at_;
+  const Spectrum& spectrum_;
+  const std::vector<S>& l_;
+};
+
+}  // namespace signorini

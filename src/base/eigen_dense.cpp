@@ -57,6 +57,8 @@ EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
   return pairs;
 }
 
+Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) { return a * b; }
+
 Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
 }

@@ -1,4 +1,4 @@
-// eigen_dense.hpp: dense decompositions, compiled once.
+// eigen_dense.hpp: dense decompositions and products of complex matrices, compiled once.
 //
 //   A x = mu x,    A x = mu B x,    A = Q R,    A = P^T L U Q^T,    A = U S V^T
 //
@@ -23,6 +23,9 @@ struct EigenPairs {
 
 /// The same with eigenvectors, x^T B x = 1; both empty when B is not positive definite.
 [[nodiscard]] EigenPairs generalized_eigen(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// a b: each file that writes the product itself takes seconds to compile it.
+[[nodiscard]] Eigen::MatrixXcd complex_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 /// Eigenvalues of a square matrix that need not be symmetric, in no order.
 [[nodiscard]] Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a);

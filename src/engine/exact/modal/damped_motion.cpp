@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/eigen_dense.hpp"
 #include "contact/friction.hpp"
 
 namespace signorini {
@@ -86,7 +87,7 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   if (!state_->rigid.empty()) place_ = held(segment, q);
   Eigen::MatrixXd p = forces();
   if (!state_->rigid.empty()) p -= inertia_of(place_);
-  const Eigen::MatrixXcd pressed = modes.from_rate * p;
+  const Eigen::MatrixXcd pressed = complex_product(modes.from_rate, p.cast<std::complex<double>>());
   Eigen::MatrixXcd answers(modes.root.size(), time_.size());
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
     answers.row(k) = time_.answer(modes.root[k], pressed.row(k).transpose()).transpose();
@@ -94,7 +95,7 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   now.y =
       modes.from_q * (q - place_ * b) + modes.from_rate * (rate - time_.derivative(place_) * b) - answers * b;
   now.time = 0.0;
-  place_ += (modes.shape * answers).real();
+  place_ += complex_product(modes.shape, answers).real();
   rate_ = time_.derivative(place_);
   change_ = time_.derivative(rate_);
   find_contacts(p, answers);

@@ -170,8 +170,9 @@ void DampedSystem::find_losses(DampedState& out) const {
   Eigen::MatrixXcd damped = decay_.asDiagonal() * rates;
   for (const ModalTerm& damper : dampers_)
     damped += damper.u * (damper.damping * (damper.v.transpose() * rates));
-  out.loss = rates.transpose() * damped;
-  out.loss_turned = rates.transpose() * damped.conjugate();
+  const Eigen::MatrixXcd left = rates.transpose();
+  out.loss = complex_product(left, damped);
+  out.loss_turned = complex_product(left, damped.conjugate());
   RootSums& sums = out.sums;
   sums.plain.setZero(k, k);
   sums.turned.setZero(k, k);

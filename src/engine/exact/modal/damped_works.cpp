@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/eigen_dense.hpp"
 #include "contact/law.hpp"
 
 namespace signorini {
@@ -39,7 +40,8 @@ void DampedWorks::start() {
   Eigen::MatrixXd damped = motion_.system().decay().asDiagonal() * rate;
   for (const ModalTerm& damper : motion_.system().dampers())
     damped += damper.u * (damper.damping * (damper.v.transpose() * rate));
-  course_loss_ = (motion_.state().modes.shape * motion_.root().asDiagonal()).transpose() * damped;
+  const Eigen::MatrixXcd rates = (motion_.state().modes.shape * motion_.root().asDiagonal()).transpose();
+  course_loss_ = complex_product(rates, damped.cast<std::complex<double>>());
   still_loss_ = rate.transpose() * damped;
 }
 

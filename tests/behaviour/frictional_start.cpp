@@ -13,6 +13,9 @@ namespace signorini::tests::starts {
 namespace {
 
 using parts::head;
+using parts::two_sliders;
+
+const std::string frictional = "[run]\nt_end = 1.0\ninitial = \"frictional\"\n";
 
 Model built(const std::string& text, const std::vector<Override>& changes = {}) {
   return build_model(parse_scene(text, "test.toml", changes));
@@ -32,45 +35,6 @@ int dof(const Model& model, const std::string& name) {
     if (model.physical_dofs()[i].displacement == name) return static_cast<int>(i);
   FAIL("no degree of freedom " << name);
   return -1;
-}
-
-/// Two blocks in a row on sliders, a spring between; the first is pushed. Stages follow.
-std::string two_sliders(const std::string& stages, const std::string& loads) {
-  return head + "[run]\nt_end = 1.0\ninitial = \"frictional\"\n" + stages + R"(
-[nodes]
-A = [0.0, 0.0]
-B = [1.0, 0.0]
-[[masses]]
-node = "A"
-mass = 1.0
-[[masses]]
-node = "B"
-mass = 1.0
-[[supports]]
-nodes = ["A", "B"]
-fix = ["uy"]
-[[springs]]
-node = "A"
-against = "B"
-direction = [1.0, 0.0]
-stiffness = 10.0
-[[contacts]]
-name = "ca"
-node = "A"
-law = "slider"
-tangent = [1.0, 0.0]
-normal_force = 1.0
-tangential_stiffness = 100.0
-friction = 0.5
-[[contacts]]
-name = "cb"
-node = "B"
-law = "slider"
-tangent = [1.0, 0.0]
-normal_force = 2.0
-tangential_stiffness = 100.0
-friction = 0.5
-)" + loads;
 }
 
 std::string push(const std::string& name, double force) {
@@ -133,7 +97,7 @@ TEST_SUITE_BEGIN("behaviour/frictional_start");
 TEST_CASE("two sliders in series: pushed until the first slips, and back until it slips back") {
   // a stuck: u_a = 11 u_b, T_a = 11/12 P, so it slips at P = 6/11; then 10 (a - b) = P - 0.5 = 100 b
   {
-    const Model model = built(two_sliders("", push("push", 1.2)));
+    const Model model = built(two_sliders(frictional, push("push", 1.2)));
     REQUIRE(model.statics.events.size() == 1);
     CHECK(model.statics.events[0].part == doctest::Approx(6.0 / 11.0 / 1.2).epsilon(1e-13));
     CHECK(model.statics.events[0].to == State::slip_plus);
@@ -144,8 +108,8 @@ TEST_CASE("two sliders in series: pushed until the first slips, and back until i
   }
   // Taken back by 1.5: T_a falls by 11/12 of what is taken and reaches -0.5 at 12/11, then slips back.
   const Model model =
-      built(two_sliders("[[run.stages]]\nname = \"forth\"\nloads = [\"push\"]\n"
-                        "[[run.stages]]\nname = \"back\"\nloads = [\"pull\"]\nsteps = 2\n",
+      built(two_sliders(frictional + "[[run.stages]]\nname = \"forth\"\nloads = [\"push\"]\n"
+                                     "[[run.stages]]\nname = \"back\"\nloads = [\"pull\"]\nsteps = 2\n",
                         push("push", 1.2) + push("pull", -1.5)));
   const auto& events = model.statics.events;
   REQUIRE(events.size() == 3);
@@ -164,7 +128,7 @@ TEST_CASE("two sliders in series: pushed until the first slips, and back until i
 }
 
 TEST_CASE("nothing moves in the run that follows a slow start") {
-  const std::string text = two_sliders("", push("push", 1.2));
+  const std::string text = two_sliders(frictional, push("push", 1.2));
   for (const std::string& engine : locating_engines) {
     CAPTURE(engine);
     const Scene scene = parse_scene(text, "test.toml", {{"run.engine", engine}, {"run.dt", "1e-2"}});
@@ -413,18 +377,19 @@ TEST_CASE("after a slow start at its limits nothing slips by rounding, nor is en
 
 TEST_CASE("what no slow start can reach is refused by name") {
   // Both slip: nothing holds the pair.
-  const std::string away = refusal(two_sliders("", push("push", 5.0)));
+  const std::string away = refusal(two_sliders(frictional, push("push", 5.0)));
   CHECK(away.find("no slow start") != std::string::npos);
   CHECK(away.find("'ca', 'cb'") != std::string::npos);
-  std::string falls = two_sliders("", push("push", 1.2));
+  std::string falls = two_sliders(frictional, push("push", 1.2));
   falls.replace(falls.find("friction = 0.5"), 14, "friction = { static = 0.5, kinetic = 0.4 }");
   CHECK(refusal(falls).find("falls from static to kinetic") != std::string::npos);
-  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"psuh\"]\n", push("push", 1.0)))
+  CHECK(refusal(
+            two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = [\"psuh\"]\n", push("push", 1.0)))
             .find("did you mean \"push\"") != std::string::npos);
-  CHECK(
-      refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n", push("push", 1.0)))
-          .find("loaded before") != std::string::npos);
-  CHECK(refusal(two_sliders("[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
+  CHECK(refusal(two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n",
+                            push("push", 1.0)))
+            .find("loaded before") != std::string::npos);
+  CHECK(refusal(two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
             .find("stands in no stage") != std::string::npos);
 }
 

@@ -64,48 +64,15 @@ std::string with(std::string text, const std::string& from, const std::string& t
 TEST_SUITE_BEGIN("behaviour/going_on");
 
 TEST_CASE("a run in two halves has the events of the whole") {
-  const std::string whole = head + R"(
-[run]
+  const std::string whole = two_sliders(R"([run]
 t_end = 4.0
 output_dt = 0.1
 frames = [1.7]
 engine = "exact"
 rtol = 1e-12
 initial = "frictional"
-[nodes]
-A = [0.0, 0.0]
-B = [1.0, 0.0]
-[[masses]]
-node = "A"
-mass = 1.0
-[[masses]]
-node = "B"
-mass = 1.0
-[[supports]]
-nodes = ["A", "B"]
-fix = ["uy"]
-[[springs]]
-node = "A"
-against = "B"
-direction = [1.0, 0.0]
-stiffness = 10.0
-[[contacts]]
-name = "ca"
-node = "A"
-law = "slider"
-tangent = [1.0, 0.0]
-normal_force = 1.0
-tangential_stiffness = 100.0
-friction = 0.5
-[[contacts]]
-name = "cb"
-node = "B"
-law = "slider"
-tangent = [1.0, 0.0]
-normal_force = 2.0
-tangential_stiffness = 100.0
-friction = 0.5
-[[loads]]
+)",
+                                        R"([[loads]]
 node = "A"
 direction = [1.0, 0.0]
 amplitude = 1.5
@@ -117,7 +84,7 @@ law = "compliant"
 direction = [1.0, 0.0]
 gap = 0.004
 normal_stiffness = 500.0
-)";
+)");
   check_halves("sliders", whole, 1.7, [&](const std::string& run) {
     std::string second = with(whole, "t_end = 4.0", "t_end = 2.3");
     second = with(second, "frames = [1.7]\n", "");

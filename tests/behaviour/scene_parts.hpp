@@ -10,6 +10,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <tuple>
 
 namespace signorini::tests::parts {
 
@@ -61,6 +62,25 @@ inline std::string spring(const std::string& node, const std::string& direction,
 /// Held, or moved as `more` says.
 inline std::string fixed(const std::string& names, const std::string& what, const std::string& more = "") {
   return "[[supports]]\nnodes = " + quoted(names) + "\nfix = " + quoted(what) + "\n" + more;
+}
+
+/// Two blocks in a row on sliders, a spring between. run: its table, and what belongs to it.
+inline std::string two_sliders(const std::string& run, const std::string& loads) {
+  std::string text = head + run + nodes({{"A", 0.0, 0.0}, {"B", 1.0, 0.0}}) + point_mass("A", 1.0) +
+                     point_mass("B", 1.0) + fixed("A, B", "uy") +
+                     "[[springs]]\nnode = \"A\"\nagainst = \"B\"\ndirection = [1.0, 0.0]\nstiffness = 10.0\n";
+  for (const auto& [name, node, force] : {std::tuple("ca", "A", 1.0), std::tuple("cb", "B", 2.0)})
+    text += fmt::format(R"([[contacts]]
+name = "{}"
+node = "{}"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = {}
+tangential_stiffness = 100.0
+friction = 0.5
+)",
+                        name, node, force);
+  return text + loads;
 }
 
 }  // namespace signorini::tests::parts

@@ -2,8 +2,6 @@
 
 #include <istream>
 
-template class nlohmann::basic_json<nlohmann::ordered_map>;
-
 namespace signorini {
 
 std::string json_text(const Json& json) {

@@ -6,9 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-// NOLINTNEXTLINE(readability-redundant-declaration)
-extern template class nlohmann::basic_json<nlohmann::ordered_map>;
-
 namespace signorini {
 
 using Json = nlohmann::ordered_json;

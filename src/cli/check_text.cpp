@@ -244,9 +244,14 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
   const Effort& effort = cost.effort;
-  const std::string exact =
+  std::string exact =
       cost.exact ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
                  : "";
+  if (!method.flow.empty()) {
+    exact += fmt::format("      flow {} ({}): by series {} s", method.flow, method.flow_reason,
+                         about_seconds(effort.by_series));
+    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s\n", about_seconds(effort.by_modes)) : "\n";
+  }
   if (!(effort.steps > 0.0)) return text + "      the number of steps is not known beforehand\n" + exact;
   const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
   if (steps)

@@ -17,6 +17,7 @@
 #include "run/choose_engine.hpp"
 #include "run/expected.hpp"
 #include "signorini/certify.hpp"
+#include "study/reduction/find_cutoff.hpp"
 
 namespace signorini::cli {
 
@@ -58,7 +59,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
   if (options.certify) changes.push_back({"run.certify", "true"});
   const fs::path path = directory_of(options);
-  const Scene scene = read_scene(options.scene, changes);
+  const Scene scene = find_cutoff(read_scene(options.scene, changes), [] { return !Interrupt::asked(); });
   const Model model = build_model(scene);
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;

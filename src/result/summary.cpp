@@ -9,6 +9,7 @@
 #include "base/version.hpp"
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
+#include "model/modes/rounding_floor.hpp"
 #include "result/certificate_json.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
@@ -279,6 +280,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   json["engine"] = to_string(report.method.engine);
   json["warnings"] = report.warnings;
   json["settings"] = settings_json(scene.run, tolerance, report.method);
+  json["settings"]["rounding_floor"] = rounding_floor(model);
   json["wall_time"] = report.wall_time;
   long total = 0;
   for (const auto& [type, count] : report.events_by_type) total += count;

@@ -4,7 +4,7 @@
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
 // run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by
-// it.
+// it: real modes from 16 unknowns on, complex ones where the series would cost twice what the states' modes do.
 #pragma once
 
 #include <string>
@@ -17,6 +17,13 @@ struct FlowChoice {
   bool modal = false;
   std::string reason;  ///< "as given" or "auto: ..."
 };
+
+/// Which modes can follow a scene, and what of it none can.
+struct ModalKind {
+  bool damped = false;    ///< complex modes are needed
+  std::string objection;  ///< empty: they can
+};
+[[nodiscard]] ModalKind modal_kind(const Model& model);
 
 /// Errors: SceneError where run.flow = "modal" and the scene has what modes cannot follow.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);

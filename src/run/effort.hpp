@@ -1,6 +1,7 @@
 // effort.hpp: what a time loop will cost, by order of magnitude, known before it runs.
 //
 //   series        t_end * max(omega_max, fastest decay) / 5.3 steps
+//   modes         a step follows what moves: 0.002 n^2 steps of the series; and the modes of 16 states or so
 //   BDF, order 5  max(12, 3.1 rtol^(-1/6)) steps in the shortest period
 //   fixed steps   t_end / dt
 #pragma once
@@ -14,6 +15,8 @@ namespace signorini {
 struct Effort {
   double steps_per_period = 0.0;  ///< of omega_max
   double steps = 0.0, seconds = 0.0;
+  double by_series = 0.0,
+         by_modes = 0.0;  ///< exact: seconds with each flow; 0: modes cannot follow the scene
 };
 
 struct EffortParts {
@@ -24,8 +27,12 @@ struct EffortParts {
   long unknowns;
 };
 
-[[nodiscard]] Effort effort_of_series(const EffortParts& parts);
+[[nodiscard]] Effort effort_of_exact(const EffortParts& parts);
 [[nodiscard]] Effort effort_of_bdf(const EffortParts& parts);
 [[nodiscard]] Effort effort_of_fixed_steps(const EffortParts& parts);
+
+/// Of the whole run; and of complex modes of the states that its contacts may come into.
+[[nodiscard]] double seconds_of_series(const Model& model, const RunSpec& run);
+[[nodiscard]] double seconds_of_damped_states(const Model& model);
 
 }  // namespace signorini

@@ -55,7 +55,7 @@ constexpr Key table_of_keys[] = {
     {"run", "dt", positive, "time", "", "", "Time step of engines whose steps have a given length (newmark, friction-iteration), which need it; with step = \"doubling\" the greatest one."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time (contacts without stiffness: as \"root\")."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},
-    {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact, the motion between events: \"taylor\" as power series of the equations; \"modal\" in the modes of each contact state, at a cost that follows the motion and not the mesh, where they can follow all of the scene; auto: modal there from 16 unknowns on, else taylor."},
+    {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact, the motion between events: \"taylor\" as power series of the equations; \"modal\" in the modes of each contact state, at a cost that follows the motion and not the mesh, where they can follow all of the scene; auto: modal there where the series is expected to cost more, from 16 unknowns on, else taylor."},
     {"run", "certify", automatic_flag, "", "\"auto\"", "", "Whether a companion, computed beside the run, says how far off each event may be and until when the sequence is certain; auto: where it is expected to cost less than half of the run."},
     {"run", "companion", choice, "", "\"auto\"", "auto exact finer", "What certifies the run: exact, or the run's engine with a finer setting (ida: rtol / 100; dt / 2; exact: every datum disturbed by about one rounding, two ways); auto: the cheaper."},
     {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: the part of the change of a limiting force that an iteration takes, at most 1."},
@@ -83,6 +83,7 @@ constexpr Key table_of_keys[] = {
 
     {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
     {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},
+    {"reduction", "tolerance", positive, "", "", "", "Instead of a cutoff: the program finds the lowest one with which the inertia left out moves contacts and named nodes by less than this part of the greatest displacement."},
 
     {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
     {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},

@@ -74,10 +74,10 @@ class Change {
     const toml::key key(rest[0], source.begin()->first.source());
     if (rest.size() == 1) {
       // The other of two ways to say the same would contradict.
-      constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
-                                                                      {"alpha", "alpha_over_omega1"},
-                                                                      {"omega", "frequency"},
-                                                                      {"cutoff_omega", "cutoff_frequency"}};
+      constexpr std::pair<const char*, const char*> alternatives[] = {
+          {"output_dt", "output_times"}, {"alpha", "alpha_over_omega1"},
+          {"omega", "frequency"},        {"cutoff_omega", "cutoff_frequency"},
+          {"tolerance", "cutoff_omega"}, {"tolerance", "cutoff_frequency"}};
       for (const auto& [a, b] : alternatives) {
         if (rest[0] == a) table.erase(b);
         if (rest[0] == b) table.erase(a);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "run/choose_flow.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -43,7 +44,6 @@ void same_laws(const std::string& text, double tolerance) {
   CHECK(modes.report.method.flow_reason == "as given: complex modes");
   REQUIRE(modes.report.outcome.kind == Outcome::Kind::done);
   CHECK(modes.report.counters.fallbacks == 0);
-  CHECK(modes.report.counters.steps * 3 < series.report.counters.steps);
   REQUIRE(modes.events.size() == series.events.size());
   CHECK(modes.events.size() > 8);
   double force = 0.0;
@@ -290,9 +290,14 @@ TEST_CASE("flows: auto follows the pipeline in modes, and few unknowns or what m
   };
   CHECK(flow_of({}) == "auto: modes follow all of it");
   CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: few unknowns, for which the series is as fast");
-  CHECK(flow_of({{"contacts.first.normal_damping", "10.0"}}) == "auto: complex modes follow all of it");
   CHECK(flow_of({{"contacts.first.tangential_damping", "10.0"}}) ==
         "auto: modes cannot follow shear elements");
+  // Complex modes cost more a state: short runs are the series'.
+  CHECK(flow_of({{"contacts.first.normal_damping", "10.0"}}) ==
+        "auto: the series is expected to cost less than complex modes");
+  const Scene scene =
+      read_scene(SIGNORINI_MODELS "/pipeline.toml", {{"contacts.first.normal_damping", "10.0"}});
+  CHECK(choose_flow(build_model(scene), scene.run).reason == "auto: complex modes follow all of it");
   CHECK(flow_of({{"run.flow", "taylor"}}) == "as given");
 }
 
@@ -356,9 +361,9 @@ TEST_CASE("complex modes: rigid contacts, with friction and rebounds") {
 TEST_CASE("complex modes: ramps, harmonic loads and moving supports") {
   same_laws(portal(alpha, soft_feet,
                    "[[loads]]\nnode = \"C\"\ndirection = [1, 0]\namplitude = 40\n"
-                   "history = { type = \"harmonic\", amplitude = 1.0, omega = 37.0 }\n"
+                   "history = { type = \"harmonic\", omega = 37.0 }\n"
                    "[[loads]]\nnode = \"B\"\ndirection = [0, -1]\namplitude = 40\n"
-                   "history = { type = \"ramp\", start = 0.01, end = 0.08 }\n"),
+                   "history = { type = \"triangle\", start = 0.01, end = 0.09 }\n"),
             1e-12);
 }
 
@@ -386,7 +391,9 @@ node = "b0"
 direction = [1, 0]
 stiffness = 40
 [[springs]]
-nodes = ["b0", "b1"]
+node = "b0"
+against = "b1"
+direction = [1, 0]
 stiffness = 60
 damping = 0.1
 [[springs]]

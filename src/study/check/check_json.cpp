@@ -73,6 +73,9 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   if (report.cost.effort.steps > 0.0) {
     json["run"]["steps_about"] = report.cost.effort.steps;
     json["run"]["seconds_about"] = report.cost.effort.seconds;
+    const Effort& effort = report.cost.effort;
+    if (effort.by_series > 0.0) json["run"]["seconds_by_series_about"] = effort.by_series;
+    if (effort.by_modes > 0.0) json["run"]["seconds_in_modes_about"] = effort.by_modes;
     if (report.cost.exact) json["run"]["seconds_with_exact_about"] = *report.cost.exact;
   }
   Json columns = {"t"};

@@ -72,6 +72,7 @@ class Search {
   std::vector<double> stiffness_, damping_;  // kappa = stiffness + l damping of scaled springs
   std::vector<std::pair<Index, Eigen::MatrixXd>> turns_;
   std::vector<Index> seen_, unseen_;
+  Long softest_ = 1;  // frequency that slow roots are measured by
   std::vector<Root> roots_;
   Index next_ = 0;  // column of the result
   std::string failure_;
@@ -95,6 +96,14 @@ Search::Search(const Eigen::VectorXd& square, const Eigen::VectorXd& decay,
         std::any_of(terms_.begin(), terms_.end(), [&](const ModalTerm& term) { return term.v[j] != 0.0; });
     (any ? seen_ : unseen_).push_back(j);
   }
+  double pull = 0.0;  // what terms make of free modes
+  for (const ModalTerm& term : terms_)
+    pull = std::max(pull, term.u.cwiseAbs().maxCoeff() * term.v.cwiseAbs().maxCoeff());
+  const auto stiff = std::find_if(seen_.begin(), seen_.end(), [&](Index j) { return square_[j] > 0.0; });
+  if (stiff != seen_.end())
+    softest_ = std::sqrt(static_cast<Long>(square_[*stiff]));
+  else if (pull > 0.0)
+    softest_ = std::sqrt(static_cast<Long>(pull));
 }
 
 /// So that v has as few rows that are not zero among equal poles as there are terms.
@@ -185,8 +194,7 @@ void Search::add_far(Index j, Wide l, Local& local) const {
 bool Search::gather(Wide l, Local& local) const {
   local = Local{};
   const Long own = l.re * l.re + l.im * l.im;
-  const Long least = seen_.empty() ? Long(0) : static_cast<Long>(square_[seen_.front()]);
-  local.unit = std::sqrt(std::max({own, least, std::numeric_limits<Long>::min()}));
+  local.unit = std::max(std::sqrt(own), softest_);
   for (std::size_t a = 0; a < rank(); ++a) {
     local.scale.push_back(terms_[a].rigid ? local.unit : Long(1));
     local.kappa.push_back(Wide(stiffness_[a]) + l * Long(damping_[a]));

@@ -158,9 +158,17 @@ TEST_CASE("equal frequencies: bodies that do not know of each other, seen or not
   const Eigen::VectorXd one = vector_of({1, 0}), other = vector_of({0, 1});
   check_equations(vector_of({4.0, 4.0}), vector_of({0.1, 0.1}),
                   {{one, one, 5.0, 0.2, false}, {other, other, 5.0, 0.2, false}});
+  // two free motions, one of which drives the other, beside a stiff mode with a damper that sees neither
+  check_equations(vector_of({0.0, 0.0, 1e6}), vector_of({2.0, 2.0, 2.0}),
+                  {{vector_of({0, 0, 1}), vector_of({0, 0, 1}), 0.0, 6.0, false},
+                   {vector_of({1, 0.4, 0.3}), vector_of({1, 0, 0.3}), 1e5, 0.0, false}});
   // driven by what it does not drive
   check_equations(vector_of({4.0, 9.0}), vector_of({0.1, 0.1}),
-                  {{vector_of({1, 0.5}), vector_of({1, 0}), 5.0, 0.0, false}});
+                  {{vector_of({1, 0.5}), vector_of({1, 0}), 6.0, 0.0, false}});
+  // in resonance with it: no basis of modes
+  CHECK_FALSE(damped_modes(vector_of({4.0, 9.0}), vector_of({0.1, 0.1}),
+                           {{vector_of({1, 0.5}), vector_of({1, 0}), 5.0, 0.0, false}})
+                  .failure.empty());
 }
 
 TEST_SUITE_END();

@@ -58,7 +58,7 @@ TEST_CASE("oscillators: coefficients of the series sum up to the motion") {
   d << l;
   const Poles poles(d);
   const Spectrum spectrum(poles, Eigen::MatrixXd(1, 0), Eigen::MatrixXd(1, 0), true);
-  ModalPoint from{{{0.7}, {}}, {{1.1}, {}}}, to;
+  ModalPoint from{{{0.7}, {}}, {{1.1}, {}}, {}}, to;
   Oscillators(spectrum, alpha).advance(from, {{p}, {}}, time, to);
   std::vector<double> c(33);
   taylor_of_mode(0.7, 1.1, p, l, alpha, time, c.size(), 1, c.data());

@@ -87,7 +87,7 @@ double trial(const Scene& scene, const Model& full, const Modes& modes, Eigen::I
   model.columns.clear();
   model.outputs.clear();
   RunSpec run = scene.run;
-  run.output_times.clear();
+  run.output_times.reset();
   run.frames.clear();
   run.output_dt = step;
   Watcher watcher(left_out, places, go_on);

@@ -147,6 +147,8 @@ struct Reduction {
   double ringing = 0.0;
   /// Greatest part of the initial displacement (velocity) that is lost; rotations as lengths, by the scales.
   double initial_displacement_lost = 0.0, initial_velocity_lost = 0.0;
+  std::optional<double> tolerance;  ///< that the cutoff was found for, and what was tried
+  std::vector<CutoffTrial> tried;
 
   [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }
 };

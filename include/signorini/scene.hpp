@@ -168,9 +168,20 @@ struct DampingSpec {
   SourcePlace place;
 };
 
+/// A run with a cutoff that a tolerance tried.
+struct CutoffTrial {
+  double cutoff_omega = 0.0;  ///< rad per time
+  int modes = 0;              ///< kept
+  double missed = 0.0;        ///< relative, what the modes left out would have added (study/reduction)
+  double moved = 0.0;         ///< relative, greatest difference of displacements from the trial before
+  double error = 0.0;         ///< missed, times what the trial before was off by beside what it missed
+};
+
 /// Modes up to the cutoff are kept, of the others their static compliance (model/reduce/reduction.hpp).
 struct ReductionSpec {
-  double cutoff_omega = 0.0;  ///< rad per time
+  double cutoff_omega = 0.0;        ///< rad per time; 0 while it is to be found
+  std::optional<double> tolerance;  ///< relative; find_cutoff sets the cutoff
+  std::vector<CutoffTrial> tried;   ///< the last one is in force
   SourcePlace place;
 };
 

@@ -115,6 +115,19 @@ compliance at each contact is left without inertia. Raise the cutoff until the a
 
     signorini run SCENE --set reduction.cutoff_omega=4000
 
+Or say how exact displacements are to be, and the program finds the cutoff:
+
+```toml
+[reduction]
+tolerance = 1e-6
+```
+
+It begins with a few modes, runs, and drives the modes left out with the loads and contact forces of that run: what their
+inertia would have added at contacts and named nodes, relative to the greatest displacement there, is `missed`. What is missed
+would have changed contact forces in turn, and shifted events: so trials are compared, and `error` is `missed` times
+what the trial before turned out to be off by beside what it missed. While that is above the tolerance it runs again with
+more modes, two times at least. The run that is kept has the cutoff that was found; summary.json tells what was tried.
+
 Contacts with law `rigid`, sliders that stick rigidly and contacts with dashpots need mass where they act, so the
 static shapes that belong to them keep theirs, and bring frequencies above the cutoff.)"},
     {"sections", "## `[sections]`",

@@ -17,6 +17,7 @@
 #include "run/choose_engine.hpp"
 #include "run/expected.hpp"
 #include "signorini/certify.hpp"
+#include "study/reduction/find_cutoff.hpp"
 
 namespace signorini::cli {
 
@@ -82,7 +83,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const TableStyle style = table_style_of(options.table, options);
   const bool plain = style == TableStyle::plain;
   const fs::path path = directory_of(options);
-  const Scene scene = read_scene(options.scene, changes);
+  const Scene scene = find_cutoff(read_scene(options.scene, changes), [] { return !Interrupt::asked(); });
   const Model model = build_model(scene);
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;

@@ -133,12 +133,16 @@ Model assembled(const Scene& scene, const Factors& unit) {
   }
   check_rigid_contacts(scene, model);
   for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
-  if (scene.reduction) {
+  if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
     model.omega_max = highest_frequency(model);
   } else {
     separate_undamped(model);
+    if (scene.reduction)
+      model.warnings.emplace_back(
+          "reduction.tolerance: this is the whole model; run, compare, study, sweep and verify look for the "
+          "cutoff by trial runs first");
   }
   add_shear_elements(scene, model);
   make_outputs(scene, map, model);

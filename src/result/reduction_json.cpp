@@ -18,6 +18,18 @@ Json reduction_json(const Reduction& r, const Report* report) {
                {"ringing_left_out", r.ringing},
                {"initial_displacement_lost", r.initial_displacement_lost},
                {"initial_velocity_lost", r.initial_velocity_lost}};
+  if (r.tolerance) {
+    json["tolerance"] = *r.tolerance;
+    json["missed"] = r.tried.empty() ? Json() : Json(r.tried.back().missed);
+    json["error"] = r.tried.empty() ? Json() : Json(r.tried.back().error);
+    json["tried"] = Json::array();
+    for (const CutoffTrial& trial : r.tried)
+      json["tried"].push_back({{"cutoff_omega", trial.cutoff_omega},
+                               {"modes_kept", trial.modes},
+                               {"missed", trial.missed},
+                               {"moved", trial.moved},
+                               {"error", trial.error}});
+  }
   json["compliance"] = Json::array();
   for (const ComplianceShare& share : r.shares) {
     Json row = {{"of", share.what}, {"all_modes", share.compliance}, {"left_out", share.residual}};

@@ -85,6 +85,7 @@ constexpr Key table_of_keys[] = {
 
     {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
     {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},
+    {"reduction", "tolerance", positive, "", "", "", "Instead of a cutoff: the program finds the lowest one with which the inertia left out moves contacts and named nodes by less than this part of the greatest displacement."},
 
     {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
     {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},

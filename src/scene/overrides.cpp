@@ -26,6 +26,9 @@ constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "o
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
                                                                 {"cutoff_omega", "cutoff_frequency"}};
+/// What stands in place of another.
+constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
+                                                           {"tolerance", "cutoff_frequency"}};
 
 /// The tables of an array that a part of a path chooses; `names`: those that have one.
 std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& array,
@@ -114,10 +117,14 @@ class Change {
   void into_table(toml::table& table, Segments rest) {
     const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
-      for (const auto& [a, b] : alternatives) {  // the other one would contradict
-        if (rest[0] == a) table.erase(b);
-        if (rest[0] == b) table.erase(a);
-      }
+      const auto erase_other = [&](const auto& pairs) {  // it would contradict
+        for (const auto& [a, b] : pairs) {
+          if (rest[0] == a) table.erase(b);
+          if (rest[0] == b) table.erase(a);
+        }
+      };
+      erase_other(alternatives);
+      erase_other(instead);
       give([&](toml::node&& value) { table.insert_or_assign(key, std::move(value)); });
       return;
     }

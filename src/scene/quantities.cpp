@@ -151,7 +151,10 @@ void visit_quantities(Scene& scene, const Visit& visit) {
   visit(scene.damping.alpha, rate);
   visit(scene.damping.beta, time);
   visit_optional(scene.damping.alpha_over_omega1, plain, visit);
-  if (scene.reduction) visit(scene.reduction->cutoff_omega, rate);
+  if (scene.reduction) {
+    visit(scene.reduction->cutoff_omega, rate);
+    visit_optional(scene.reduction->tolerance, plain, visit);
+  }
   visit_structure(scene, visit);
   for (ContactSpec& c : scene.contacts) visit_contact(c, visit);
   for (LoadSpec& load : scene.loads) {

@@ -1,4 +1,4 @@
-// [reduction]: the cutoff, in cycles or in radians per time.
+// [reduction]: the cutoff, in cycles or in radians per time, or the tolerance that finds it.
 #include <numbers>
 
 #include "scene/readers.hpp"
@@ -12,10 +12,15 @@ void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
     table.fail("cutoff_frequency", "stands beside cutoff_omega, expected one of the two");
   ReductionSpec spec;
   spec.place = table.place();
-  if (const auto frequency = table.optional_number("cutoff_frequency")) {
+  for (const char* cutoff : {"cutoff_frequency", "cutoff_omega"})
+    if (table.has("tolerance") && table.has(cutoff))
+      table.fail("tolerance", std::string("stands beside ") + cutoff + ", expected one of the two");
+  if (const auto tolerance = table.optional_number("tolerance")) {
+    spec.tolerance = *tolerance;
+  } else if (const auto frequency = table.optional_number("cutoff_frequency")) {
     spec.cutoff_omega = 2.0 * std::numbers::pi * *frequency;
   } else {
-    table.require("cutoff_omega", " (or cutoff_frequency)");
+    table.require("cutoff_omega", " (or cutoff_frequency, or tolerance)");
     spec.cutoff_omega = *table.optional_number("cutoff_omega");
   }
   table.finish();

@@ -7,6 +7,7 @@
 
 #include "behaviour/engines.hpp"
 #include "signorini/simulate.hpp"
+#include "study/reduction/find_cutoff.hpp"
 
 using namespace signorini;
 
@@ -251,4 +252,64 @@ TEST_CASE("contacts with dashpots, and sliders that stick rigidly") {
   REQUIRE(state_changes(whole).size() > 10);
   const Result all = run(chain, until, 1e3, "exact");
   check_events(whole, all, 1e-8);
+}
+
+TEST_CASE(
+    "a tolerance finds its cutoff: the full model's displacements within it, and fewer modes than all") {
+  Changes changes{{"run.t_end", "0.04"}, {"run.output_dt", "5e-4"}, {"run.engine", "exact"}};
+  const Scene whole = read_scene(pipeline, changes);
+  const Model whole_model = build_model(whole);
+  const Result full = simulate(whole_model, whole.run);
+  std::vector<Eigen::Index> asked_for;  // displacements, not rotations
+  for (const Column& column : whole_model.columns)
+    if (!column.velocity && !whole_model.turns(column)) asked_for.push_back(column.dof);
+  double scale = 0.0;
+  for (const Result::Row& row : full.rows) scale = std::max(scale, row.u(asked_for).cwiseAbs().maxCoeff());
+  int fewer = 0;
+  for (const double tolerance : {1e-3, 1e-5}) {
+    CAPTURE(tolerance);
+    Changes asked = changes;
+    asked.push_back({"reduction.tolerance", fmt::format("{}", tolerance)});
+    const Scene scene = find_cutoff(read_scene(pipeline, asked));
+    REQUIRE_FALSE(scene.reduction->tried.empty());
+    const CutoffTrial& last = scene.reduction->tried.back();
+    CAPTURE(last.modes);
+    CHECK(last.error <= tolerance);
+    CHECK(last.missed <= last.error);
+    CHECK(last.cutoff_omega == scene.reduction->cutoff_omega);
+    CHECK(last.modes < 51);
+    CHECK(last.modes > fewer);
+    fewer = last.modes;
+    for (std::size_t i = 0; i + 1 < scene.reduction->tried.size(); ++i)
+      CHECK(scene.reduction->tried[i].error > tolerance);
+    CHECK(scene.reduction->tried.size() > 1);
+    CHECK(last.moved > 0.0);
+    const Model model = build_model(scene);
+    CHECK(model.reduction->tolerance == tolerance);
+    CHECK(model.reduction->tried.size() == scene.reduction->tried.size());
+    const Result reduced = simulate(model, scene.run);
+    REQUIRE(reduced.rows.size() == full.rows.size());
+    for (std::size_t i = 0; i < full.rows.size(); ++i)
+      CHECK((full.rows[i].u - reduced.rows[i].u)(asked_for).cwiseAbs().maxCoeff() < tolerance * scale);
+  }
+}
+
+TEST_CASE("a tolerance that no cutoff meets keeps all modes; what has no modes is refused") {
+  const Scene all = find_cutoff(read_scene(
+      pipeline, {{"run.t_end", "2e-3"}, {"run.engine", "exact"}, {"reduction.tolerance", "1e-300"}}));
+  CHECK(all.reduction->tried.back().modes == 51);
+  CHECK(all.reduction->tried.back().missed == 0.0);
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(find_cutoff(read_scene(
+          pipeline, {{"contacts.first.tangential_damping", "10.0"}, {"reduction.tolerance", "1e-3"}}))),
+      doctest::Contains("reduction.tolerance"), SceneError);
+}
+
+TEST_CASE("one model of a scene with a tolerance has a cutoff only where it was looked for") {
+  const Scene scene = read_scene(pipeline, {{"reduction.tolerance", "1e-3"}});
+  CHECK(scene.reduction->cutoff_omega == 0.0);
+  const Model model = build_model(scene);  // checks and reports show the whole structure
+  CHECK_FALSE(model.reduction.has_value());
+  CHECK(std::any_of(model.warnings.begin(), model.warnings.end(),
+                    [](const std::string& w) { return w.find("whole model") != std::string::npos; }));
 }

@@ -297,6 +297,8 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   scale(model, b);
 
   Reduction facts = facts_of(model, modes, shapes, cutoff);
+  facts.tolerance = scene.reduction->tolerance;
+  facts.tried = scene.reduction->tried;
   facts.ringing = ringing(model, shapes.answers, scene.run.t_end);
   const std::vector<Contact> physical = model.contacts;
   reduce_contacts(scene, b, model);

@@ -13,6 +13,7 @@
 #include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
+#include "study/reduction/find_cutoff.hpp"
 #include "study/speed/decades.hpp"
 
 namespace signorini {
@@ -121,7 +122,7 @@ WorkStudy::Prepared WorkStudy::prepare(const WorkPoint& point) const {
   std::vector<Override> changes = held_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
-  Scene scene = read_scene(request_.scene, changes);
+  Scene scene = find_cutoff(read_scene(request_.scene, changes));
   Model model = build_model(scene);
   return {std::move(scene), std::move(model)};
 }

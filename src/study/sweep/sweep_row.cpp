@@ -10,6 +10,7 @@
 #include "base/input_file.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
+#include "study/reduction/find_cutoff.hpp"
 #include "study/sweep/response_query.hpp"
 
 namespace signorini {
@@ -78,7 +79,7 @@ SweepRow compute_row(const RowTask& task) {
   row.index = task.index;
   row.values = task.values;
   try {
-    const Scene scene = read_scene(task.scene, task.changes);
+    const Scene scene = find_cutoff(read_scene(task.scene, task.changes));
     Model model = build_model(scene);
     std::vector<ResponseQuery> queries;
     for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));

@@ -15,7 +15,7 @@ using namespace signorini::test;
 namespace {
 
 Scene cut(Scene scene, double omega) {
-  scene.reduction = ReductionSpec{omega, {scene.file, 1, 1}};
+  scene.reduction = ReductionSpec{omega, {}, {}, {scene.file, 1, 1}};
   return scene;
 }
 

@@ -1,0 +1,52 @@
+// left_out.hpp: what the inertia of the modes that a reduction leaves out would have added.
+//
+//   z'' + c z' + omega^2 z = phi . F(t),    missed(p) = sum over modes left out  phi(p) (z - phi . F / omega^2)
+//
+// F: the loads and contact forces that a reduced run computed, which holds the static part phi . F / omega^2
+// already. Between samples F is a cubic with the slopes that five samples have, for which z is exact. What is
+// missed at contacts would have changed their forces in turn; that is not followed.
+#pragma once
+
+#include "signorini/model.hpp"
+
+namespace signorini {
+
+/// A place where displacements are asked for.
+struct AskedPlace {
+  std::string name;  ///< "normal of contact 'first'", "A.ux"
+  Vector form;
+};
+
+/// Contacts along normal and tangent, and named nodes; rotations left aside. The model: not reduced.
+[[nodiscard]] std::vector<AskedPlace> asked_places(const Model& full);
+
+class LeftOut {
+ public:
+  /// full: without [reduction], must outlive it; `square`, `shapes`: its modes, ascending; `kept`: how many of
+  /// them the reduction keeps.
+  LeftOut(const Model& full, const Eigen::VectorXd& square, const Eigen::MatrixXd& shapes, Eigen::Index kept,
+          double step);
+
+  /// Forces of contacts, N and T of each in turn, at times 0, step, 2 step, ...
+  void sample(double t, const std::vector<double>& forces);
+  /// After the last sample.
+  void finish();
+  /// Greatest |missed(p)| of each place.
+  [[nodiscard]] const std::vector<double>& missed() const { return missed_; }
+
+ private:
+  using Array = Eigen::ArrayXd;
+  void advance(const Array& before, const Array& from, const Array& to, const Array& after);
+  void observe(const Array& force);
+
+  const Model& full_;
+  double step_;
+  Eigen::MatrixXd places_, inputs_;                           // places x modes, modes x (contact forces)
+  Eigen::MatrixXd loads_;                                     // modes x loads
+  Array square_, decay_, to_z_z_, to_z_v_, to_v_z_, to_v_v_;  // free motion over a step
+  Array z_, v_;
+  std::vector<Array> forces_;  // modal, the last four samples
+  std::vector<double> missed_;
+};
+
+}  // namespace signorini

@@ -365,28 +365,60 @@ void Decider::finish(Course& course) const {
   }
 }
 
-/// grounded: whether a flight was taken as rest for its height alone.
-Decision Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after,
-                          bool& grounded) {
+/// What slips at a rate that is zero with all its derivatives is at rest. Where others that stick hold it there
+/// its own row adds nothing to theirs, and its force need not be the limit that it was left at.
+Refusal Decider::held_at_rest(const Course& course) const {
+  const Decision& d = course.decision;
+  for (std::size_t slot = 0; slot < d.guards.size(); ++slot) {
+    const GuardStart& guard = d.guards[slot];
+    const std::size_t c = contact_of_guard(slot);
+    const bool rests = guard.kind == Guard::sliding && guard.at_zero && guard.leading < 0;
+    if (!rests || !model_.contacts[c].sticks_rigidly()) continue;
+    Mode sticking = d.mode;
+    sticking[c].state = State::stick;
+    if (systems_.of(sticking)) continue;
+    Refusal why = dependent_rows({c});
+    why.reason += fmt::format(" ('{}' slips no more); {} makes them so", model_.contacts[c].name,
+                              what_makes_unique(model_, why.contacts));
+    return why;
+  }
+  return {};
+}
+
+Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after) {
   const std::size_t count = model_.contacts.size();
   Course course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
   course.decision.crossings.resize(count);
   course.decision.refusal = go(before, course);
-  if (!course.decision.refusal) finish(course);
-  grounded = course.found.grounded;
-  return std::move(course.decision);
+  if (!course.decision.refusal) {
+    finish(course);
+    course.decision.refusal = held_at_rest(course);
+    course.decision.consistent = !course.decision.refusal;
+  }
+  return {std::move(course.decision), course.found.grounded, course.found.slowest};
 }
 
 Decision Decider::decide(Instant instant, const Forcing& before, const Forcing& after) {
-  bool grounded = false;
-  Decision decision = attempt(instant, before, after, grounded);
-  if (!decision.refusal || !grounded) return decision;
-  // What chatters towards a state without continuation flies on until the clock resolves no more of it.
-  instant.low_flights = true;
-  Decision flying = attempt(instant, before, after, grounded);
-  return flying.refusal ? decision : flying;
+  Attempt first = attempt(instant, before, after);
+  const Refusal::Kind kind = first.decision.refusal.kind;
+  if (kind == Refusal::Kind::none) return std::move(first.decision);
+  if (first.grounded) {
+    // What chatters towards a state without continuation flies on until the clock resolves no more of it.
+    Instant flying = instant;
+    flying.low_flights = true;
+    if (Attempt a = attempt(flying, before, after); !a.decision.refusal) return std::move(a.decision);
+  }
+  // Then its slip rates are as small as the flights that were taken as rest: hits that are left out would
+  // change them, and they end with the chatter.
+  const bool painleve = kind == Refusal::Kind::ambiguous || kind == Refusal::Kind::paradox;
+  if (!painleve || !(first.slowest > 0.0)) return std::move(first.decision);
+  instant.slow = unlucky * first.slowest;
+  Attempt resting = attempt(instant, before, after);
+  if (resting.decision.refusal) return std::move(first.decision);
+  resting.decision.undecided = true;
+  return std::move(resting.decision);
 }
 
 Refusal Decider::standstill(const Decision& last, std::vector<std::size_t> contacts, std::string reason) {

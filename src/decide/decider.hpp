@@ -9,7 +9,8 @@
 // tangential stiffness join them if their own states repeat. Where rounds go in circles, what rounding has
 // made of zeros was told too sharply: first blurred, then all combinations of states are tried
 // (decide/enumeration.hpp). If no mode is consistent the decision says so; where a flight was taken as rest
-// for nothing but its height, it is made once more with that flight flown.
+// for nothing but its height, it is made once more with that flight flown, then with slip rates as small as such
+// flights at rest, too.
 #pragma once
 
 #include "decide/enumeration.hpp"
@@ -38,8 +39,12 @@ class Decider {
  private:
   /// One decision under way.
   struct Course;
-  [[nodiscard]] Decision attempt(const Instant& instant, const Forcing& before, const Forcing& after,
-                                 bool& grounded);
+  struct Attempt {
+    Decision decision;
+    bool grounded = false;  // Findings
+    double slowest = 0.0;
+  };
+  [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
   [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
@@ -54,6 +59,7 @@ class Decider {
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
   void finish(Course& course) const;
+  [[nodiscard]] Refusal held_at_rest(const Course& course) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
 
   const Model& model_;

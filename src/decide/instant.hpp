@@ -34,6 +34,7 @@ struct Instant {
   bool start = false;  ///< of the run: what touches rigidly is decided even where nothing fails
   /// Flights lower than the rounding of their gaps are known: a series begins with g = 0 (Stepper).
   bool knows_low_flights = false;
+  double slow = 0.0;  ///< slip rates up to this one are rest, whatever their rounding
   /// Flights are flown that would be taken as rest, since they are slower than capture_velocity or not known.
   bool low_flights = false;
 

@@ -34,11 +34,11 @@ Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity
       impacts_(systems, capture_velocity),
       levels_(systems, jets) {}
 
-/// The rounding of t.v less the velocity of the surface.
+/// The rounding of t.v less the velocity of the surface, and what rests besides.
 double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
   return rounding_of(model_.contacts[c].tangent, instant.v) +
          rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
-         forcing.surface_rounding(c, instant.t);
+         forcing.surface_rounding(c, instant.t) + instant.slow;
 }
 
 /// A contact with g = 0 that is pulled back stays where its flight would be shorter than the clock resolves.
@@ -195,6 +195,7 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
       found.departures[c] = ratio;
       if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
       found.grounded = found.grounded || how == How::low;
+      found.slowest = std::max(found.slowest, m.vn);
     }
     found.stays[c] = true;
     const double zero =

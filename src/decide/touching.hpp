@@ -33,6 +33,7 @@ struct Findings {
   bool hit = false;                ///< the last decision began with an impact
   bool sliders = false;            ///< sliders that stick rigidly take part
   bool grounded = false;           ///< a flight was taken as rest for its height alone
+  double slowest = 0.0;            ///< the greatest speed of leaving that was taken as rest
   std::vector<bool> decided;       ///< took part
   std::vector<bool> kinetic;       ///< its slip has begun: the static coefficient is gone
   std::vector<bool> stays, rests;  ///< vn, vt count as zero

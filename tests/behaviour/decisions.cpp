@@ -252,6 +252,32 @@ TEST_CASE("sliders that a hit has stopped are decided with it: forces that are n
     }
 }
 
+// At rest the floor and the guide share the weight, 9.4 to 10.6 N on the floor; which, nobody says.
+TEST_CASE("a ball that comes to rest beside a guide is refused at every angle, by every engine") {
+  // It falls by 9.4 and rises against 10.6 m/s^2; each flight is as much shorter as its first speed.
+  const double hit = std::sqrt(2.0 * 9.4 * 0.2), shrinks = 0.5 * std::sqrt(9.4 / 10.6);
+  const double rest = hit / 9.4 + 0.5 * hit * (1.0 / 10.6 + 1.0 / std::sqrt(9.4 * 10.6)) / (1.0 - shrinks);
+  for (const std::string& engine : locating_engines)
+    for (const double degrees : {0.0, 1e-7, 17.3, 100.0, 179.999}) {
+      const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+      CAPTURE(engine);
+      CAPTURE(degrees);
+      const Result result = run_text(
+          fmt::format("schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n"
+                      "gravity = [{:.17g}, {:.17g}]\n[run]\nt_end = 0.6\noutput_dt = 0.3\ndt = 1e-3\n"
+                      "initial = {{ P = {{ ux = {:.17g}, uy = {:.17g} }} }}\n[nodes]\nP = [0.0, 0.0]\n"
+                      "[[masses]]\nnode = \"P\"\nmass = 1.0\n[[contacts]]\nname = \"floor\"\nnode = \"P\"\n"
+                      "law = \"rigid\"\nnormal = [{:.17g}, {:.17g}]\nfriction = 0.5\nrestitution = 0.5\n"
+                      "[[contacts]]\nname = \"guide\"\nnode = \"P\"\nlaw = \"slider\"\n"
+                      "tangent = [{:.17g}, {:.17g}]\nnormal_force = 2.0\nfriction = 0.3\n",
+                      10.0 * s, -10.0 * c, -0.2 * s, 0.2 * c, -s, c, -s, c),
+          engine);
+      CAPTURE(result.report.outcome.reason);
+      CHECK(result.report.outcome.t == doctest::Approx(rest).epsilon(2e-5));
+      CHECK(result.report.outcome.refusal.kind == Refusal::Kind::dependent);
+    }
+}
+
 TEST_CASE("a belt that turns under a block which stands on a floor turns its friction, and nothing else") {
   // 10 N on the floor bear 5 N, the belt's 2 N 0.6 N: the block stands. The belt turns at (k pi - 0.5)/5.
   const std::string text =

@@ -71,6 +71,23 @@ TEST_SUITE("behaviour/differential") {
     CHECK(confirmed > instants / 2);
   }
 
+  TEST_CASE("speeds that a hit leaves below the drift of rest are speeds: flights and slips of 1e-13 m/s") {
+    for (const std::uint64_t seed : {359U, 1701U, 4360U}) {
+      const CoupledFinding found = examine_coupled(parse_scene(draw_coupled_scene(seed), "drawn.toml"));
+      CAPTURE(seed);
+      CAPTURE(found.what);
+      CHECK(found.verdict == CoupledFinding::Verdict::agrees);
+      CHECK(found.as_told > 0);
+    }
+  }
+
+  TEST_CASE("a chatter of three contacts ends in the one motion that goes on when all of them rest") {
+    const CoupledFinding found = examine_coupled(parse_scene(draw_coupled_scene(50498), "drawn.toml"));
+    CAPTURE(found.what);
+    CHECK(found.verdict == CoupledFinding::Verdict::agrees);
+    CHECK(found.undecided == 1);
+  }
+
   TEST_CASE("continuations of Painleve's rod: one, none, two") {
     // gn'' = b + w l with w = 1 - mu 0.9 s while it slides along s.
     Question q{ExtendedMatrix(2, 2), Extended(2), Extended::Constant(2, 3.0L), {0.5}, {1}};

@@ -139,6 +139,46 @@ TEST_CASE("cli check: breakpoints in hundreds are a count") {
   CHECK(facts["discontinuities"].size() == 500);
 }
 
+TEST_CASE("cli check: what it advises can be followed") {
+  const Shell shell;
+  const std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+gravity = [0.0, -9.81]
+run = { t_end = 1.0, engine = "exact" }
+nodes = { a = [0.0, 0.0] }
+masses = [{ node = "a", mass = 1.0 }]
+contacts = [
+  { name = "p", node = "a", normal = [0.0, 1.0], friction = 0.3, LAW },
+  { name = "q", node = "a", normal = [0.0, 1.0], friction = 0.3, LAW },
+]
+)";
+  const auto check_with = [&](const std::string& law) {
+    std::string scene = text;
+    for (std::size_t at; (at = scene.find("LAW")) != std::string::npos;) scene.replace(at, 3, law);
+    shell.write("two.toml", scene);
+    return shell.run({"check", "two.toml"});
+  };
+  const Ending rigid = check_with("law = \"rigid\"");
+  CHECK(rigid.code == 3);
+  CHECK(contains(rigid.err, "give them law = \"compliant\""));
+  CHECK_FALSE(contains(rigid.err, "tangential_stiffness"));  // which "rigid" refuses
+  CHECK(check_with("law = \"rigid\", tangential_stiffness = 1e5").code == 3);
+  CHECK(check_with("law = \"compliant\", normal_stiffness = 1e5, tangential_stiffness = 1e5").code == 0);
+}
+
+TEST_CASE("cli check: parts without mass have no frequencies") {
+  const Shell shell;
+  const json facts = json::parse(
+      shell.run({"check", SIGNORINI_TEST_DATA "/scenes/robust/massless-frame.toml", "--json"}).out);
+  int count = 0;
+  for (const auto& state : facts["frequencies"])
+    for (const auto& mode : state["modes"]) {
+      CHECK(mode["omega"].get<double>() < 500.0);  // 3e19 once
+      ++count;
+    }
+  CHECK(count == 3);
+}
+
 TEST_CASE("cli check: --engine, as run has it") {
   const Shell shell;
   shell.write("belt.toml", belt(10));

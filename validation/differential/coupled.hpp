@@ -35,6 +35,7 @@ struct CoupledFinding {
   std::string what;    ///< the first difference, or the run's own sentence
   long instants = 0;   ///< looked at
   long confirmed = 0;  ///< with one continuation, which the run follows
+  long as_told = 0;    ///< of these: with speeds below what rounding may have summed up
   long unclear = 0;    ///< several, or within rounding of another, or something nearly touches
   long undecided = 0;  ///< what rounding left open, by the run's own account
   double t = 0.0;      ///< of the difference or the stop

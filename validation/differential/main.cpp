@@ -231,7 +231,7 @@ void rewrite(const std::string& name, const std::string& text, const Asked& aske
 /// Of rigid contacts that move each other.
 struct Decisions {
   std::map<std::string, long> scenes, causes;
-  long instants = 0, confirmed = 0, unclear = 0, undecided = 0;
+  long instants = 0, confirmed = 0, as_told = 0, unclear = 0, undecided = 0;
   double worst = 0.0;
 
   void print() const {
@@ -240,10 +240,10 @@ struct Decisions {
     fmt::print("\n| why a run stops: what could follow | scenes |\n|---|---|\n");
     for (const auto& [cause, count] : causes) fmt::print("| {} | {} |\n", cause, count);
     fmt::print(
-        "\n{} instants: {} with one continuation, which the run follows to {:.2g} at worst; {} unclear; {} "
-        "left "
-        "open by rounding\n",
-        instants, confirmed, worst, unclear, undecided);
+        "\n{} instants: {} with one continuation, which the run follows to {:.2g} at worst, in {} from "
+        "speeds that "
+        "may be rounding; {} unclear; {} left open by rounding\n",
+        instants, confirmed, worst, as_told, unclear, undecided);
   }
   [[nodiscard]] int exit_code() const {
     using Verdict = CoupledFinding::Verdict;
@@ -260,6 +260,7 @@ void look_at_decisions(const std::string& name, const std::string& text, Decisio
                                                          : found.cause];
   decisions.instants += found.instants;
   decisions.confirmed += found.confirmed;
+  decisions.as_told += found.as_told;
   decisions.unclear += found.unclear;
   decisions.undecided += found.undecided;
   decisions.worst = std::max(decisions.worst, found.worst);

@@ -104,6 +104,18 @@ TEST_CASE("frames: a far slide is drawn in true scale, what is left of it magnif
   CHECK(frames[0].points[0].at.ux == 0.51);
 }
 
+TEST_CASE("frames: the longest arrow is that of the run, whether or not a frame shows it") {
+  Frame frame;
+  frame.points = {{"L", true, {0.0, 0.0, 0.0, 0.0, 0.0}}, {"R", false, {10.0, 0.0, 0.0, 0.0, 0.0}}};
+  frame.forces.resize(1);
+  frame.forces[0].fy = 30.0;
+  const FrameScales of_run = scales_of({frame}, 60.0), of_frame = scales_of({frame}, 0.0);
+  CHECK(of_run.greatest_force == 60.0);
+  CHECK(of_frame.greatest_force == 30.0);
+  CHECK(of_run.force_scale == doctest::Approx(0.5 * of_frame.force_scale));
+  CHECK(scales_of(frame, of_run).force_scale == of_run.force_scale);
+}
+
 TEST_CASE("frames: one picture a frame, and --force clears them away") {
   const Folder folder;
   const Tip tip;

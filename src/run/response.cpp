@@ -206,8 +206,8 @@ void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std:
 }
 
 bool ResponseWatch::look(Stepper& engine, Part& part, double begin) {
-  for (const std::size_t point : {0, 8, 16}) sample(engine, part, begin, point);
-  for (const std::size_t stride : {4, 2, 1}) {
+  for (const std::size_t point : {0U, 8U, 16U}) sample(engine, part, begin, point);
+  for (const std::size_t stride : {4U, 2U, 1U}) {
     for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(engine, part, begin, j);
     bool left = false;
     for (std::size_t i = 0; i < samples_.size(); ++i) {

@@ -126,6 +126,12 @@ def looks(browser):
             browser.look(scheme, width)
             wider = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
             check(f"{scheme}, {name}: nothing stands out to the side ({wider})", wider <= 0)
+            check(f"{scheme}, {name}: no label of the drawing is cut", browser.run("""
+                const plan = document.getElementById('plan').getBoundingClientRect(), labels = document.querySelectorAll('#plan text');
+                return labels.length > 4 && [...labels].every(label => {
+                  const box = label.getBoundingClientRect();
+                  return box.left >= plan.left && box.right <= plan.right;
+                });"""))
             for part in ("summary", "motion", "events", "pictures"):
                 browser.run("document.getElementById(arguments[0]).scrollIntoView()", part)
                 browser.wait_for("setTimeout(arguments[0], 150)")

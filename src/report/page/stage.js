@@ -170,4 +170,9 @@ const plan = () => {
     const [x, y] = stage.place(contact.node, still, 0);
     if (few) drawn("text", { x: x - 30 * contact.nx, y: y + 30 * contact.ny + 5, "text-anchor": "middle" }, g, contact.name);
   });
+  for (const label of g.querySelectorAll("text")) {  // none ends outside
+    const box = label.getBBox(), right = box.x + box.width - (stage.wide - 2);
+    const shift = box.x < 2 ? 2 - box.x : right > 0 ? -right : 0;
+    if (shift !== 0) label.setAttribute("x", Number(label.getAttribute("x")) + shift);
+  }
 };

@@ -63,6 +63,15 @@ std::string joined(const std::vector<std::string>& tables) {
   return text;
 }
 
+/// Which cutoff a tolerance found; empty: none was looked for.
+std::string reduction_line(const Model& model) {
+  if (!model.reduction || model.reduction->tried.empty()) return "";
+  const CutoffTrial& last = model.reduction->tried.back();
+  return fmt::format(
+      "reduction: {} modes, up to {:.4g} rad/{}, error {:.2g} of the greatest displacement ({} trials)\n",
+      last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->tried.size());
+}
+
 /// What came out; `events`: their table.
 std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
                  const std::string& events, const fs::path& path) {
@@ -72,7 +81,7 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
   const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
-         "results: " + path.string() + "/ (events.csv, history.csv, " + response +
+         reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +
          "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n";
 }
 

@@ -41,6 +41,30 @@ TEST_CASE("cli run: tables on stdout, nothing on stderr, the whole directory") {
   CHECK(shell.read("belt-run/history.csv").rfind("t,block.ux,block.vx\n0,0,0\n", 0) == 0);
 }
 
+TEST_CASE("cli run: the cutoff that a tolerance found is said, in check that none was looked for") {
+  const Shell shell;
+  const std::string pipeline = std::string(SIGNORINI_MODELS) + "/pipeline.toml";
+  const std::vector<std::string> asked{pipeline, "--set", "reduction.tolerance=1e-2", "--set",
+                                       "run.t_end=2e-3"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.begin() + 1, asked.begin(), asked.end());
+    return shell.run(words);
+  };
+  const Ending ending = with({"run", "--engine", "exact", "--no-plots", "-o", "cut"});
+  CHECK(ending.code == 0);
+  const json reduction = json::parse(shell.read("cut/summary.json"))["reduction"];
+  CHECK(reduction["error"] <= 1e-2);
+  CHECK(reduction["tried"].size() >= 2);
+  CHECK(ending.out.find("reduction: " + std::to_string(reduction["modes_kept"].get<int>()) +
+                        " modes, up to ") != std::string::npos);
+  CHECK(ending.out.find("of the greatest displacement (" + std::to_string(reduction["tried"].size()) +
+                        " trials)") != std::string::npos);
+  const Ending checked = with({"check"});
+  CHECK(checked.code == 0);
+  CHECK((checked.out + checked.err).find("reduction.tolerance: this is the whole model") !=
+        std::string::npos);
+}
+
 TEST_CASE("cli run: response quantities as table, CSV, JSON and picture") {
   const Shell shell;
   shell.write("belt.toml", belt(20) +

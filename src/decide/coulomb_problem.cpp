@@ -22,8 +22,9 @@ constexpr double misses = rounding::of_elimination;
 // Responses that differ by less, of the problem's size, are the same; or by what the condition of their own
 // equations makes of `misses`. Chosen: far below what differs in Painleve's paradox.
 constexpr double same_solution = 1e-9;
-// Up to this condition; what is worse is not decided by equality.
-constexpr double most_amplified = 1e8;
+// At most this, whatever the condition. Chosen: tests/unit/decide/complementarity.cpp needs 1e-4 at a margin of
+// 1e-10, motions of Painleve's paradox differ by the size itself.
+constexpr double most_alike = 1e-3;
 
 /// The problem in units that make the diagonal of W one.
 struct Scaled {
@@ -285,12 +286,13 @@ Enumerated all_solutions(const CoulombProblem& p) {
     if (tried.miss > misses) continue;
     CoulombSolution solution = finished(p, s, tried.force, kinetic);
     // Two at the limit of friction are one motion: close to Painleve's limit what they miss moves them far.
-    const double condition = std::min(amplification(equations_of(p, s, states, kinetic).A), most_amplified);
+    const double condition = amplification(equations_of(p, s, states, kinetic).A);
     bool known = false;
     for (std::size_t k = 0; k < found.size() && !known; ++k) {
       const VectorXd& other = found[k].response;
       const double size = s.b.cwiseAbs().maxCoeff() + inverse.cwiseProduct(other).cwiseAbs().maxCoeff();
-      const double same = std::max(same_solution, misses * std::max(condition, conditions[k]));
+      const double amplified = misses * std::max(condition, conditions[k]);
+      const double same = std::max(same_solution, std::min(amplified, most_alike));
       known = inverse.cwiseProduct(solution.response - other).cwiseAbs().maxCoeff() <= same * size;
     }
     if (known) continue;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact/friction.hpp"
 #include "contact/motion.hpp"
 #include "decide/delassus.hpp"
 #include "decide/places.hpp"
@@ -25,6 +26,17 @@ void apply(const std::vector<Enumeration::Choice>& choices, std::size_t code, Mo
     mode[choice.contact] = choice.states[code % choice.states.size()];
     code /= choice.states.size();
   }
+}
+
+/// Between static and kinetic friction what sticks may slip as well: that is the law, and it sticks.
+bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
+  for (std::size_t c = 0; c < one.size(); ++c) {
+    if (one[c] == other[c]) continue;
+    const Contact& contact = model.contacts[c];
+    const bool lets_go = one[c].state == State::stick && slip_sign(other[c].state) != 0;
+    if (!lets_go || !(static_friction(contact) > contact.friction.kinetic)) return false;
+  }
+  return true;
 }
 
 /// "'first' stick, 'second' slip+": of the contacts in question.
@@ -139,9 +151,10 @@ std::optional<Enumeration::Best> Enumeration::least_failing(const Instant& insta
     if (best && weighed->forgiveness >= best->forgiveness) continue;
     best = Best{std::move(tried), weighed->forgiveness, 1.0, {}};
   }
-  // Two that hold must go on alike.
+  // Two that hold must go on alike; the first of them is the best.
   for (std::size_t i = 1; i < holding.size() && best->rival.empty(); ++i)
-    if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest))
+    if (!((holding[i].second - holding[0].second).norm() <= same_acceleration * greatest) &&
+        !differ_by_law(model_, holding[0].first, holding[i].first))
       best->rival = holding[i].first;
   if (!best) return best;
   std::vector<std::size_t> contacts;

@@ -18,6 +18,24 @@ Result run(const std::string& name, const std::string& engine, const std::vector
   return simulate(build_model(scene), scene.run);
 }
 
+/// Both feet do the same to the end, and more than `least` things.
+void check_feet(const Result& result, std::size_t least) {
+  std::vector<Event> feet[2];
+  for (const Event& event : result.events)
+    if (event.contact >= 0) feet[event.contact].push_back(event);
+  REQUIRE(feet[0].size() == feet[1].size());
+  CHECK(feet[0].size() > least);
+  for (std::size_t i = 0; i < feet[0].size(); ++i) {
+    const Event &left = feet[0][i], &right = feet[1][i];
+    CAPTURE(left.t);
+    CHECK(left.type == right.type);
+    if (left.type == EventType::impact)  // together: one after the other they would end otherwise
+      CHECK(left.t == right.t);
+    else
+      CHECK(std::abs(left.t - right.t) < 1e-12);
+  }
+}
+
 /// The same events, at times that differ by so much at most.
 void check_events(const Result& reference, const Result& other, double off) {
   CHECK(other.report.outcome.reason == "");
@@ -72,22 +90,29 @@ TEST_SUITE("behaviour/awkward") {
 
   TEST_CASE("a symmetric trestle: both feet do the same to the end") {
     const Result result = run("symmetric-trestle", "exact");
-    std::vector<Event> feet[2];
-    for (const Event& event : result.events)
-      if (event.contact >= 0) feet[event.contact].push_back(event);
-    REQUIRE(feet[0].size() == feet[1].size());
-    CHECK(feet[0].size() > 50);
-    for (std::size_t i = 0; i < feet[0].size(); ++i) {
-      const Event &left = feet[0][i], &right = feet[1][i];
-      CAPTURE(left.t);
-      CHECK(left.type == right.type);
-      if (left.type == EventType::impact)  // together: one after the other they would end otherwise
-        CHECK(left.t == right.t);
-      else
-        CHECK(std::abs(left.t - right.t) < 1e-12);
-    }
+    check_feet(result, 50);
     // What `ida` finds: nothing but rounding stood between the feet.
     check_events(result, run("symmetric-trestle", "ida"), 1e-6);
+  }
+
+  // Its landings are known to the rounding of a sum over modes, and flights shorter than that end there: half as
+  // many hits as in series, whose flights begin with g = 0.
+  TEST_CASE("a symmetric trestle in complex modes: both feet do the same, and hits say how sharp they are") {
+    const Result modes = run("symmetric-trestle", "exact", {{"run.flow", "modal"}});
+    CHECK(modes.report.outcome.reason == "");
+    check_feet(modes, 20);
+    const Result series = run("symmetric-trestle", "exact", {{"run.flow", "taylor"}});
+    double sharpest = 1.0;
+    for (std::size_t i = 0; i < modes.events.size() && modes.events[i].t < 0.0302; ++i) {
+      const Event &one = modes.events[i], &other = series.events[i];
+      CAPTURE(other.t);
+      REQUIRE(one.type == other.type);
+      const double uncertainty = one.t_uncertainty.value_or(0.0);
+      CHECK(std::abs(one.t - other.t) <= 2.0 * uncertainty + 1e-12);
+      if (one.type == EventType::impact) sharpest = std::min(sharpest, uncertainty);
+    }
+    CHECK(sharpest > 1e-11);
+    CHECK(sharpest < 1e-9);
   }
 
   TEST_CASE("massless members with beta K: their rotation as one body has no damper") {

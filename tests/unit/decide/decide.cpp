@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "contact/slots.hpp"
 #include "decide/driven_states.hpp"
 
@@ -194,6 +196,34 @@ TEST_CASE("what a decision took for rest at the limit of friction is rounding to
     }
   }
   CHECK(resting > 100);
+}
+
+TEST_CASE("a limit that has rested: what the way has left of it is rounding to an engine") {
+  const Model model = blocks({{2.0}}, {0.4 * (1.0 + 1e-9)}, 0.4);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  const Forcing forcing(model, 1.0, Side::after);
+  const auto decided = [&](std::vector<Fired> rested) {
+    Instant instant;
+    instant.t = 1.0;
+    instant.resolution = 1e-14;
+    instant.u = instant.v = Vector::Zero(1);
+    instant.mode = {{State::stick, 0.0}};
+    instant.jump = true;
+    instant.rested = std::move(rested);
+    return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+  };
+  CHECK(decided({}).mode[0].state == State::slip_plus);
+  const Decision d = decided({{0, Guard::slip_plus}});
+  REQUIRE(d.consistent);
+  CHECK(d.mode[0].state == State::stick);
+  const auto limit = std::find_if(d.guards.begin(), d.guards.end(),
+                                  [](const GuardStart& guard) { return guard.kind == Guard::slip_plus; });
+  REQUIRE(limit != d.guards.end());
+  CHECK(limit->at_zero);
+  CHECK(limit->leading < 0);
+  CHECK(limit->form.value(d.after[0]) < -3e-10);
+  CHECK(limit->noise >= -limit->form.value(d.after[0]));
 }
 
 TEST_CASE("what an engine saw fall does not rise, whatever rounding has left of its rate") {

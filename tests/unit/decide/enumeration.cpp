@@ -47,6 +47,45 @@ TEST_CASE("two combinations that go on otherwise are rivals, and are named") {
         "several motions continue this one, as 'c' open and as 'c' slip+");
 }
 
+TEST_CASE("between static and kinetic friction a block at rest sticks; slipping is no rival") {
+  // 10 N on the floor and 4 N along it, between 3 and 5: slipping from rest would hold with 1 m/s^2.
+  const auto asked = [](const char* friction) {
+    const Scene scene = parse_scene(
+        matrix_scene(
+            "t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+            "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+            std::string("law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nfriction = ") +
+                friction,
+            "[[loads]]\ndirection = { d0 = 4.0, d1 = -10.0 }\namplitude = 1.0\n"),
+        "block.toml");
+    const Model model = build_model(scene);
+    const Structure structure(model);
+    ModeSystems systems(model, structure);
+    JetMaker jets(systems);
+    Enumeration enumeration(systems, jets);
+    const Forcing forcing(model, 0.0, Side::after);
+    Instant instant;
+    instant.u = model.u0;
+    instant.v = model.v0;
+    instant.mode = {{State::open, 0.0}};
+    KnownGuards known;
+    known.touches = true;
+    known.closing.zeros = 2;
+    known.sliding.zeros = 1;
+    const std::vector<Enumeration::Choice> choices{enumeration.choice(Participant{0})};
+    return enumeration.least_failing(instant, forcing, {0}, choices, {known}, instant.mode);
+  };
+  const auto between = asked("{ static = 0.5, kinetic = 0.3 }");
+  REQUIRE(between);
+  CHECK(between->forgiveness == 0.0);
+  CHECK(between->rival.empty());
+  CHECK(between->mode[0].state == State::stick);
+  const auto above = asked("{ static = 0.35, kinetic = 0.3 }");
+  REQUIRE(above);
+  CHECK(above->rival.empty());
+  CHECK(above->mode[0].state == State::slip_plus);
+}
+
 TEST_CASE("the condition is that of the forces that contacts can bear") {
   // Two masses that move each other: a frictionless floor under one, a slider under the other.
   const Scene scene = parse_scene(

@@ -74,7 +74,7 @@ class CompanionTask {
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
   [[nodiscard]] Track track() {
-    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at};
+    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at, report_.graze};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;

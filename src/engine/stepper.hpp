@@ -80,6 +80,9 @@ class Stepper {
   /// The modes that it follows motions in; null: it knows none.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
 
+  /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
+  [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }
+
   /// Brings `counters` up to date.
   virtual void count() {}
 

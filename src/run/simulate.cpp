@@ -321,6 +321,7 @@ class Loop {
     if (observer_) observer_->end(t_);
     engine_->count();
     report_.counters = engine_->counters;
+    report_.graze = engine_->graze();
     log_.finish();
     if (motion_.last() < t_) motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
     if (curves_.last() < t_) add_curves(t_, t_);

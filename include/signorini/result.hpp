@@ -164,13 +164,6 @@ struct OutputExtremes {
   double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, where several are equal to rounding
 };
 
-/// A condition of a contact that came back into its tolerance and left it without a fall that steps could show.
-struct Graze {
-  double t = 0.0;
-  int contact = -1;
-  std::string guard;  ///< "separation", "sliding"
-};
-
 /// Which engine computes, and how.
 struct Method {
   Engine engine = Engine::ida;  ///< never automatic
@@ -194,8 +187,6 @@ struct Report {
   long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
   /// When the first of them took states that fail by more than their rounding; empty: never.
   std::optional<double> forgiven_at;
-  /// Of ida: the first of them. A smaller tolerance tells whether it fell.
-  std::optional<Graze> graze;
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration without reading and assembling
 };

@@ -25,7 +25,8 @@
 #include <string>
 #include <vector>
 
-#include "signorini/result.hpp"
+#include "engine/graze.hpp"
+#include "signorini/event.hpp"
 
 namespace signorini {
 
@@ -55,7 +56,7 @@ struct Track {
   std::string stop;  ///< why it reached no more; empty at t_end
   /// When rounding first left several states open (Report::forgiven_at).
   std::optional<double> forgiven_at = {};
-  /// Of a companion: what it leaves open, it cannot tell of the run (Report::graze).
+  /// Of a companion: what it leaves open, it cannot tell of the run.
   std::optional<Graze> graze = {};
 };
 

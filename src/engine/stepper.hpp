@@ -11,6 +11,7 @@
 
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
+#include "engine/graze.hpp"
 #include "motion/powers.hpp"
 #include "motion/series.hpp"
 #include "signorini/result.hpp"

@@ -90,7 +90,6 @@ Report physical(Report report, const Factors& of) {
   const ToScene convert(of);
   convert(unit::time, {&report.outcome.t});
   if (report.forgiven_at) convert(unit::time, {&*report.forgiven_at});
-  if (report.graze) convert(unit::time, {&report.graze->t});
   convert(report.audit);
   for (Peak& peak : report.peaks) {
     convert(unit::length, {&peak.tangential, &peak.normal});

@@ -319,9 +319,13 @@ class Loop {
   void finish() {
     report_.outcome.t = t_;
     if (observer_) observer_->end(t_);
+    if (observer_ && engine_->graze()) {
+      Graze graze = *engine_->graze();
+      graze.t *= model_.unit.time;
+      observer_->graze(graze);
+    }
     engine_->count();
     report_.counters = engine_->counters;
-    report_.graze = engine_->graze();
     log_.finish();
     if (motion_.last() < t_) motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
     if (curves_.last() < t_) add_curves(t_, t_);

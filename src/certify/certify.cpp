@@ -20,6 +20,7 @@
 #include "certify/truncation.hpp"
 #include "run/choose_engine.hpp"
 #include "run/engines.hpp"
+#include "run/observer.hpp"
 
 namespace signorini {
 namespace {
@@ -54,6 +55,16 @@ class QuietThread {
   std::thread thread_;
 };
 
+/// What a companion leaves open.
+class FirstGraze final : public MotionObserver {
+ public:
+  void begin(const ObservedInstant& /*start*/) override {}
+  void step(const ObservedStep& /*step*/) override {}
+  void instant(const ObservedInstant& /*instant*/) override {}
+  void graze(const Graze& graze) override { first = graze; }
+  std::optional<Graze> first;
+};
+
 /// One companion, from its beginning to its end.
 class CompanionTask {
  public:
@@ -66,7 +77,7 @@ class CompanionTask {
   /// Keeps what goes wrong: a companion never ends its run.
   void compute() {
     try {
-      report_ = simulate(run_.model, run_.run, tracker_);
+      report_ = simulate(run_.model, run_.run, tracker_, grazes_);
     } catch (const std::exception& error) {
       failure_ = error.what();
     }
@@ -74,7 +85,7 @@ class CompanionTask {
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
   [[nodiscard]] Track track() {
-    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at};
+    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at, grazes_.first};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
@@ -92,6 +103,7 @@ class CompanionTask {
  private:
   CompanionRun run_;
   Tracker tracker_;
+  FirstGraze grazes_;
   Report report_;
   std::string failure_;
 };

@@ -78,6 +78,12 @@ class Judge {
         horizon_.at(
             *track->forgiven_at,
             fmt::format("at t = {:.9g} rounding left several states of contacts open", *track->forgiven_at));
+    if (const auto& graze = companion.graze)
+      horizon_.at(
+          graze->t,
+          fmt::format("the {} of '{}' comes back into the companion's tolerance at t = {:.9g} and leaves it "
+                      "without an event: whether it fell there is told by a smaller rtol, or by exact",
+                      graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
     if (companion.reached < run_.reached)
       horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
   }

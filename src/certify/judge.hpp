@@ -12,7 +12,8 @@
 //
 //   c R_k max(r, 1) >= |r - 1|        R: |r - r'| / max(r, r', 1)
 //
-// Both runs may decide such a thing alike, and wrongly. Or where rounding left several states open.
+// Both runs may decide such a thing alike, and wrongly. Or where a guard came back into the companion's tolerance
+// and left it without a fall (engine/falls/grazes.hpp), or rounding left several states open.
 //
 // Events of jumps of loads happen at a time that is known: their error is rounding, and D knows nothing of
 // them.
@@ -24,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/graze.hpp"
 #include "signorini/event.hpp"
 
 namespace signorini {
@@ -54,6 +56,8 @@ struct Track {
   std::string stop;  ///< why it reached no more; empty at t_end
   /// When rounding first left several states open (Report::forgiven_at).
   std::optional<double> forgiven_at = {};
+  /// Of a companion: what it leaves open, it cannot tell of the run.
+  std::optional<Graze> graze = {};
 };
 
 struct Verdict {

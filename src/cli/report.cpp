@@ -247,11 +247,13 @@ std::string certification(const Model& model, const CertifiedReport& run) {
           ? "certain to the end"
           : fmt::format("certain to t = {:.9g} {}, where the run ended", c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
-  const std::string times = fmt::format("times within {:.1e} {}", greatest, model.units.time);
+  // Before the first event there are no times that could be off.
+  const std::string times =
+      c.certain_events() == 0 ? "" : fmt::format(", times within {:.1e} {}", greatest, model.units.time);
   std::string text =
       c.complete
-          ? fmt::format("{}: all {} rows of events, {} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certain until t = {:.9g} {}: {} of {} rows of events, {} ({}); then {}\n", c.until,
+          ? fmt::format("{}: all {} rows of events{} ({})\n", to_end, c.t_errors.size(), times, beside)
+          : fmt::format("certain until t = {:.9g} {}: {} of {} rows of events{} ({}); then {}\n", c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certain\n",

@@ -11,6 +11,7 @@
 
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
+#include "engine/graze.hpp"
 #include "motion/powers.hpp"
 #include "motion/series.hpp"
 #include "signorini/result.hpp"
@@ -79,6 +80,9 @@ class Stepper {
   [[nodiscard]] virtual Expansion expansion() const { return {}; }
   /// The modes that it follows motions in; null: it knows none.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
+
+  /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
+  [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }
 
   /// Brings `counters` up to date.
   virtual void count() {}

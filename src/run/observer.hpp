@@ -39,6 +39,8 @@ class MotionObserver {
   virtual void instant(const ObservedInstant& instant) = 0;
   /// The run ends here, between events.
   virtual void end(double /*t*/) {}
+  /// After the end: the first of them, its time in the units of the scene.
+  virtual void graze(const Graze& /*graze*/) {}
 };
 
 /// signorini/simulate.hpp, and the observer follows: of any engine.

@@ -319,6 +319,11 @@ class Loop {
   void finish() {
     report_.outcome.t = t_;
     if (observer_) observer_->end(t_);
+    if (observer_ && engine_->graze()) {
+      Graze graze = *engine_->graze();
+      graze.t *= model_.unit.time;
+      observer_->graze(graze);
+    }
     engine_->count();
     report_.counters = engine_->counters;
     log_.finish();

@@ -267,6 +267,58 @@ TEST_CASE("certified: the run itself is the same to the last digit, and auto lea
   CHECK(alone.why_not.find("2 times the run") != std::string::npos);
 }
 
+// A foot that rests on its ground without force at the start and opens for 3e-5 s, 5e-11 m high (random scene 411).
+// At 1e-6 its force is below the run's tolerance all the while, and at 1e-8 below that of the companion: both miss
+// it, and call its second opening the first.
+TEST_CASE("certified: what neither the run nor its companion can see is not certain") {
+  const char* text = R"(
+    schema = 1
+    units = { force = "N", mass = "kg", length = "m", time = "s" }
+    gravity = [0.0, -9.81]
+    run = { t_end = 0.01, engine = "ida", certify = true, initial = { B = { vx = -0.2, vy = -0.22 } } }
+    sections.beam = { EA = 10000, EI = 500, mass_per_length = 4 }
+    damping = { alpha = 10, beta = 0.0001 }
+    nodes = { A = [0, 0], B = [0.775, 0], D = [1.55, 0] }
+    members = [ { nodes = ["A", "B", "D"], section = "beam", elements = 2 } ]
+    supports = [ { node = "A", fix = ["ux", "uy", "rz"] } ]
+    [base_motion]
+    direction = [1.0, 0.2]
+    acceleration = { type = "harmonic", amplitude = 11.2265, omega = 202.64 }
+    [[loads]]
+    node = "B"
+    direction = [-0.5, -1]
+    amplitude = 198.12
+    history = { type = "harmonic", omega = 88.03, phase = 0 }
+    [[contacts]]
+    name = "footD"
+    node = "D"
+    law = "compliant"
+    normal = [0.0, 1.0]
+    gap = 0
+    normal_stiffness = 10000
+    tangential_stiffness = 10000
+    normal_damping = 10
+    friction = 0
+  )";
+  const auto run = [&](const char* rtol, const char* companion) {
+    const Scene scene = parse_scene(text, "foot.toml", {{"run.rtol", rtol}, {"run.companion", companion}});
+    CertifiedCase c{scene, build_model(scene), {}, {}};
+    c.certificate = std::move(*simulate_certified(c.model, scene.run, c.rows).certificate);
+    return c;
+  };
+  const CertifiedCase blind = run("1e-6", "finer"), sharp = run("1e-10", "finer"),
+                      exact = run("1e-6", "exact");
+  REQUIRE(sharp.rows.events.size() == 3);
+  CHECK(sharp.certificate.certain(2));
+  CHECK(sharp.rows.events[0].t == doctest::Approx(1.4233069086e-4).epsilon(1e-8));
+  REQUIRE(blind.rows.events.size() == 1);
+  CHECK_FALSE(blind.certificate.certain(0));
+  CHECK(blind.certificate.until == doctest::Approx(sharp.rows.events[1].t).epsilon(0.5));
+  CHECK(blind.certificate.reason.find(
+            "the compression of 'footD' comes back into the companion's tolerance") == 0);
+  CHECK_FALSE(exact.certificate.certain(0));
+}
+
 TEST_CASE("certified: a run that is interrupted ends its companion") {
   class Impatient : public Recorder {
    public:

@@ -347,7 +347,7 @@ TEST_CASE("cli run: a certified run that stops says so in every file, and to whe
   CHECK(ending.code == 4);
   CHECK(has(ending.err, "the computation stopped early, at t = 0.4 s: 2 events at one instant"));
   // The companion stops as the run does, some roundings earlier or later.
-  CHECK(has(ending.out, "certain until t = 0.4 s: 2 of 2 rows of events"));
+  CHECK(has(ending.out, "certain until t = 0.4 s: 2 of 2 rows of events, times within "));
   CHECK_FALSE(has(ending.out, "certain to the end"));
   const json summary = json::parse(shell.read("balls-run/summary.json"));
   CHECK(summary["outcome"]["kind"] == "stopped");

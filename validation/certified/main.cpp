@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "certify/companion.hpp"
@@ -35,6 +36,7 @@ struct Asked {
   long random = 0, from = 1;
   double seconds = 20.0;  ///< a run may take
   std::vector<std::string> changes;
+  std::FILE* rows = nullptr;  ///< scene, row, bound, error
 };
 
 /// Ends a run after its time.
@@ -94,10 +96,11 @@ struct Answers {
 };
 
 void judge_run(const std::string& name, const Track& track, const Certificate& certificate,
-               const Truth& truth, std::size_t contacts, Tally& tally) {
+               const Truth& truth, std::size_t contacts, Tally& tally, std::FILE* rows) {
   const Answers answers(truth, contacts);
   std::vector<std::size_t> next(contacts, 0);
   std::vector<bool> astray(contacts, false);
+  double greatest = 0.0;  // bound
   for (std::size_t i = 0; i < track.events.size(); ++i) {
     const TimedEvent& event = track.events[i];
     if (!event.is_change()) continue;
@@ -105,6 +108,7 @@ void judge_run(const std::string& name, const Track& track, const Certificate& c
     const std::size_t number = next[k]++;
     const bool certain = certificate.certain(i);
     const double off_by = certain ? certificate.t_errors[i] : 0.0;
+    greatest = std::max(greatest, off_by);
     if (event.t + off_by >= truth.certificate.until) continue;  // nobody knows
     ++tally.events;
     tally.certain += certain ? 1 : 0;
@@ -127,12 +131,25 @@ void judge_run(const std::string& name, const Track& track, const Certificate& c
     const double bound = off_by, off = std::abs(event.t - answer->event->t);
     if (!event.fell || answer->error * sharper > bound) continue;
     ++tally.judged;
-    if (off > 0.0) tally.overestimates.push_back(bound / off);
+    if (off > 0.0) {
+      tally.overestimates.push_back(bound / off);
+      if (rows != nullptr) fmt::print(rows, "{},{},{:.6g},{:.6g}\n", name, i + 1, bound, off);
+    }
     if (off <= bound) continue;
     ++tally.outside;
     fmt::print(stderr, "{}: row {} at {:.12g} is off by {:.3g}, bound {:.3g}\n", name, i + 1, event.t, off,
                bound);
   }
+  // What the exact flow has and a run that is called certain has not.
+  const double known = std::min({certificate.until, track.reached, truth.certificate.until});
+  for (std::size_t k = 0; k < contacts; ++k)
+    for (std::size_t number = next[k]; number < answers.of_contact[k].size() && !astray[k]; ++number) {
+      const auto& [event, error] = answers.of_contact[k][number];
+      if (event->t + error + greatest >= known) break;
+      ++tally.wrong;
+      fmt::print(stderr, "{}: an event of exact at {:.12g}, {}, is missing before {:.12g}\n", name, event->t,
+                 to_string(event->type), known);
+    }
 }
 
 using Setting = std::pair<double, Companion>;
@@ -167,7 +184,7 @@ void examine(const std::string& name, const Scene& scene, const Asked& asked,
       tally.wait_seconds += report.certificate->wait;
       const Track track{std::move(tracker.events), report.report.outcome.t, ""};
       judge_run(fmt::format("{}, rtol {:g}, {}", name, rtol, report.certificate->companion), track,
-                *report.certificate, *truth, model.contacts.size(), tally);
+                *report.certificate, *truth, model.contacts.size(), tally, asked.rows);
     }
   }
 }
@@ -235,6 +252,14 @@ int main(int argc, char** argv) {
   app.add_option("--rtol", asked.rtols, "tolerances of ida")->delimiter(',');
   app.add_option("--seconds", asked.seconds, "a run may take");
   app.add_option("--set", asked.changes, "PATH=VALUE in each SCENE");
+  std::string rows;
+  app.add_option("--rows", rows, "a file for each event's bound and error");
   CLI11_PARSE(app, argc, argv);
-  return run(asked);
+  if (!rows.empty() && (asked.rows = std::fopen(rows.c_str(), "w")) == nullptr) {
+    fmt::print(stderr, "{}: cannot be written\n", rows);
+    return 3;
+  }
+  const int code = run(asked);
+  if (asked.rows != nullptr) std::fclose(asked.rows);
+  return code;
 }

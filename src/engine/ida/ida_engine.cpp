@@ -72,6 +72,8 @@ bool IdaEngine::knows_low_flights() const {
 }
 
 void IdaEngine::start(const Segment& segment) {
+  grazes_.end(fallen_);
+  fallen_.clear();
   segment_ = segment;
   steps_ = 0;
   const Decision& decision = *segment.decision;
@@ -87,6 +89,7 @@ void IdaEngine::start(const Segment& segment) {
     if (guard.at_zero) level += 2.0 * std::abs(guard.form.value(motion));
     levels.push_back(level);
   }
+  grazes_.start(decision.guards, levels);
   watch_.start(decision.guards, std::move(levels));
   bdf_.start(segment, watch_);
   const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
@@ -138,7 +141,10 @@ Step IdaEngine::advance() {
   history_.prepare(bdf.order);
   ++steps_;
   step.resolution = resolution_at(bdf.end, bdf.end - bdf.begin);
-  if (const auto event = first_event(bdf, step.resolution)) {
+  const auto event = first_event(bdf, step.resolution);
+  grazes_.see(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
+  if (event) {
+    fallen_ = {event->slot};
     step.kind = Step::Kind::event;
     step.end = event->time;
     step.fired = {{contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind}};
@@ -227,6 +233,12 @@ void IdaEngine::integrate(double from, double to, Works& works) {
     const Contact& contact = model_.contacts[k];
     works.damping += inside_loss(contact, mode[k].state, contact.gap_at(first.u), contact.gap_at(last.u));
   }
+}
+
+std::optional<Graze> IdaEngine::graze() const {
+  const auto& first = grazes_.first();
+  if (!first) return std::nullopt;
+  return Graze{first->t, static_cast<int>(contact_of_guard(first->slot)), to_string(first->guard)};
 }
 
 /// One tolerance; a guard that started at zero and never clearly rose is seen to fall at minus its level.

@@ -6,6 +6,7 @@
 // Works are integrals of the polynomials through the powers at the ends of steps.
 #pragma once
 
+#include "engine/falls/grazes.hpp"
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/watch.hpp"
 #include "engine/ida/bdf_integrator.hpp"
@@ -31,6 +32,7 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
                                    std::size_t contact) const override;
   [[nodiscard]] bool knows_low_flights() const override;
+  [[nodiscard]] std::optional<Graze> graze() const override;
 
  private:
   struct Located {
@@ -51,6 +53,8 @@ class IdaEngine final : public Stepper {
   BdfIntegrator bdf_;
   StepHistory history_;
   Watch watch_;
+  Grazes grazes_;
+  std::vector<std::size_t> fallen_;  // guards whose falls ended the segment
   ShortFlight flights_;
   std::optional<Step> flight_;  // the step that a short flight has taken
   Segment segment_;

@@ -114,6 +114,18 @@ TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") 
   CHECK(verdict.first_uncertain == 1);
 }
 
+TEST_CASE("judge: what a companion leaves open ends it, what the run leaves open does not") {
+  Track run = track({1.0, 2.0, 3.0}), other = run;
+  run.graze = Graze{1.5, 1, "separation"};
+  CHECK(certain(judge(run, {other}, 2.0, names)) == 3);
+  other.graze = Graze{2.5, 1, "separation"};
+  const Verdict verdict = judge(run, {other}, 2.0, names);
+  CHECK(verdict.until == 2.5);
+  CHECK(certain(verdict) == 2);
+  CHECK(verdict.reason.find("the separation of 'B' comes back into the companion's tolerance at t = 2.5") ==
+        0);
+}
+
 TEST_CASE("judge: a companion that stopped certifies up to there") {
   Track other = track({1.0, 2.0}, 2.5);
   other.stop = "the companion stopped: it could not go on";

@@ -1,0 +1,15 @@
+// graze.hpp: what an engine leaves open: a guard that came back into its tolerance and left it without a fall that
+// its steps could show. A smaller tolerance tells whether it fell.
+#pragma once
+
+#include <string>
+
+namespace signorini {
+
+struct Graze {
+  double t = 0.0;
+  int contact = -1;
+  std::string guard;  ///< to_string(Guard): "compression", "slip rate"
+};
+
+}  // namespace signorini

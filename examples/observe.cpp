@@ -5,15 +5,13 @@
 struct Watch : signorini::Result {
   int slips = 0;
   void event(const signorini::Event& event) override {
-    Result::event(event);
     if (event.type == signorini::EventType::slip) std::printf("slip %d at %.6f\n", ++slips, event.t);
   }
   bool progress(double) override { return slips < 3; }  // asked at every step; false ends the run
 };
 
 int main() {
-  const auto scene = signorini::read_scene("models/belt.toml");
   Watch watch;
-  const auto report = signorini::simulate(signorini::build_model(scene), scene.run, watch);
+  const auto report = simulate(signorini::read_scene("models/belt.toml"), watch);
   return report.outcome.kind == signorini::Outcome::Kind::interrupted && watch.slips == 3 ? 0 : 1;
 }

@@ -86,6 +86,8 @@ struct Contact {
   double initial_shear = 0.0;
   int initial_slip = 0;  ///< sign of the slip at t = 0, which T alone does not tell below the static limit
   std::shared_ptr<const OwnLaw> own;  ///< compliant: what stands in place of its rows and guards
+  std::size_t own_state = 0;          ///< where that law begins: its state
+  double own_memory = 0.0;            ///< and p
 
   [[nodiscard]] bool has_gap() const { return signorini::has_gap(law); }
   [[nodiscard]] bool has_spring() const { return signorini::has_spring(law); }

@@ -3,10 +3,12 @@
 //   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
 //
 // u, v, a are forms on the model's degrees of freedom. What is given (loads within a member, supports that
-// move, the base) stands in the histories h_i, weight in the constant. All in the unit of the output.
+// move, the base) stands in the histories h_i, weight in the constant. All in the unit of the output. What is
+// of a load says of which, since a load may be changed while a run is on its way (Steering).
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "signorini/contact.hpp"
@@ -23,7 +25,13 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
-  std::vector<History> given = {};
+  struct Given {
+    History history;        ///< in the unit of the output
+    std::string load = {};  ///< Model::loads, by name; empty: of no load
+    double factor = 1.0;    ///< history = factor * the load's
+    Unit of_load = {};      ///< unit of the load's history
+  };
+  std::vector<Given> given = {};
   double constant = 0.0;
   std::optional<std::size_t> loss = {};  ///< of this contact; nothing else counts then
 };

@@ -15,8 +15,9 @@
 //   scene.contacts[0].own = pad;
 //
 // The contact is `compliant` besides: its normal_stiffness is the size of the law's stiffness, by which
-// tolerances, scales and frequencies go. It starts in state 0 with p = 0; guards that do not hold there lead on
-// at once, as after every instant, until all hold. A static start knows built-in laws only.
+// tolerances, scales and frequencies go. It starts in state 0 with p = 0, or where last_state() has left it;
+// guards that do not hold there lead on at once, as after every instant, until all hold. A static start knows
+// built-in laws only.
 // Energy: all that such a contact takes, what it stores too, counts as its friction work; conditions (6) and (7)
 // are not its own and are not audited. Files show the kind of a state; a change between two closed states is a
 // `stick` where it ends a slip, else a `slip`.

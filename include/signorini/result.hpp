@@ -23,6 +23,7 @@ namespace signorini {
 struct ContactSample {
   State state = State::open;
   double gap = 0.0, ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
+  double memory = 0.0;  ///< p of a law of one's own
 };
 
 /// The energies at one instant; dissipations and works since t = 0. Unit: force * length.
@@ -73,8 +74,8 @@ class Steering {
  public:
   virtual ~Steering() = default;
   /// From the present instant on the load of this name ("load 1", or its own) is another function of the time
-  /// of the run, amplitude included. Errors: SceneError for a name that is no force or moment, for a history
-  /// that the engine refuses, and where outputs hold the loads (reactions, members' forces).
+  /// of the run, amplitude included; outputs follow. Errors: SceneError for a name that is no force or moment,
+  /// and for a history that the engine refuses.
   virtual void set_load(const std::string& name, const History& history) = 0;
 };
 

@@ -47,17 +47,17 @@ struct HistorySpec {
   double amplitude = 1.0;
   double start = 0.0;
   double end = std::numeric_limits<double>::infinity();
-  double omega = 0.0;                 ///< harmonic: rad per time
-  double phase = 0.0;                 ///< harmonic: rad
-  std::vector<double> coefficients;   ///< polynomial: ascending powers of (t - start)
-  std::vector<double> times, values;  ///< table
-  bool steffen = false;               ///< table: interpolation = "steffen"
-  bool start_given = false;           ///< without it a constant holds since ever
-  bool hold = false;                  ///< table: the last value holds from the last time on
-  double shift = 0.0;                 ///< all of it later by this
-  double period = 0.0;                ///< > 0: the shape begins anew every so long, `rounds` times
+  double omega = 0.0;                           ///< harmonic: rad per time
+  double phase = 0.0;                           ///< harmonic: rad
+  std::vector<double> coefficients = {};        ///< polynomial: ascending powers of (t - start)
+  std::vector<double> times = {}, values = {};  ///< table
+  bool steffen = false;                         ///< table: interpolation = "steffen"
+  bool start_given = false;                     ///< without it a constant holds since ever
+  bool hold = false;                            ///< table: the last value holds from the last time on
+  double shift = 0.0;                           ///< all of it later by this
+  double period = 0.0;                          ///< > 0: the shape begins anew every so long, `rounds` times
   int rounds = 1;
-  SourcePlace place;
+  SourcePlace place = {};
   /// Of scenes made in code: this history is the shape, whatever the type and its keys say.
   std::optional<History> in_code = {};
 
@@ -70,10 +70,10 @@ struct HistorySpec {
 
 /// A direction in the space of displacements: a node and a plane vector, or degrees of freedom by name.
 struct Direction {
-  std::string node;
+  std::string node = {};
   std::array<double, 2> vector{0.0, 0.0};
-  std::vector<std::pair<std::string, double>> dofs;
-  SourcePlace place;
+  std::vector<std::pair<std::string, double>> dofs = {};
+  SourcePlace place = {};
   /// Nodes whose displacements, times their weights, are subtracted: what the node touches.
   std::vector<std::pair<std::string, double>> against = {};
 };
@@ -99,13 +99,13 @@ struct RunSpec {
   double t_end = 0.0;
   Engine engine = Engine::ida;
   double rtol = 1e-8;
-  Tolerances atol;
-  std::optional<double> output_dt;  ///< grid 0, dt, 2 dt, ..., t_end
-  std::optional<std::vector<double>> output_times;
-  std::vector<double> frames;    ///< times of deformed shapes, strictly ascending, in [0, t_end]
-  std::optional<int> max_order;  ///< ida: 1 to 5; absent: "auto"
-  int max_events_at_once = 100;  ///< rounds of state changes at one instant before the run stops
-  std::optional<double> dt;      ///< newmark, friction-iteration: the step; doubling: the greatest one
+  Tolerances atol = {};
+  std::optional<double> output_dt = {};  ///< grid 0, dt, 2 dt, ..., t_end
+  std::optional<std::vector<double>> output_times = {};
+  std::vector<double> frames = {};    ///< times of deformed shapes, strictly ascending, in [0, t_end]
+  std::optional<int> max_order = {};  ///< ida: 1 to 5; absent: "auto"
+  int max_events_at_once = 100;       ///< rounds of state changes at one instant before the run stops
+  std::optional<double> dt = {};      ///< newmark, friction-iteration: the step; doubling: the greatest one
   Refine refine = Refine::root;
   StepControl step = StepControl::fixed;
   Flow flow = Flow::automatic;
@@ -115,7 +115,7 @@ struct RunSpec {
   double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
-  SourcePlace place;
+  SourcePlace place = {};
 
   /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
   [[nodiscard]] std::vector<double> grid() const;
@@ -136,6 +136,12 @@ struct SavedState {
   std::vector<std::pair<std::string, double>> motions;  ///< by the names of Dof: displacement, velocity
   std::vector<std::pair<std::string, double>> shears;   ///< T of contacts by name
   std::vector<std::pair<std::string, int>> slips;       ///< -1, 0, 1: which way contacts slip, by name
+  struct Own {
+    std::string contact;
+    std::size_t state = 0;  ///< of its law
+    double memory = 0.0;    ///< p
+  };
+  std::vector<Own> own;  ///< contacts with laws of one's own
   /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
   /// velocity, force.
   std::optional<std::array<double, 5>> scales;
@@ -147,16 +153,16 @@ struct SavedState {
 struct InitialSpec {
   bool is_static = false;
   bool is_frictional = false;
-  std::vector<StageSpec> stages;  ///< frictional; empty: all static loads at once
-  std::optional<SavedState> saved;
-  std::vector<double> u, v;  ///< matrices: one a degree of freedom; empty: zero
+  std::vector<StageSpec> stages = {};  ///< frictional; empty: all static loads at once
+  std::optional<SavedState> saved = {};
+  std::vector<double> u = {}, v = {};  ///< matrices: one a degree of freedom; empty: zero
   struct Component {
     std::string node, component;  ///< component: ux uy rz vx vy wz
     double value = 0.0;
     SourcePlace place;
   };
-  std::vector<Component> components;
-  SourcePlace place;
+  std::vector<Component> components = {};
+  SourcePlace place = {};
 };
 
 /// C = alpha M + beta K. alpha_over_omega1: alpha = that times omega1. Ratios at two frequencies are
@@ -191,9 +197,9 @@ struct Section {
 };
 
 struct Node {
-  std::string name;
+  std::string name = {};
   double x = 0.0, y = 0.0;
-  SourcePlace place;
+  SourcePlace place = {};
 };
 
 enum class MassKind { consistent, lumped };
@@ -201,12 +207,12 @@ enum class MemberType { beam, bar };
 
 /// A chain of straight pieces between named nodes; elements[i] beams on piece i, one bar a piece.
 struct Member {
-  std::vector<std::string> nodes;
-  std::string section;
-  std::vector<int> elements;
+  std::vector<std::string> nodes = {};
+  std::string section = {};
+  std::vector<int> elements = {};
   MemberType type = MemberType::beam;
   MassKind mass = MassKind::consistent;
-  SourcePlace place;
+  SourcePlace place = {};
   std::vector<std::string> release = {};             ///< first or last node, or both: hinged there
   double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
@@ -214,10 +220,10 @@ struct Member {
 };
 
 struct PointMass {
-  std::string node;
+  std::string node = {};
   double mass = 0.0;
   double inertia = 0.0;  ///< rotational, only where a rotation exists or inertia > 0
-  SourcePlace place;
+  SourcePlace place = {};
 };
 
 /// Spring and damper along `direction` between node and `against` (ground when empty).
@@ -225,14 +231,14 @@ struct Spring {
   std::string node, against;
   std::array<double, 2> direction{1.0, 0.0};  ///< normalised by the reader
   double stiffness = 0.0, damping = 0.0;
-  SourcePlace place;
+  SourcePlace place = {};
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
 };
 
 struct Support {
-  std::string node;
+  std::string node = {};
   bool ux = false, uy = false, rz = false;
-  SourcePlace place;
+  SourcePlace place = {};
   /// What the one held degree of freedom follows; absent: it rests.
   std::optional<HistorySpec> motion = {};
   bool motion_is_acceleration = false;  ///< its second derivative, from rest at zero
@@ -262,22 +268,22 @@ struct Friction {
 };
 
 struct ContactSpec {
-  std::string name;
+  std::string name = {};
   Law law = Law::compliant;
-  std::optional<Direction> normal;   ///< compliant, rigid; node scenes: unit vector
-  std::optional<Direction> tangent;  ///< node scenes with a normal: (ny, -nx)
+  std::optional<Direction> normal = {};   ///< compliant, rigid; node scenes: unit vector
+  std::optional<Direction> tangent = {};  ///< node scenes with a normal: (ny, -nx)
   double gap = 0.0;
   double normal_stiffness = 0.0;
-  std::optional<double> tangential_stiffness;
+  std::optional<double> tangential_stiffness = {};
   double normal_damping = 0.0;      ///< dashpot beside the normal spring, >= 0
   double tangential_damping = 0.0;  ///< dashpot beside the tangential spring, >= 0
-  Friction friction;
-  HistorySpec normal_force;      ///< slider: compression, positive
-  HistorySpec surface_velocity;  ///< slip rate = t . v - surface_velocity
+  Friction friction = {};
+  HistorySpec normal_force = HistorySpec::zero();      ///< slider: compression, positive
+  HistorySpec surface_velocity = HistorySpec::zero();  ///< slip rate = t . v - surface_velocity
   double initial_shear = 0.0;
-  double restitution = 0.0;                ///< rigid: Newton's coefficient, 0 to 1
-  std::optional<double> capture_velocity;  ///< rigid: slower rebounds rest; absent: from the tolerances
-  SourcePlace place;
+  double restitution = 0.0;                     ///< rigid: Newton's coefficient, 0 to 1
+  std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds rest; absent: from the tolerances
+  SourcePlace place = {};
   std::string table = {};  ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.
@@ -301,10 +307,10 @@ enum class LoadType { force, moment, distributed };
 
 /// A force or a moment at a node, or a force per length on pieces of members.
 struct LoadSpec {
-  Direction direction;  ///< moment: its node only
+  Direction direction = {};  ///< moment: its node only
   double amplitude = 0.0;
-  HistorySpec history;
-  SourcePlace place;
+  HistorySpec history = {};
+  SourcePlace place = {};
   std::string name = {};  ///< in results and stages; empty: "load 1", by its number
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: nodes; from each to the next a piece of a member

@@ -26,7 +26,7 @@
 //   or the recorder wants no more
 //
 //   Scene scene = read_scene("models/pipeline.toml");
-//   Result result = simulate(build_model(scene), scene.run);
+//   Result result = simulate(scene);
 #pragma once
 
 #include "signorini/model.hpp"
@@ -41,8 +41,12 @@ namespace signorini {
 /// The same, kept in memory.
 [[nodiscard]] Result simulate(const Model& model, const RunSpec& settings);
 
-/// Where a run stands at its last row, for Scene::initial.saved: displacements, velocities, shears of contacts.
-/// Memories of laws of one's own are not in it. Errors: std::invalid_argument without a row.
+/// A scene as its own settings say. Errors: those of build_model(), too.
+Report simulate(const Scene& scene, Recorder& recorder);
+[[nodiscard]] Result simulate(const Scene& scene);
+
+/// Where a run stands at its last row, for Scene::initial.saved: displacements, velocities, shears of contacts,
+/// and states and memories of laws of one's own. Errors: std::invalid_argument without a row.
 [[nodiscard]] SavedState last_state(const Model& model, const Result& result);
 
 }  // namespace signorini

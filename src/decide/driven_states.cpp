@@ -19,7 +19,7 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const Contact& contact = model.contacts[c];
     if (contact.own) {
-      mode.push_back(state_in(*contact.own, 0, 0.0));
+      mode.push_back(state_in(*contact.own, contact.own_state, contact.own_memory));
       continue;
     }
     ContactState s;

@@ -6,6 +6,8 @@
 // All of it in the machine's units, and then in the scene's: so a change of units changes no bit of it.
 #include <fmt/core.h>
 
+#include <tuple>
+
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
@@ -30,9 +32,12 @@
 namespace signorini {
 namespace {
 
-/// The shears that contacts had, from which their anchors follow, and which of them slipped.
+/// The shears that contacts had, from which their anchors follow, and which of them slipped; where laws of one's own
+/// stood.
 void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
+    for (const SavedState::Own& own : saved.own)
+      if (c.name == own.contact) std::tie(c.own_state, c.own_memory) = std::tie(own.state, own.memory);
     if (!c.tangential_stiffness || !c.has_friction()) continue;
     for (const auto& [name, T] : saved.shears)
       if (c.name == name) c.initial_shear = T;

@@ -36,6 +36,15 @@ void check_saved_contacts(const Scene& scene) {
   for (const auto& [name, T] : scene.initial.saved->shears)
     if (!contacts.contains(name))
       refuse_saved(scene.initial, fmt::format("the saved state has a contact '{}' and the scene none", name));
+  for (const SavedState::Own& own : scene.initial.saved->own) {
+    const auto same = std::find_if(scene.contacts.begin(), scene.contacts.end(),
+                                   [&](const ContactSpec& contact) { return contact.name == own.contact; });
+    if (same == scene.contacts.end() || !same->own || own.state >= same->own->states.size())
+      refuse_saved(scene.initial,
+                   fmt::format("the saved state has contact '{}' in state {} of a law of its own, "
+                               "which the scene has not",
+                               own.contact, own.state));
+  }
 }
 
 /// Of a run: the degrees of freedom of the same names.

@@ -60,7 +60,10 @@ class Rescaling {
     value_of(o.a, {of.force, of.length, of.time + 2});
     for (Output::ContactForces& f : o.forces)
       for (double* x : {&f.N, &f.T}) (*this)(*x, {of.force - 1, of.length, of.time});
-    for (History& history : o.given) (*this)(history, of);
+    for (Output::Given& given : o.given) {
+      (*this)(given.history, of);
+      given.factor *= factor_of(of, factors_) / factor_of(given.of_load, factors_);
+    }
     (*this)(o.constant, of);
   }
 
@@ -119,6 +122,7 @@ class Rescaling {
     (*this)(c.surface_motion, unit::length);
     (*this)(c.initial_shear, unit::force);
     (*this)(c.own);
+    (*this)(c.own_memory, unit::length);
   }
 
   void operator()(Scales& s) const {

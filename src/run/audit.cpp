@@ -185,6 +185,7 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   s.T = m.T;
   const bool anchored = state.state == State::stick && model_.contacts[k].tangential_stiffness;
   s.slip = anchored ? state.anchor : slip_of(model_.contacts[k], m);
+  if (model_.contacts[k].own) s.memory = state.anchor;
   return s;
 }
 

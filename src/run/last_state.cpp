@@ -21,6 +21,9 @@ SavedState last_state(const Model& model, const Result& result) {
       state.motions.emplace_back(rate_of(load.name), motion.value(last.t, 1));
     }
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const ContactSample& contact = last.contacts[k];
+    if (model.contacts[k].own)
+      state.own.push_back({model.contacts[k].name, number_of(contact.state), contact.memory});
     if (!model.contacts[k].has_friction()) continue;
     state.shears.emplace_back(model.contacts[k].name, last.contacts[k].T);
     state.slips.emplace_back(model.contacts[k].name, slip_sign(last.contacts[k].state));

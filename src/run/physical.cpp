@@ -26,7 +26,7 @@ class ToScene {
     if (x) *x *= factor_of(of, factors_);
   }
   void operator()(ContactSample& c) const {
-    (*this)(unit::length, {&c.gap, &c.ut, &c.slip});
+    (*this)(unit::length, {&c.gap, &c.ut, &c.slip, &c.memory});
     (*this)(unit::velocity, {&c.vt});
     (*this)(unit::force, {&c.N, &c.T});
   }

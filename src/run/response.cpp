@@ -58,8 +58,8 @@ double magnitude_of(const Output& output, double t, Side side, const Point& poin
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.magnitude(point.a);
   for (const Output::ContactForces& f : output.forces)
     sum += std::abs(f.N * point.N(f.contact)) + std::abs(f.T * point.T(f.contact));
-  for (const History& h : output.given)
-    sum += std::abs((side == Side::after ? h.piece(t) : h.piece_before(t)).value(t));
+  for (const Output::Given& g : output.given)
+    sum += std::abs((side == Side::after ? g.history.piece(t) : g.history.piece_before(t)).value(t));
   return sum;
 }
 
@@ -80,7 +80,7 @@ double fastest_of(const Model& model) {
   for (const Contact& contact : model.contacts)
     omega = std::max({omega, fastest_of(contact.normal_force), fastest_of(contact.surface_motion)});
   for (const Output& output : model.outputs)
-    for (const History& given : output.given) omega = std::max(omega, fastest_of(given));
+    for (const Output::Given& given : output.given) omega = std::max(omega, fastest_of(given.history));
   return omega;
 }
 
@@ -93,19 +93,23 @@ double value_of(const Output& output, double t, Side side, const Point& point,
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.dot(point.a);
   for (const Output::ContactForces& f : output.forces)
     sum += f.N * point.N(f.contact) + f.T * point.T(f.contact);
-  for (const History& h : output.given)
-    sum += (side == Side::after ? h.piece(t) : h.piece_before(t)).value(t);
+  for (const Output::Given& g : output.given)
+    sum += (side == Side::after ? g.history.piece(t) : g.history.piece_before(t)).value(t);
   return sum;
 }
 
 ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense)
     : model_(model),
       recorder_(recorder),
-      radian_(1.0 / std::max(fastest_of(model), 1.0 / t_end)),
+      t_end_(t_end),
       dense_(dense),
       extremes_(model.outputs.size()),
       magnitudes_(model.outputs.size()),
-      samples_(model.outputs.size()) {}
+      samples_(model.outputs.size()) {
+  loads_changed();
+}
+
+void ResponseWatch::loads_changed() { radian_ = 1.0 / std::max(fastest_of(model_), 1.0 / t_end_); }
 
 void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
                              std::vector<double>& values) const {

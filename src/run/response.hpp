@@ -30,6 +30,8 @@ class ResponseWatch {
   /// dense: between the ends of a step, too, forces and accelerations are in equilibrium with the motion.
   ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense);
 
+  /// The model's loads are others from here on.
+  void loads_changed();
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
   /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.
   void row(double t, Side side, const Point& point, const std::vector<double>& losses);
@@ -59,7 +61,8 @@ class ResponseWatch {
 
   const Model& model_;
   Recorder& recorder_;
-  double radian_;  // of the fastest motion or load
+  double t_end_;
+  double radian_ = 0.0;  // of the fastest motion or load
   bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;

@@ -155,6 +155,7 @@ class Loop {
     const bool on = recorder_.steer(samples_.sample(t_, works_, forcing_, decision_.mode, point_), changes_);
     change_ = changes_.take();
     if (change_.any) {
+      response_.loads_changed();
       breakpoints_ = breakpoints(model_, spec_.t_end);
       next_breakpoint_ = static_cast<std::size_t>(
           std::upper_bound(breakpoints_.begin(), breakpoints_.end(), t_,
@@ -413,5 +414,11 @@ Result simulate(const Model& model, const RunSpec& settings) {
   result.report = simulate(model, settings, result);
   return result;
 }
+
+Report simulate(const Scene& scene, Recorder& recorder) {
+  return simulate(build_model(scene), scene.run, recorder);
+}
+
+Result simulate(const Scene& scene) { return simulate(build_model(scene), scene.run); }
 
 }  // namespace signorini

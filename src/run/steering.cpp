@@ -29,13 +29,13 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
     throw SceneError(run_.place, "set_load",
                      fmt::format("found \"{}\", expected a force or a moment of the scene{}", name,
                                  suggestion(name, names)));
-  for (const Output& output : model_.outputs)
-    if (!output.given.empty())
-      throw SceneError(run_.place, "set_load",
-                       fmt::format("output '{}' is computed with the loads of the scene", output.name));
   const History next = rescaled(history, found->of_history, inverse(model_.unit));
   const double before = found->history.value(t_), after = next.value(t_);
   past_.push_back(std::exchange(found->history, found->history.then(t_, next)));
+  for (std::vector<Output>* outputs : {&model_.outputs, &model_.reaction_sums})
+    for (Output& output : *outputs)
+      for (Output::Given& given : output.given)
+        if (given.load == found->name) given.history = found->history.scaled(given.factor);
   engine_.refuse(model_, run_);
   if (method_.engine == Engine::exact && method_.flow == "modal" && !choose_flow(model_, run_).modal)
     throw SceneError(run_.place, "set_load",

@@ -56,6 +56,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
   }
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
+  for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);
   if (!initial.saved->scales) return;
   const std::array units{length, plain, velocity, rate, force};
   for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);

@@ -239,6 +239,54 @@ TEST_CASE("a change at the start, a history that goes on changing, and a stop") 
                        SceneError);
 }
 
+TEST_CASE("reactions and forces in members follow loads that are changed on the way") {
+  Scene scene = parse_scene(R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+run = { t_end = 2.0, engine = "ida", rtol = 1e-9, output_dt = 0.25, initial = "static" }
+damping = { beta = 0.01 }
+nodes = { A = [0.0, 0.0], B = [2.0, 0.0] }
+sections = { pipe = { EA = 1e4, EI = 1e3, mass_per_length = 0.0 } }
+members = [{ nodes = ["A", "B"], section = "pipe" }]
+masses = [{ node = "B", mass = 1.0, inertia = 1e-3 }]
+supports = [{ node = "A", fix = ["ux", "uy", "rz"] }, { node = "B", fix = ["ux", "uy"] }]
+loads = [
+  { name = "push", node = "B", direction = [0.6, 0.8], amplitude = 5.0 },
+  { name = "lean", nodes = ["A", "B"], direction = [0.0, -1.0], distributed = 3.0 },
+]
+output = [
+  { name = "up", kind = "reaction", at = "B", direction = [0.0, 1.0] },
+  { name = "cut", kind = "member_force", at = ["A", "B"], quantity = "M", station = 1.0 },
+  { name = "clamp", kind = "member_force", at = ["A", "B"], quantity = "M", station = 0.0 },
+  { name = "at-A", kind = "reaction", at = "A", direction = [0.0, 1.0] },
+  { name = "both", kind = "combination", terms = { up = 2.0, "at-A" = -1.0 } },
+]
+)",
+                            "held");
+  const auto values = [&](const std::string& load, double to) {
+    Hand hand;
+    hand.load = load;  // at t = 0: at rest one step of ida is the run
+    hand.next = History::constant(to);
+    hand.report = simulate(scene, hand);
+    CHECK(hand.changed == 0.0);
+    CHECK(hand.report.audit.reactions->value < 1e-9);
+    CHECK(hand.report.response[0].last == hand.responses.back().values[0]);
+    return std::pair(hand.responses.front().values, hand.responses.back().values);
+  };
+  // A beam held at A, propped at B, under q: 3/8 q l at the prop, q l^2 / 8 at the clamp.
+  const auto [before, unpushed] = values("push", 0.0);
+  CHECK(before[0] == doctest::Approx(3.0 / 8.0 * 6.0 - 4.0));
+  CHECK(std::abs(before[2]) == doctest::Approx(12.0 / 8.0));
+  CHECK(before[4] == doctest::Approx(2.0 * before[0] - 5.0 / 8.0 * 6.0));
+  CHECK(unpushed[0] == doctest::Approx(3.0 / 8.0 * 6.0));
+  CHECK(unpushed[2] == doctest::Approx(before[2]));
+  const auto [same, unleaned] = values("lean", 1.0);
+  CHECK(same == before);
+  CHECK(unleaned[0] == doctest::Approx(3.0 / 8.0 * 2.0 - 4.0));
+  CHECK(unleaned[1] == doctest::Approx(0.0).epsilon(1e-12));
+  CHECK(unleaned[2] == doctest::Approx(before[2] / 3.0));
+  CHECK(unleaned[4] == doctest::Approx(2.0 * unleaned[0] - 5.0 / 8.0 * 2.0));
+}
+
 TEST_CASE("a run goes on from the last state of another") {
   const Scene whole = reference_case("06_point_compliant_kn1e+06");
   Scene first = whole, second = whole;
@@ -254,6 +302,58 @@ TEST_CASE("a run goes on from the last state of another") {
   CHECK((b.rows.back().u - c.rows.back().u).norm() < 1e-8);
   CHECK((a.rows.back().u - c.rows.back().u).norm() > 1e-6);
   CHECK_THROWS_AS(static_cast<void>(last_state(model, Result{})), std::invalid_argument);
+}
+
+TEST_CASE("a run goes on with the states and memories of laws of one's own, in any units") {
+  using enum State;
+  for (const double length : {1.0, 1e3}) {  // metres, millimetres
+    CAPTURE(length);
+    Scene whole = parse_scene(R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+gravity = [0.0, -9.81]
+run = { t_end = 0.9, engine = "ida", rtol = 1e-10, initial = { ball = { vy = -3.0 } } }
+nodes = { ball = [0.0, 0.0] }
+masses = [{ node = "ball", mass = 2.0 }]
+supports = [{ node = "ball", fix = ["ux"] }]
+contacts = [{ name = "pad", node = "ball", law = "compliant", normal = [0.0, 1.0], gap = 0.1, normal_stiffness = 1e4 }]
+)",
+                              "crushed");
+    whole = rescaled(whole, {1.0, length, 1.0});
+    // Elastic up to Y, crushed there; keeps its dent p.
+    const double kn = 1e4 / length, Y = 150.0;
+    auto pad = std::make_shared<OwnLaw>();
+    const OwnForm elastic{{.N = 1.0, .gap = -kn}, kn}, smooth{{.T = 1.0}};
+    pad->states = {{"off", open, {{.N = 1.0}}, smooth, {{{{.gap = 1.0}, -1.0}, 1}}},
+                   {"on", closed, elastic, smooth, {{{{.N = -1.0}}, 0}, {{{.N = 1.0, .constant = Y}}, 2}}},
+                   {"crushed",
+                    slip_minus,
+                    {{.N = 1.0, .constant = Y}},
+                    smooth,
+                    {{{{.vn = -1.0}}, 1, Form{.gap = 1.0, .constant = Y / kn}}}}};
+    whole.contacts[0].own = pad;
+    const Result c = simulate(whole);
+    REQUIRE(c.events.size() > 5);  // on, crushed, back, off; with less speed on and off again
+    // In flight over the dent, and while the pad is being crushed.
+    for (const double at : {0.5 * (c.events[3].t + c.events[4].t), 0.5 * (c.events[1].t + c.events[2].t)}) {
+      CAPTURE(at);
+      Scene first = whole, second = whole;
+      first.run.t_end = at;
+      second.run.t_end = whole.run.t_end - at;
+      const Model model = build_model(first);
+      const Result a = simulate(model, first.run);
+      second.initial = {};
+      second.initial.saved = last_state(model, a);
+      const Result b = simulate(second);
+      REQUIRE(a.events.size() + b.events.size() == c.events.size());
+      for (std::size_t i = 0; i < b.events.size(); ++i)
+        CHECK(std::abs(at + b.events[i].t - c.events[a.events.size() + i].t) < 1e-7);
+      CHECK(std::abs(b.rows.back().u[0] - c.rows.back().u[0]) < 1e-7 * length);
+      CHECK(b.rows.back().contacts[0].memory == doctest::Approx(c.rows.back().contacts[0].memory));
+      CHECK(std::abs(c.rows.back().contacts[0].memory) > 0.01 * length);
+      second.contacts[0].own = {};
+      CHECK(objection_to(second).find("of a law of its own, which the scene has not") != std::string::npos);
+    }
+  }
 }
 
 TEST_SUITE_END();

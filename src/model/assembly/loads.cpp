@@ -69,10 +69,11 @@ History finite(History history, const SourcePlace& place, const std::string& key
 Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
-  load.name = spec.name.empty() ? fmt::format("load {}", number) : spec.name;
+  load.name = name_of(spec, number);
   load.history = finite(make_history(spec.history, key + ".history").scaled(spec.amplitude), spec.place,
                         key + ".amplitude");
   load.is_static = holds_since_ever(spec.history, load.history);
+  load.of_history = unit_of_history(spec.type);
   switch (spec.type) {
     case LoadType::force:
       load.direction = combination(map, spec.direction, key, false);
@@ -81,13 +82,11 @@ Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
       load.kind = LoadKind::moment;
       load.direction = form_of(moment_form(spec, map, key), 1.0);
       load.of_direction = {0, -1, 0};
-      load.of_history = {1, 1, 0};
       break;
     case LoadType::distributed:
       load.kind = LoadKind::distributed;
       load.direction = form_of(distributed_form(spec, map, key), 1.0);
       load.of_direction = unit::length;
-      load.of_history = unit::stiffness;
       break;
   }
   return load;
@@ -209,6 +208,16 @@ std::string rate_of(const std::string& support_motion) {
   char& component = rate[rate.size() - 2];
   component = component == 'r' ? 'w' : 'v';
   return rate;
+}
+
+std::string name_of(const LoadSpec& load, std::size_t number) {
+  return load.name.empty() ? fmt::format("load {}", number) : load.name;
+}
+
+Unit unit_of_history(LoadType type) {
+  return type == LoadType::moment        ? unit::energy
+         : type == LoadType::distributed ? unit::stiffness
+                                         : unit::force;
 }
 
 std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly) {

@@ -16,10 +16,14 @@
 
 namespace signorini {
 
-/// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
-/// the base, where supports that move are. Errors: SceneError.
 /// "support A.ux" -> "support A.vx"
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
+/// Of [[loads]], counted from 1: its own name, or "load 1".
+[[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
+/// Load::of_history.
+[[nodiscard]] Unit unit_of_history(LoadType type);
+/// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
+/// the base, where supports that move are. Errors: SceneError.
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
 /// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:

@@ -113,7 +113,7 @@ class Maker {
         Vector moved = Vector::Zero(map_.size());
         r.add_to(moved, a);
         if (const double part = form.dot(moved); part != 0.0)
-          row.given.push_back(make_history(base.acceleration, "base_motion.acceleration").scaled(part));
+          row.given.push_back({make_history(base.acceleration, "base_motion.acceleration").scaled(part)});
       }
       return;
     }
@@ -197,7 +197,8 @@ class Maker {
     if (spec.quantity == OutputQuantity::slip) {
       output.unit = unit::length;
       output.u = contact.tangent;
-      if (!contact.surface_motion.is_constant()) output.given.push_back(contact.surface_motion.scaled(-1.0));
+      if (!contact.surface_motion.is_constant())
+        output.given.push_back({contact.surface_motion.scaled(-1.0)});
       if (contact.tangential_stiffness)
         output.forces.push_back({k, 0.0, -1.0 / *contact.tangential_stiffness});
     }
@@ -236,7 +237,8 @@ class Maker {
       add(output.a, term.a, factor);
       for (const Output::ContactForces& f : term.forces)
         output.forces.push_back({f.contact, factor * f.N, factor * f.T});
-      for (const History& h : term.given) output.given.push_back(h.scaled(factor));
+      for (const Output::Given& g : term.given)
+        output.given.push_back({g.history.scaled(factor), g.load, factor * g.factor, g.of_load});
       output.constant += factor * term.constant;
     }
   }

@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/assembly/bar.hpp"
+#include "model/assembly/loads.hpp"
 #include "scene/history_from_spec.hpp"
 
 namespace signorini {
@@ -16,7 +18,7 @@ void add_given(PhysicalRow& row, const History& history, double factor) {
   if (term.is_constant())
     row.constant += term.value(0.0);
   else
-    row.given.push_back(std::move(term));
+    row.given.push_back({std::move(term)});
 }
 
 std::array<double, 2> unit_vector(const std::array<double, 2>& v) {
@@ -39,7 +41,8 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const LoadSpec& load = scene.loads[i];
     const std::string key = fmt::format("loads.{}", i + 1);
-    loads_.push_back(make_history(load.history, key + ".history").scaled(load.amplitude));
+    loads_.push_back({make_history(load.history, key + ".history").scaled(load.amplitude),
+                      name_of(load, i + 1), 1.0, unit_of_history(load.type)});
     for (std::size_t j = 0; j + 1 < load.pieces.size(); ++j) {
       const auto [piece, backwards] =
           piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
@@ -95,7 +98,7 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
     const std::array<double, 6> f = uniform_forces(e.type, axis, load.q);
     double factor = cut.load[0] * load.q[0] + cut.load[1] * load.q[1];
     for (std::size_t j = 0; j < 6; ++j) factor -= cut.forces[static_cast<Eigen::Index>(j)] * f[j];
-    add_given(row, loads_[load.load], factor);
+    add_load(row, load.load, factor);
   }
   if (!stiff) return;
   const double along = axis.c * (cut.forces[3] - cut.forces[0]) + axis.s * (cut.forces[4] - cut.forces[1]);
@@ -132,6 +135,17 @@ void StructureRows::add_mass(PhysicalRow& row, const PointMass& mass, std::size_
   if (c != 2) add_frame(row, c == 0 ? m : 0.0, c == 1 ? m : 0.0);
 }
 
+/// Not into the constant, though it may be one: a load may be changed on the way.
+void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) const {
+  if (factor == 0.0) return;
+  const auto known = std::find_if(row.given.begin(), row.given.end(),
+                                  [&](const Output::Given& g) { return g.load == loads_[i].load; });
+  const bool first = known == row.given.end();
+  Output::Given& given = first ? row.given.emplace_back(loads_[i]) : *known;
+  given.factor = first ? factor : given.factor + factor;
+  given.history = loads_[i].history.scaled(given.factor);
+}
+
 /// A force or a moment at a node; -1: at any.
 void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
   const LoadSpec& load = scene_.loads[i];
@@ -139,7 +153,7 @@ void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::si
   if (node >= 0 && map_.mesh.by_name.at(load.direction.node) != node) return;
   const bool moment = load.type == LoadType::moment;
   if (moment != (c == 2)) return;
-  add_given(row, loads_[i], factor * (moment ? 1.0 : load.direction.vector[c]));
+  add_load(row, i, factor * (moment ? 1.0 : load.direction.vector[c]));
 }
 
 /// N n + T t of a contact on a node; -1: on all that it touches, together.

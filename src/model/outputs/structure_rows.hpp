@@ -18,7 +18,7 @@ struct PhysicalRow {
   explicit PhysicalRow(int n) : u(Vector::Zero(n)), v(u), a(u) {}
   Vector u, v, a;
   std::vector<Output::ContactForces> forces;
-  std::vector<History> given;
+  std::vector<Output::Given> given;
   double constant = 0.0;
 };
 
@@ -49,6 +49,7 @@ class StructureRows {
   /// stiff: with the part of the stiffness.
   void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
+  void add_load(PhysicalRow& row, std::size_t load, double factor) const;
   void add_force(PhysicalRow& row, std::size_t load, int node, std::size_t c, double factor) const;
   void add_contact(PhysicalRow& row, std::size_t contact, int node, std::size_t c, double factor) const;
   [[nodiscard]] std::array<double, 3> direction_of(const Spring& spring) const;
@@ -62,7 +63,7 @@ class StructureRows {
     std::array<double, 2> q;  // along x and y, of an amplitude of one
   };
   std::vector<std::vector<Uniform>> uniform_;  // an element
-  std::vector<History> loads_;                 // with amplitude
+  std::vector<Output::Given> loads_;           // with amplitude
   std::vector<std::vector<History>> strains_;  // a member
 };
 

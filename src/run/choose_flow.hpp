@@ -4,7 +4,7 @@
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
 // run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by
-// it: real modes from 16 unknowns on, complex ones where the series would cost twice what the states' modes do.
+// it: real modes from 16 unknowns on. Complex ones only where "modal" asks for them.
 #pragma once
 
 #include <string>

@@ -114,6 +114,19 @@ struct Metamorphic::Members {
     }
   }
 
+  /// The same of a way in its own numbers: along the axes a beam's bending has the rounding of EI, turned it has
+  /// that of EA, too. track: of the way, written back.
+  [[nodiscard]] Deviation spread_as_written(const Transformed& other, const Track& track) const {
+    Deviation result;
+    for (int j = 0; j < settings.disturbances; ++j) {
+      Track copy = run_scene(disturbed(other.scene, static_cast<std::uint64_t>(j)), means, settings.bounds);
+      if (copy.end == Track::End::refused) continue;
+      copy = mapped_back(std::move(copy), other, reference, scene);
+      result.include(deviation(track, copy, weights, scene.run.t_end));
+    }
+    return result;
+  }
+
   /// What steps of ida may have been off together, relative; steps rounded up to a power of two, so that
   /// runs share their neighbours.
   [[nodiscard]] double delta_of(const Track& track) const {
@@ -186,7 +199,7 @@ Sameness Metamorphic::compare(const Transformed& other) const {
     result.what = track.said;
     return result;
   }
-  const Promise promise = m_->promise_of(track);
+  Promise promise = m_->promise_of(track);
   const std::string said = track.said;
   result.ended = track.end == m_->reference.end && track.reason == m_->reference.reason;
   track = mapped_back(std::move(track), other, m_->reference, m_->scene);
@@ -196,6 +209,10 @@ Sameness Metamorphic::compare(const Transformed& other) const {
       rests_by_rounding(m_->reference, track, m_->scene.run.t_end)) {
     finding.kept = true;
     finding.to_end = false;
+  }
+  if (!finding.kept && m_->settings.engine != Engine::ida) {
+    promise.spread.include(m_->spread_as_written(other, track));
+    finding = check(found, promise);
   }
   result.verdict = finding.kept ? Sameness::Verdict::same : Sameness::Verdict::unlike;
   result.worst = finding.worst;

@@ -36,7 +36,7 @@ SceneReader reader_of(std::string path, std::vector<Override> always) {
 }
 
 Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
-                            Recorder* recorder) {
+                            Recorder* recorder, const SensitivityOptions& options) {
   const Scene scene = read({});
   const Model model = build_model(scene);
   const RunSpec run = without_companion(scene.run);
@@ -59,9 +59,9 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     sizes.push_back(size);
     result.parameters.push_back(std::move(parameter));
   }
-  RateRecord record(computed, derivatives, recorder, result);
+  RateRecord record(computed, derivatives, recorder, result, options.losses);
   const RunSpec inside = rescaled(run, to_machine);
-  TangentRun tangents(computed, inside, derivatives, sizes, record);
+  TangentRun tangents(computed, inside, derivatives, sizes, record, options.losses);
   result.report = simulate(model, run, record, tangents);
   result.stretches = tangents.stretches();
   record.finish();

@@ -95,6 +95,9 @@ struct SensitivityOptions {
   /// Works, losses, energies at output times and landings. Every stretch is then followed along series, which
   /// costs about a run in series for each parameter.
   bool losses = false;
+  /// Of engine `newmark`: derivatives of what it computes, steps and all, not of the motion. Events, peaks at
+  /// them and columns; no peaks between events. Not with losses.
+  bool discrete = false;
 };
 
 /// How many stretches between two events were followed in modes, and along series; those whose engine makes no
@@ -134,7 +137,8 @@ struct Swap {
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
 /// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for
-/// one of which the model does not depend smoothly, and what the engine refuses.
+/// one of which the model does not depend smoothly, for options that do not go together, and what the engine
+/// refuses.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                                           Recorder* recorder = nullptr,
                                           const SensitivityOptions& options = {});

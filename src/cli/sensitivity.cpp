@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct SensitivityOptions : KeyedOptions {
   std::vector<std::string> sigmas;
-  bool losses = false;
+  bool losses = false, discrete = false;
 };
 
 /// "columns-1.csv" and so on are removed by number.
@@ -165,7 +165,7 @@ ExitCode run(const SensitivityOptions& options) {
   const SceneReader read = reader_of(options.scene, changes);
   std::optional<Interrupt> interrupt(std::in_place);
   Stoppable recorder;
-  const Sensitivities s = sensitivities(read, paths, &recorder, {options.losses});
+  const Sensitivities s = sensitivities(read, paths, &recorder, {options.losses, options.discrete});
   interrupt.reset();
   begin_folder(path, sensitivity_folder());
   remove_sensitivity_plots(path);
@@ -199,6 +199,8 @@ void add_sensitivity(Program& program) {
   command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
   command->add_flag("--losses", options->losses,
                     "energies, works, losses and landings, too; about a run more for each key");
+  command->add_flag("--discrete", options->discrete,
+                    "with engine newmark: derivatives of its steps, not of the motion that they approximate");
   command
       ->add_option("--sigma", options->sigmas,
                    "the standard deviation of a key; times and figures get theirs (may be repeated)")

@@ -168,6 +168,8 @@ std::string shaken(const std::string& contact, const std::string& load = "harmon
 
 }  // namespace
 
+TEST_SUITE_BEGIN("behaviour/sensitivity_losses");
+
 TEST_CASE("losses of a ball's hits, its landings and the work of its weight") {
   const double h = 1.0, g = 10.0, e = 0.5;
   const SceneReader ball = losses_reader(matrix_scene(
@@ -264,3 +266,5 @@ TEST_CASE("losses of the pipeline, whose run goes in modes: what is lost follows
   check_losses(read, "contacts.*.friction", 1e-6, 1e-5);
   check_losses(read, "sections.pipe.EI", 1e-6, 1e-5);
 }
+
+TEST_SUITE_END();

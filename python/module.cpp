@@ -245,7 +245,7 @@ py::dict rates_by(const Sensitivities& s, std::size_t p) {
   for (std::size_t k = 0; k < s.columns.size(); ++k)
     columns[s.columns[k].c_str()] = column(s.value_rates[p], [&](const auto& row) { return row[k]; });
   for (const Response& r : s.responses)
-    figures[py::make_tuple(s.contacts[static_cast<std::size_t>(r.contact)], r.name)] =
+    figures[py::make_tuple(r.contact < 0 ? "" : s.contacts[static_cast<std::size_t>(r.contact)], r.name)] =
         py::make_tuple(r.value, r.rates[p]);
   entry["value"] = s.parameters[p].value;
   entry["until"] = s.parameters[p].until;

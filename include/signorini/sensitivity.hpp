@@ -70,12 +70,34 @@ inline constexpr std::array event_rate_columns = {
     EventRateColumn{"dimpulse_t_dp", "impulse_t", &EventRates::impulse_t},
 };
 
-/// A figure of a contact: its peak and when, or what is left at the end.
+/// A figure of a contact: its peak and when, or what is left at the end; with losses also of the whole run.
 struct Response {
-  std::string name;  ///< "peak N", "peak T", "peak lift", "peak shift", "rest ut", "rest slip", "rest gap"
-  int contact = -1;
+  /// "peak N", "peak T", "peak normal", "peak tangential", "rest tangential", "rest slip", "lost by friction"; of
+  /// the run: "lost by damping", "lost by impacts", "work of loads", "work of surfaces", "lost by friction"
+  std::string name;
+  int contact = -1;  ///< -1: the run
   double value = 0.0, t = 0.0;
   std::vector<double> rates, t_rates;  ///< one a parameter; t_rates: of a peak's time
+};
+
+/// Derivatives of a stay of a contact on its ground, by one parameter.
+struct LandingRates {
+  double start = 0.0, end = 0.0, impulse = 0.0, peak_force = 0.0;
+};
+struct MovingLanding {
+  int contact = -1;
+  Landing value;
+  std::vector<LandingRates> rates;  ///< one a parameter
+};
+
+/// What more is wanted than the motion.
+struct SensitivityOptions {
+  /// Works, losses, energies at output times and landings. Every stretch is then followed along series, which
+  /// costs about a run in series for each parameter.
+  bool losses = false;
+  /// Of engine `newmark`: derivatives of what it computes, steps and all, not of the motion. Events, peaks at
+  /// them and columns; no peaks between events. Not with losses.
+  bool discrete = false;
 };
 
 /// How many stretches between two events were followed in modes, and along series; those whose engine makes no
@@ -89,11 +111,14 @@ struct Sensitivities {
   std::vector<std::string> contacts;  ///< names
   std::vector<Event> events;
   std::vector<std::vector<EventRates>> event_rates;  ///< [event][parameter]
-  std::vector<std::string> columns;         ///< of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"
-  std::vector<double> times;                ///< the grid
-  std::vector<std::vector<double>> values;  ///< [time][column]
+  std::vector<std::string>
+      columns;                ///< of history.csv; then "NAME.N", ".T", ".ut", ".slip", ".gap"; with losses
+                              ///< "energy.kinetic" and so on, as in energy.csv
+  std::vector<double> times;  ///< the grid
+  std::vector<std::vector<double>> values;                    ///< [time][column]
   std::vector<std::vector<std::vector<double>>> value_rates;  ///< [parameter][time][column]
   std::vector<Response> responses;
+  std::vector<MovingLanding> landings;  ///< with losses: by contact, then by time
   Units units;
   std::string title;
   Stretches stretches;
@@ -112,8 +137,10 @@ struct Swap {
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
 /// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for
-/// one of which the model does not depend smoothly, and what the engine refuses.
+/// one of which the model does not depend smoothly, for options that do not go together, and what the engine
+/// refuses.
 [[nodiscard]] Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
-                                          Recorder* recorder = nullptr);
+                                          Recorder* recorder = nullptr,
+                                          const SensitivityOptions& options = {});
 
 }  // namespace signorini

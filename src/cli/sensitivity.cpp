@@ -28,15 +28,16 @@ namespace fs = std::filesystem;
 
 struct SensitivityOptions : KeyedOptions {
   std::vector<std::string> sigmas;
+  bool losses = false, discrete = false;
 };
 
 /// "columns-1.csv" and so on are removed by number.
 const OwnedFolder& sensitivity_folder() {
   static const OwnedFolder folder = [] {
-    OwnedFolder f{
-        "sensitivities",
-        "sensitivity.json",
-        {"events.csv", "sensitivities.csv", "figures.csv", "sequence.csv", "spread.csv", "report.html"}};
+    OwnedFolder f{"sensitivities",
+                  "sensitivity.json",
+                  {"events.csv", "sensitivities.csv", "figures.csv", "landings.csv", "sequence.csv",
+                   "spread.csv", "report.html"}};
     constexpr int most_parameters = 1000;
     for (int p = 1; p <= most_parameters; ++p) f.files.push_back(fmt::format("columns-{}.csv", p));
     return f;
@@ -89,8 +90,8 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
                shown(rate), shown(elasticity(s.parameters[p].value, event.t, rate))});
   }
   for (const Response& r : s.responses)
-    table.row({path, r.name, s.contacts[static_cast<std::size_t>(r.contact)], number(r.value),
-               shown(r.rates[p]), shown(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
+    table.row({path, r.name, contact_of(s, r), number(r.value), shown(r.rates[p]),
+               shown(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
 }
 
 std::string swap_text(const Sensitivities& s) {
@@ -116,8 +117,8 @@ std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
   const Spread spreads = spread(s, sigmas);
   Table figures({"x", "contact", "value", "sigma"}, {false, false, true, true});
   for (std::size_t i = 0; i < s.responses.size(); ++i)
-    figures.row({s.responses[i].name, s.contacts[static_cast<std::size_t>(s.responses[i].contact)],
-                 number(s.responses[i].value), shown(spreads.responses[i])});
+    figures.row({s.responses[i].name, contact_of(s, s.responses[i]), number(s.responses[i].value),
+                 shown(spreads.responses[i])});
   text += "\n" + figures.str() + "\n";
   for (std::size_t p = 0; p < sigmas.size(); ++p)
     if (sigmas[p] > 0.0)
@@ -164,7 +165,7 @@ ExitCode run(const SensitivityOptions& options) {
   const SceneReader read = reader_of(options.scene, changes);
   std::optional<Interrupt> interrupt(std::in_place);
   Stoppable recorder;
-  const Sensitivities s = sensitivities(read, paths, &recorder);
+  const Sensitivities s = sensitivities(read, paths, &recorder, {options.losses, options.discrete});
   interrupt.reset();
   begin_folder(path, sensitivity_folder());
   remove_sensitivity_plots(path);
@@ -196,6 +197,10 @@ void add_sensitivity(Program& program) {
                     "a key of the scene to derive by: contacts.*.friction, loads.1.amplitude",
                     "earlier sensitivities", "-sensitivity", "sensitivity.json");
   command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  command->add_flag("--losses", options->losses,
+                    "energies, works, losses and landings, too; about a run more for each key");
+  command->add_flag("--discrete", options->discrete,
+                    "with engine newmark: derivatives of its steps, not of the motion that they approximate");
   command
       ->add_option("--sigma", options->sigmas,
                    "the standard deviation of a key; times and figures get theirs (may be repeated)")

@@ -10,18 +10,17 @@
 namespace signorini {
 namespace {
 
-/// There are degrees of freedom with neither mass nor damping.
-bool moves_at_once(const Model& model) {
-  for (int i = 0; i < model.size(); ++i)
-    if (model.dofs[static_cast<std::size_t>(i)].massless && model.damping.coeff(i, i) == 0.0) return true;
-  return false;
-}
-
 void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
 
 }  // namespace
+
+bool moves_at_once(const Model& model) {
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless && model.damping.coeff(i, i) == 0.0) return true;
+  return false;
+}
 
 Auditor::Auditor(const Model& model, const Structure& structure)
     : model_(model),

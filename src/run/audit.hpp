@@ -12,6 +12,9 @@
 
 namespace signorini {
 
+/// There are degrees of freedom with neither mass nor damping.
+[[nodiscard]] bool moves_at_once(const Model& model);
+
 class Auditor {
  public:
   Auditor(const Model& model, const Structure& structure);

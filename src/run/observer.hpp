@@ -29,6 +29,7 @@ struct ObservedInstant {
   const Decision& after;
   const Forcing &forcing_before, &forcing_after;
   const Vector& v_before;  ///< u is that of `after`
+  bool load_jumps = false;
 };
 
 class MotionObserver {

@@ -235,8 +235,8 @@ class Loop {
                                      : decider_.standstill(next, standstill_.contacts(), std::move(*stands)));
     }
     if (observer_)
-      observer_->instant(
-          {t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_, forcing_, point_.v});
+      observer_->instant({t_, resolution_, observed, all, old_mode, next, before ? *before : forcing_,
+                          forcing_, point_.v, load_jumps});
     touches_.instant(t_, old_mode, next);
     if (all || next.mode != old_mode || !next.impulses.empty())
       response_.before(t_, point_, auditor_.losses());

@@ -29,7 +29,7 @@ inline constexpr std::array all_states = {State::open,  State::inside,    State:
 struct ContactRates {
   Combination normal, tangent, body_tangent;
   double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0,
-         kinetic_friction = 0.0, static_friction = 0.0, stribeck_velocity = 0.0;
+         kinetic_friction = 0.0, static_friction = 0.0, stribeck_velocity = 0.0, shear_stiffness = 0.0;
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
   std::array<std::array<Form, guards_per_contact>, all_states.size()> guards;

@@ -31,6 +31,7 @@ ContactRates numbers_of(const Contact& contact) {
   c.kinetic_friction = kinetic_friction(contact);
   c.static_friction = static_friction(contact);
   c.stribeck_velocity = contact.friction.stribeck_velocity.value_or(0.0);
+  if (contact.shear) c.shear_stiffness = contact.shear->stiffness;
   c.normal_force = numbers_of(contact.normal_force);
   c.surface_motion = numbers_of(contact.surface_motion);
   for (const State state : all_states) {

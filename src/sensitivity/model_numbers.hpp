@@ -44,7 +44,7 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   for (LoadRates& load : d.loads) visit_rates(load.history, visit);
   for (ContactRates& c : d.contacts) {
     for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction,
-                      &c.static_friction, &c.stribeck_velocity})
+                      &c.static_friction, &c.stribeck_velocity, &c.shear_stiffness})
       visit(*x);
     visit_rates(c.normal_force, visit);
     visit_rates(c.surface_motion, visit);

@@ -34,12 +34,17 @@ EventRates in_scene(const EventRates& rates, const Factors& of) {
 }  // namespace
 
 RateRecord::RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives,
-                       Recorder* recorder, Sensitivities& result)
+                       Recorder* recorder, Sensitivities& result, bool losses)
     : model_(computed), derivatives_(derivatives), recorder_(recorder), result_(result) {
   for (const Column& column : model_.columns) result_.columns.push_back(column.name);
   for (const Contact& contact : model_.contacts) {
     result_.contacts.push_back(contact.name);
     for (const char* name : contact_columns) result_.columns.push_back(contact.name + "." + name);
+  }
+  if (losses) {
+    landings_.emplace(computed, derivatives.size());
+    for (const EnergyColumn& column : energy_columns)
+      result_.columns.push_back(std::string("energy.") + column.name);
   }
   result_.value_rates.resize(derivatives_.size());
   peaks_.resize(model_.contacts.size());
@@ -67,6 +72,8 @@ void RateRecord::sample(const Sample& s) {
     row.push_back(column.dof < 0 ? 0.0 : (column.velocity ? *s.v : *s.u)[column.dof]);
   for (const ContactSample& c : s.contacts)
     for (const double x : {c.N, c.T, c.ut, c.slip, c.gap}) row.push_back(x);
+  if (!landings_) return;
+  for (const EnergyColumn& column : energy_columns) row.push_back(s.energy.*column.value);
 }
 
 void RateRecord::frame(const Sample& s) {
@@ -83,6 +90,7 @@ bool RateRecord::progress(double t) { return recorder_ == nullptr || recorder_->
 void RateRecord::sample(const TangentSample& s, bool row, bool turn) {
   if (row) add_row(s);
   for (std::size_t c = 0; turn && c < model_.contacts.size(); ++c) see_turn(s, c);
+  if (turn && landings_) landings_->turn(s);
 }
 
 void RateRecord::add_row(const TangentSample& s) {
@@ -111,7 +119,29 @@ void RateRecord::add_row(const TangentSample& s) {
       row[at++] = slip * factor(unit::length);
       row[at++] = m.gap * factor(unit::length);
     }
+    if (landings_) add_energies(s, p, row);
   }
+}
+
+/// The last columns of a row.
+void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector<double>& row) const {
+  const SeriesPoint& w = s.tangents[p];
+  std::vector<ContactMotion> motions, rates;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    motions.push_back(motion_of(contact, c, s.forcing, s.t, s.point));
+    rates.push_back(parameter_rate(contact, derivatives_[p].contacts[c], c, s.point, w, s.driven[p][c]));
+  }
+  Energy e =
+      WorkTangent(model_, derivatives_[p]).stored({s.mode, s.point.u, s.point.v, w.u, w.v, motions, rates});
+  const WorkRates& lost = s.works[p];
+  e.damping = lost.works.damping;
+  e.friction = lost.friction();
+  e.impact = lost.impact;
+  e.loads = lost.works.loads;
+  e.surface = lost.surface();
+  std::size_t at = row.size() - energy_columns.size();
+  for (const EnergyColumn& column : energy_columns) row[at++] = e.*column.value * factor(unit::energy);
 }
 
 void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
@@ -187,6 +217,51 @@ void RateRecord::see_instant(const InstantMotion& motion, const std::vector<Tang
 void RateRecord::instant(const InstantMotion& motion, const std::vector<TangentState>& states) {
   states_ = &states;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) see_instant(motion, states, c);
+  if (landings_) landings_->instant(motion, states);
+}
+
+/// What the run lost until it ended, by each contact and in all.
+void RateRecord::add_losses() {
+  const Audit& audit = result_.report.audit;
+  const auto add = [&](const char* name, int contact, double value, auto&& rate_of) {
+    Response r{name, contact, value, result_.report.outcome.t, {}, {}};
+    for (const TangentState& state : *states_) {
+      r.rates.push_back(state.alive ? rate_of(state.works->now()) * factor(unit::energy) : nothing);
+      r.t_rates.push_back(nothing);
+    }
+    result_.responses.push_back(std::move(r));
+  };
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+    if (model_.contacts[c].has_friction())
+      add("lost by friction", static_cast<int>(c), audit.friction_work[c],
+          [&](const WorkRates& w) { return w.works.friction[c]; });
+  const Energy& e = audit.final;
+  add("lost by friction", -1, e.friction, [](const WorkRates& w) { return w.friction(); });
+  add("lost by damping", -1, e.damping, [](const WorkRates& w) { return w.works.damping; });
+  add("lost by impacts", -1, e.impact, [](const WorkRates& w) { return w.impact; });
+  add("work of loads", -1, e.loads, [](const WorkRates& w) { return w.works.loads; });
+  add("work of surfaces", -1, e.surface, [](const WorkRates& w) { return w.surface(); });
+}
+
+void RateRecord::add_landings() {
+  const auto all = landings_->finish(*states_);
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const std::vector<Landing>& values = result_.report.landings[c];
+    for (std::size_t i = 0; i < std::min(all[c].size(), values.size()); ++i) {
+      MovingLanding landing = all[c][i];
+      landing.value.start = values[i].start;
+      landing.value.end = values[i].end;
+      landing.value.impulse = values[i].impulse;
+      landing.value.peak_force *= factor(unit::force);
+      for (LandingRates& rates : landing.rates) {
+        rates.start *= factor(unit::time);
+        rates.end *= factor(unit::time);
+        rates.impulse *= factor(unit::impulse);
+        rates.peak_force *= factor(unit::force);
+      }
+      result_.landings.push_back(std::move(landing));
+    }
+  }
 }
 
 void RateRecord::finish() {
@@ -215,6 +290,9 @@ void RateRecord::finish() {
       result_.responses.push_back(std::move(r));
     }
   }
+  if (!landings_ || states_ == nullptr) return;
+  add_losses();
+  add_landings();
 }
 
 }  // namespace signorini

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "run/physical.hpp"
-#include "sensitivity/tangent_run.hpp"
+#include "sensitivity/landing_rates.hpp"
 
 namespace signorini {
 
@@ -13,7 +13,7 @@ class RateRecord final : public TangentListener, public Recorder {
  public:
   /// computed: in the machine's units. Both must outlive it; recorder: may be null.
   RateRecord(const Model& computed, const std::vector<ModelDerivative>& derivatives, Recorder* recorder,
-             Sensitivities& result);
+             Sensitivities& result, bool losses);
 
   void sample(const TangentSample& sample, bool row, bool turn) override;
   void instant(const InstantMotion& motion, const std::vector<TangentState>& states) override;
@@ -31,7 +31,7 @@ class RateRecord final : public TangentListener, public Recorder {
   void curves(const Curves& curves) override;
   bool progress(double t) override;
 
-  /// Peaks and rests into the result.
+  /// Peaks, rests, and with losses these and landings into the result, whose report is known.
   void finish();
 
  private:
@@ -45,6 +45,9 @@ class RateRecord final : public TangentListener, public Recorder {
     std::vector<double> rates, t_rates;
   };
   void add_row(const TangentSample& sample);
+  void add_energies(const TangentSample& sample, std::size_t parameter, std::vector<double>& row) const;
+  void add_losses();
+  void add_landings();
   void see(std::size_t contact, std::size_t which, double t, Seen seen);
   void see_turn(const TangentSample& sample, std::size_t contact);
   void see_instant(const InstantMotion& motion, const std::vector<TangentState>& states, std::size_t contact);
@@ -56,6 +59,7 @@ class RateRecord final : public TangentListener, public Recorder {
   Sensitivities& result_;
   const std::vector<TangentState>* states_ = nullptr;  // of the last instant
   std::vector<std::array<Peak, 4>> peaks_;
+  std::optional<LandingRecord> landings_;  // with losses
 };
 
 }  // namespace signorini

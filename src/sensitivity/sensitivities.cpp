@@ -5,6 +5,7 @@
 
 #include "contact/friction.hpp"
 #include "model/rescale.hpp"
+#include "sensitivity/discrete_run.hpp"
 #include "sensitivity/parameter.hpp"
 #include "sensitivity/rate_record.hpp"
 #include "sensitivity/tangent_run.hpp"
@@ -17,6 +18,16 @@ void check_path(const std::string& path) {
   for (const std::string_view table : {"run.", "reduction.", "schema", "title", "units"})
     if (path.starts_with(table) && !path.starts_with("run.initial"))
       throw UsageError(fmt::format("--parameter {}: it is no datum of the motion", path));
+}
+
+void check_options(const RunSpec& run, const SensitivityOptions& options) {
+  if (!options.discrete) return;
+  if (run.engine != Engine::newmark)
+    throw UsageError(
+        fmt::format("discrete derivatives are of engine newmark: found engine {}, expected "
+                    "run.engine = \"newmark\"",
+                    to_string(run.engine)));
+  if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
 /// A companion has no part in derivatives.
@@ -36,10 +47,11 @@ SceneReader reader_of(std::string path, std::vector<Override> always) {
 }
 
 Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
-                            Recorder* recorder) {
+                            Recorder* recorder, const SensitivityOptions& options) {
   const Scene scene = read({});
   const Model model = build_model(scene);
   const RunSpec run = without_companion(scene.run);
+  check_options(run, options);
   const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
   const Model computed = rescaled(model, to_machine);
   Sensitivities result;
@@ -59,17 +71,25 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     sizes.push_back(size);
     result.parameters.push_back(std::move(parameter));
   }
-  RateRecord record(computed, derivatives, recorder, result);
+  RateRecord record(computed, derivatives, recorder, result, options.losses);
   const RunSpec inside = rescaled(run, to_machine);
-  TangentRun tangents(computed, inside, derivatives, sizes, record);
-  result.report = simulate(model, run, record, tangents);
-  result.stretches = tangents.stretches();
-  record.finish();
-  for (std::size_t p = 0; p < paths.size(); ++p)
-    if (const TangentState& state = tangents.states()[p]; !state.alive) {
-      result.parameters[p].until = state.until * computed.unit.time;
-      result.parameters[p].reason = state.reason;
-    }
+  const auto follow = [&](auto& tangents) {
+    result.report = simulate(model, run, record, tangents);
+    record.finish();
+    for (std::size_t p = 0; p < paths.size(); ++p)
+      if (const TangentState& state = tangents.states()[p]; !state.alive) {
+        result.parameters[p].until = state.until * computed.unit.time;
+        result.parameters[p].reason = state.reason;
+      }
+  };
+  if (options.discrete) {
+    DiscreteRun tangents(computed, inside, derivatives, sizes, record);
+    follow(tangents);
+  } else {
+    TangentRun tangents(computed, inside, derivatives, sizes, record, options.losses);
+    follow(tangents);
+    result.stretches = tangents.stretches();
+  }
   return result;
 }
 

@@ -59,9 +59,8 @@ struct TangentEvents::Course {
   const TangentBefore& before;
   TangentSeries& series;
   TangentAfter after;
-  std::vector<std::optional<double>> own;    // dt/dp of a contact's own guard
-  std::vector<ContactMotion> p_before;       // derivatives at fixed time, one a contact
-  std::vector<double> impulse_n, impulse_t;  // derivatives, where there is an impact
+  std::vector<std::optional<double>> own;  // dt/dp of a contact's own guard
+  std::vector<ContactMotion> p_before;     // derivatives at fixed time, one a contact
 
   [[nodiscard]] double dt_of(std::size_t c) const { return own[c].value_or(after.dt); }
   void stop(std::string why) {
@@ -147,8 +146,8 @@ void TangentEvents::move_state(Course& course) const {
         impact_rates(systems_, derivative_, now.mode_before, now.after, m.before.v, Dv, surface);
     if (!rates.known) return course.stop("the equations of the impact are singular");
     Dv = std::move(rates.v);
-    course.impulse_n = std::move(rates.normal);
-    course.impulse_t = std::move(rates.tangent);
+    course.after.impulse_n = std::move(rates.normal);
+    course.after.impulse_t = std::move(rates.tangent);
   } else if (const auto& kinds = now.after.system->kinds();
              differ(massive(m.before.v, kinds), massive(m.after.v, kinds), model_, same,
                     model_.scales.velocity / model_.scales.displacement)) {
@@ -280,9 +279,9 @@ void TangentEvents::fill_rates(Course& course) const {
              dt * (contact.body_tangent().dot(m.before.a) - m.instant.forcing_before.surface(c, t, 2));
     row.vt_after = slide_rate(contact, rates, m.after, course.after.point, course.after.driven[c]).vt +
                    dt * (contact.body_tangent().dot(m.after.a) - m.instant.forcing_after.surface(c, t, 2));
-    if (!course.impulse_n.empty() && m.instant.after.impulses[c].hit) {
-      row.impulse_n = course.impulse_n[c];
-      row.impulse_t = course.impulse_t[c];
+    if (!course.after.impulse_n.empty() && m.instant.after.impulses[c].hit) {
+      row.impulse_n = course.after.impulse_n[c];
+      row.impulse_t = course.after.impulse_t[c];
     }
     course.after.rates.push_back(row);
   }
@@ -290,7 +289,7 @@ void TangentEvents::fill_rates(Course& course) const {
 
 TangentAfter TangentEvents::pass(const InstantMotion& motion, const TangentBefore& before,
                                  TangentSeries& series) const {
-  Course course{motion, before, series, {}, {}, {}, {}, {}};
+  Course course{motion, before, series, {}, {}, {}};
   const std::size_t count = model_.contacts.size();
   course.own.resize(count);
   for (std::size_t c = 0; c < count; ++c)

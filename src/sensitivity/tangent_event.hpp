@@ -35,9 +35,10 @@ struct TangentAfter {
   Tangent start;
   SeriesPoint point;
   std::vector<DrivenRates> driven;
-  double dt = 0.0;                ///< of the instant
-  std::vector<EventRates> rates;  ///< one a contact, machine's units
-  std::string reason;             ///< not empty: there is no derivative after the instant
+  double dt = 0.0;                           ///< of the instant
+  std::vector<EventRates> rates;             ///< one a contact, machine's units
+  std::vector<double> impulse_n, impulse_t;  ///< derivatives, one a contact; empty: there is no impact
+  std::string reason;                        ///< not empty: there is no derivative after the instant
 };
 
 class TangentEvents {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "engine/exact/gauss_rule.hpp"
+#include "run/audit.hpp"
 
 namespace signorini {
 namespace {
@@ -13,6 +15,10 @@ constexpr int fewest_tangent_levels = 12;
 constexpr double bolder = 1.5;             // than the last part that converged
 constexpr Eigen::Index fewest_modal = 16;  // as run/choose_flow.hpp: below, the series is as fast
 constexpr int most_turn_steps = 6;
+constexpr int turn_places = 24;  // of a step of six radians: a quarter each
+// A product of two motions turns twice as far as they do: of Gauss's ten places a step of six radians takes two
+// sets, which leave 6^21 (10!)^4 / (21 (20!)^3) = 1e-14 of it.
+constexpr std::size_t work_parts = 2;
 constexpr std::size_t forcing_terms = 6;  // of a constant all but the first are zero
 
 Vector force_bends(const Series& series, std::size_t degree, double x) {
@@ -55,19 +61,23 @@ ModeSystemPtr TangentRun::system_at(const ModeSystem& system, const Series& seri
 
 TangentRun::TangentRun(const Model& model, const RunSpec& run,
                        const std::vector<ModelDerivative>& derivatives, const std::vector<double>& sizes,
-                       TangentListener& listener)
+                       TangentListener& listener, bool losses)
     : model_(model),
       structure_(model),
       systems_(model, structure_),
       listener_(listener),
       grid_(run.grid()),
-      t_end_(run.t_end) {
+      t_end_(run.t_end),
+      losses_(losses) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
     data_.push_back(&derivatives[p]);
+    if (!losses) continue;
+    states_.back().works.emplace(model, derivatives[p]);
+    states_.back().losses.emplace(model, derivatives[p], moves_at_once(model));
   }
-  if (model.size() >= fewest_modal && model.size() <= most_modal_tangents &&
+  if (!losses && model.size() >= fewest_modal && model.size() <= most_modal_tangents &&
       proportional_refusal(model).empty())
     modal_.emplace(model, data_, run.output_dt.value_or(0.0));
 }
@@ -259,6 +269,56 @@ void TangentRun::observe_modes(const ObservedStep& step) {
   }
 }
 
+/// Where a contact presses hardest for a while: N' falls through zero and rises.
+std::vector<double> TangentRun::pressing_turns(const Model& model, const ObservedStep& step) {
+  const Expansion& e = step.expansion;
+  std::vector<double> turns;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (!model.contacts[c].has_gap() || step.decision.mode[c].is_open()) continue;
+    const auto row = static_cast<Eigen::Index>(normal_slot(c));
+    const auto slope = [&](double x) {
+      double sum = 0.0;
+      for (std::size_t k = e.degree; k > 0; --k)
+        sum = sum * x + static_cast<double>(k) * e.series->forces(row, static_cast<Eigen::Index>(k));
+      return sum;
+    };
+    for (int i = 0; i < turn_places; ++i) {
+      double lo = e.x * i / turn_places, hi = e.x * (i + 1) / turn_places;
+      if (!(slope(lo) < 0.0 && slope(hi) >= 0.0)) continue;
+      for (double x = 0.5 * (lo + hi); x > lo && x < hi; x = 0.5 * (lo + hi)) (slope(x) < 0.0 ? lo : hi) = x;
+      turns.push_back(e.series->t + e.series->scale * hi);
+    }
+  }
+  return turns;
+}
+
+/// Works over [from, to] of the step; the tangent's own series begins at `begin`.
+void TangentRun::integrate(TangentState& state, const ObservedStep& step, double begin, double from,
+                           double to) const {
+  const Expansion& e = step.expansion;
+  const GaussRule& rule = gauss_rule();
+  const ForcingRatesSeries& forcing = state.series.forcing();
+  const double h = (to - from) / work_parts;
+  if (!(h > 0.0)) return;
+  TangentPlace place{0.0, step.forcing, step.decision.mode, {}, {}, {}, Vector::Zero(model_.size())};
+  for (std::size_t i = 0; i < work_parts * GaussRule::nodes; ++i) {
+    const std::size_t node = i % GaussRule::nodes;
+    const double x = from + h * (static_cast<double>(i / GaussRule::nodes) + rule.x[node]);
+    place.t = e.series->t + e.series->scale * x;
+    place.motion = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, x);
+    place.tangent = state.series.at(x - begin);
+    place.driven.clear();
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+      place.driven.push_back(driven_rates(forcing, e.series->scale, c, x - begin));
+    if (forcing.loaded) {
+      place.load.setZero();
+      for (Eigen::Index k = forcing.load.cols(); k-- > 0;)
+        place.load = place.load * (x - begin) + forcing.load.col(k);
+    }
+    state.works->add(place, h * e.series->scale * rule.w[node]);
+  }
+}
+
 /// One tangent to the end of the step, part by part.
 void TangentRun::advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& wanted,
                          std::vector<TangentSample>& samples, std::size_t p) {
@@ -295,13 +355,18 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
     else
       state.reach = std::max(state.reach, length * e.series->scale);
     const double to = length == rest ? e.x : from + length;
+    double done = from;  // up to where works are known
     for (; next < wanted.size() && wanted[next].x <= to; ++next) {
       const double x = wanted[next].x - from;
       samples[next].tangents[p] = state.series.at(x);
       for (std::size_t c = 0; c < model_.contacts.size(); ++c)
         samples[next].driven[p].push_back(driven_rates(state.series.forcing(), e.series->scale, c, x));
       samples[next].anchors[p] = state.now.start.anchors;
+      if (!losses_) continue;
+      integrate(state, step, from, std::exchange(done, wanted[next].x), wanted[next].x);
+      samples[next].works[p] = state.works->now();
     }
+    if (losses_) integrate(state, step, from, done, to);
     state.now.point = state.series.at(length);
     state.now.driven.clear();
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
@@ -315,7 +380,12 @@ void TangentRun::advance(TangentState& state, const ObservedStep& step, const st
 
 void TangentRun::observe_series(const ObservedStep& step) {
   const Expansion& e = step.expansion;
-  std::vector<Output> wanted = outputs(step);
+  std::vector<double> turns = step.turns;
+  if (losses_) {
+    const std::vector<double> more = pressing_turns(model_, step);
+    turns.insert(turns.end(), more.begin(), more.end());
+  }
+  std::vector<Output> wanted = outputs({step.step, step.expansion, step.decision, step.forcing, turns});
   for (Output& output : wanted) output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
   for (const Output& output : wanted) {
@@ -324,7 +394,8 @@ void TangentRun::observe_series(const ObservedStep& step) {
                        output.turn ? force_bends(*e.series, e.degree, output.x) : Vector(),
                        std::vector<SeriesPoint>(states_.size()),
                        std::vector<std::vector<DrivenRates>>(states_.size()),
-                       std::vector<std::vector<double>>(states_.size())});
+                       std::vector<std::vector<double>>(states_.size()),
+                       std::vector<WorkRates>(losses_ ? states_.size() : 0)});
   }
   for (std::size_t p = 0; p < states_.size(); ++p)
     if (states_[p].alive) advance(states_[p], step, wanted, samples, p);
@@ -358,6 +429,7 @@ void TangentRun::pass(const ObservedInstant& instant) {
     state.rates.assign(model_.contacts.size(), EventRates{});
     state.dt = EventRates::none;
     if (!state.alive) continue;
+    state.impulses.clear();
     TangentAfter next = state.events.pass(motion, state.now, state.series);
     if (!next.rates.empty()) {
       state.rates = std::move(next.rates);
@@ -368,6 +440,11 @@ void TangentRun::pass(const ObservedInstant& instant) {
       state.until = instant.t;
       state.reason = std::move(next.reason);
       continue;
+    }
+    if (losses_) {
+      next.rates = state.rates;
+      state.along = state.losses->pass(motion, state.now, next, *state.works);
+      state.impulses = next.impulse_n;
     }
     state.now = {std::move(next.start), std::move(next.point), std::move(next.driven)};
     state.forcing.emplace(model_, state.derivative, instant.t, Side::after);
@@ -385,6 +462,7 @@ void TangentRun::rows_at(const ObservedInstant& instant, const SeriesPoint& afte
       sample.tangents.push_back(state.alive ? state.now.point : SeriesPoint{});
       sample.driven.push_back(state.alive ? state.now.driven : std::vector<DrivenRates>{});
       sample.anchors.push_back(state.now.start.anchors);
+      if (losses_) sample.works.push_back(state.works->now());
     }
     listener_.sample(sample, true, false);
   }

@@ -10,10 +10,14 @@
 // event to its time of the next, to rounding, with the tangents beside it. Friction that depends on the slip rate
 // is followed in the same way, by series of its own.
 //
+// Works and losses are integrals along the way (work_rates.hpp): where they are wanted every stretch is followed
+// along series.
+//
 // What is wanted of them on the way is handed to a listener: rows at output times, turns, instants.
 #pragma once
 
 #include "engine/exact/modal/modal_engine.hpp"
+#include "sensitivity/loss_rates.hpp"
 #include "sensitivity/modal_tangents.hpp"
 #include "sensitivity/tangent_event.hpp"
 #include "signorini/sensitivity.hpp"
@@ -30,6 +34,7 @@ struct TangentSample {
   std::vector<SeriesPoint> tangents;             ///< one a parameter; empty vectors: it has none any more
   std::vector<std::vector<DrivenRates>> driven;  ///< [parameter][contact]
   std::vector<std::vector<double>> anchors;      ///< [parameter][contact]
+  std::vector<WorkRates> works = {};             ///< one a parameter; empty: not followed
 };
 
 /// One parameter's tangent.
@@ -49,6 +54,11 @@ struct TangentState {
   std::string reason;
   std::vector<EventRates> rates;  ///< of the last instant, one a contact
   double dt = 0.0;                ///< of the last instant
+  // where works and losses are followed
+  std::optional<WorkTangent> works;  ///< now, at fixed time
+  std::optional<LossRates> losses;
+  WorkRates along;               ///< along the last instant
+  std::vector<double> impulses;  ///< derivatives of Pn at the last instant; empty: there were none
 };
 
 class TangentListener {
@@ -66,7 +76,7 @@ class TangentRun final : public MotionObserver {
  public:
   /// model, run: in the machine's units. All but sizes must outlive it.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
-             const std::vector<double>& sizes, TangentListener& listener);
+             const std::vector<double>& sizes, TangentListener& listener, bool losses = false);
 
   void begin(const ObservedInstant& start) override;
   void step(const ObservedStep& step) override;
@@ -95,6 +105,8 @@ class TangentRun final : public MotionObserver {
   [[nodiscard]] std::vector<double> turns_in_modes(const ObservedStep& step) const;
   [[nodiscard]] double turn_near(double t, std::size_t contact, std::size_t which,
                                  const ObservedStep& step) const;
+  [[nodiscard]] static std::vector<double> pressing_turns(const Model& model, const ObservedStep& step);
+  void integrate(TangentState& state, const ObservedStep& step, double begin, double from, double to) const;
   void advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& outputs,
                std::vector<TangentSample>& samples, std::size_t parameter);
   [[nodiscard]] ModeSystemPtr system_at(const ModeSystem& system, const Series& series);
@@ -110,6 +122,7 @@ class TangentRun final : public MotionObserver {
   double t_end_;
   std::size_t next_ = 0;
   std::vector<const ModelDerivative*> data_;
+  bool losses_;
   std::optional<ModalTangents> modal_;  ///< where modes can follow the model
   std::unique_ptr<ModalEngine> modal_engine_;
   std::unique_ptr<ExactEngine> series_engine_;

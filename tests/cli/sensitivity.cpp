@@ -76,6 +76,55 @@ TEST_CASE("cli sensitivity: tables, spreads, and its exit code") {
   CHECK_FALSE(exists(shell, "belt-sensitivity/spread.csv"));
 }
 
+TEST_CASE("cli sensitivity: losses and landings, and the derivatives of steps") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending lost = shell.run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.kinetic",
+                                 "--losses", "--no-plots", "--set", "run.engine=exact"});
+  INFO(lost.err);
+  CHECK(lost.code == 0);
+  CHECK(has(lost.out, "work of surfaces"));
+  CHECK(has(shell.read("belt-sensitivity/figures.csv"), "lost by friction,,"));
+  CHECK(has(lines_of(shell.read("belt-sensitivity/columns-1.csv"))[0], "energy.kinetic"));
+  CHECK_FALSE(exists(shell, "belt-sensitivity/landings.csv"));  // a slider has none
+  shell.write("ball.toml", R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 1.0
+initial = { u = [1.0], v = [0.0] }
+[matrices]
+mass = [[1.0]]
+stiffness = [[0.0]]
+[[contacts]]
+name = "floor"
+law = "rigid"
+normal = { d0 = 1.0 }
+restitution = 0.5
+[[loads]]
+direction = { d0 = 1.0 }
+amplitude = -10.0
+)");
+  CHECK(shell
+            .run({"sensitivity", "ball.toml", "--parameter", "contacts.floor.restitution", "--losses",
+                  "--no-plots", "--set", "run.engine=exact"})
+            .code == 0);
+  const auto landings = lines_of(shell.read("ball-sensitivity/landings.csv"));
+  REQUIRE(landings.size() == 3);
+  CHECK(
+      landings[0] ==
+      "contact,landing,start,end,impulse,peak_force,parameter,dstart_dp,dend_dp,dimpulse_dp,dpeak_force_dp");
+  CHECK(landings[2].rfind("floor,2,", 0) == 0);
+  const auto steps = [&](const char* engine) {
+    return shell.run({"sensitivity", "belt.toml", "--parameter", "contacts.1.friction.kinetic", "--discrete",
+                      "--force", "--no-plots", "--set", std::string("run.engine=") + engine, "--set",
+                      "run.dt=0.01"});
+  };
+  CHECK(steps("newmark").code == 0);
+  const Ending wrong = steps("exact");
+  CHECK(wrong.code == 2);
+  CHECK(has(wrong.err, "newmark"));
+}
+
 TEST_CASE("cli sensitivity: what it refuses, it names") {
   const Shell shell;
   shell.write("belt.toml", belt(20));

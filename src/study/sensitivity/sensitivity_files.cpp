@@ -44,10 +44,33 @@ std::string figure_table(const Sensitivities& s) {
   block.end_row();
   for (const Response& r : s.responses)
     for (std::size_t p = 0; p < s.parameters.size(); ++p) {
-      block.text(r.name).text(s.contacts[static_cast<std::size_t>(r.contact)]).number(r.value).number(r.t);
+      block.text(r.name).text(contact_of(s, r)).number(r.value).number(r.t);
       block.text(s.parameters[p].path).number(known(r.rates[p])).number(known(r.t_rates[p]));
       block.number(known(elasticity(s.parameters[p].value, r.value, r.rates[p]))).end_row();
     }
+  return block.str();
+}
+
+std::string landing_table(const Sensitivities& s) {
+  CsvBlock block;
+  for (const char* name : {"contact", "landing", "start", "end", "impulse", "peak_force", "parameter",
+                           "dstart_dp", "dend_dp", "dimpulse_dp", "dpeak_force_dp"})
+    block.text(name);
+  block.end_row();
+  int number = 0;
+  for (std::size_t i = 0; i < s.landings.size(); ++i) {
+    const MovingLanding& landing = s.landings[i];
+    number = i > 0 && s.landings[i - 1].contact == landing.contact ? number + 1 : 1;
+    for (std::size_t p = 0; p < s.parameters.size(); ++p) {
+      block.text(s.contacts[static_cast<std::size_t>(landing.contact)]).text(std::to_string(number));
+      const Landing& l = landing.value;
+      for (const double x : {l.start, l.end, l.impulse, l.peak_force}) block.number(x);
+      block.text(s.parameters[p].path);
+      const LandingRates& rates = landing.rates[p];
+      for (const double x : {rates.start, rates.end, rates.impulse, rates.peak_force}) block.number(known(x));
+      block.end_row();
+    }
+  }
   return block.str();
 }
 
@@ -94,7 +117,7 @@ std::string spread_table(const Sensitivities& s, const Spread& spread) {
         .end_row();
   for (std::size_t i = 0; i < s.responses.size(); ++i)
     block.text(s.responses[i].name)
-        .text(s.contacts[static_cast<std::size_t>(s.responses[i].contact)])
+        .text(contact_of(s, s.responses[i]))
         .number(s.responses[i].value)
         .number(known(spread.responses[i]))
         .end_row();
@@ -109,6 +132,10 @@ double elasticity(double p, double x, double rate) {
 
 std::string contact_of(const Sensitivities& s, const Event& event) {
   return event.contact < 0 ? "" : s.contacts[static_cast<std::size_t>(event.contact)];
+}
+
+std::string contact_of(const Sensitivities& s, const Response& figure) {
+  return figure.contact < 0 ? "" : s.contacts[static_cast<std::size_t>(figure.contact)];
 }
 
 std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
@@ -152,6 +179,7 @@ void write_sensitivities(const fs::path& directory, const Sensitivities& s, cons
   write_file(directory / "sensitivities.csv", event_table(s));
   write_file(directory / "figures.csv", figure_table(s));
   write_file(directory / "sequence.csv", sequence_table(s));
+  if (!s.landings.empty()) write_file(directory / "landings.csv", landing_table(s));
   for (std::size_t p = 0; p < s.parameters.size(); ++p)
     write_file(directory / fmt::format("columns-{}.csv", p + 1), column_table(s, p));
   if (!sigmas.empty()) write_file(directory / "spread.csv", spread_table(s, spread(s, sigmas)));

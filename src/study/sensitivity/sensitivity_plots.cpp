@@ -120,8 +120,8 @@ std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path
     const auto [bottom, top] = stacked(i, figures.size(), height, 60.0, 64.0);
     text += panel(run, bottom, top, "", true) + wide_margin();
     text += "set xlabel " +
-            quoted(r.name + " of '" + s.contacts[static_cast<std::size_t>(r.contact)] +
-                   fmt::format("' = {:.6g}", r.value)) +
+            quoted(r.name + (r.contact < 0 ? "" : " of '" + contact_of(s, r) + "'") +
+                   fmt::format(" = {:.6g}", r.value)) +
             "\n";
     text +=
         "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange "

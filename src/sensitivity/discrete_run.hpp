@@ -1,0 +1,88 @@
+// discrete_run.hpp: derivatives of what engine `newmark` computes, not of the motion that it approximates.
+//
+//   u1 = u0 + h v0 + h^2/4 (a0 + a1),   v1 = v0 + h/2 (a0 + a1)           engine/newmark/newmark_step.hpp
+//   Du1 = Du0 + h Dv0 + h^2/4 (Da0 + Da1) + Dh (v0 + h/2 (a0 + a1))
+//   Dv1 = Dv0 + h/2 (Da0 + Da1) + Dh/2 (a0 + a1),   Dh = Dt1 - Dt0
+//   M Da1 + C Dv1 + K Du1 + sum ( n DN1 + t DT1 )
+//     = DP(t1) - M_p a1 - C_p v1 - K_p u1 - sum ( n_p N1 + t_p T1 ),   rows of the contacts likewise
+//
+// D: along the nodes, which move. A regular step keeps its length, Dt1 = Dt0; one that ends at a load's instant
+// or at the end of the run ends there; one redone to an event ends where DG = 0, a linear equation in Dt1. After an
+// event a0 is that of equilibrium: the same with h = 0. The steps are made once more, from the engine's states.
+//
+// For steps of one length and events at roots of guards, and models without massless parts or friction by slip
+// rate; `reason` says where it is another. A check of the derivatives of the motion: both agree to O(h^2).
+#pragma once
+
+#include "engine/newmark/newmark_step.hpp"
+#include "sensitivity/tangent_run.hpp"
+
+namespace signorini {
+
+class DiscreteRun final : public MotionObserver {
+ public:
+  /// As TangentRun.
+  DiscreteRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
+              const std::vector<double>& sizes, TangentListener& listener);
+
+  void begin(const ObservedInstant& start) override;
+  void step(const ObservedStep& step) override;
+  void instant(const ObservedInstant& instant) override;
+
+  [[nodiscard]] const std::vector<TangentState>& states() const { return states_; }
+
+ private:
+  /// A node and its derivative.
+  struct Node {
+    double t = 0.0;
+    Point point;
+  };
+  struct Moved {
+    double t = 0.0;
+    Vector u, v, a, forces;
+    std::vector<double> anchors;
+  };
+  /// A step with known ends; of one parameter.
+  struct Ends {
+    const Node &from, &to;
+    const Moved& moved;
+    const ForcingRatesSeries& forcing;  ///< at the end, of scale 1
+  };
+  struct Rest;
+
+  void stop(const std::string& reason, double t);
+  void factorise(double h);
+  [[nodiscard]] Node redone(const Forcing& forcing, double t);
+  [[nodiscard]] ForcingRatesSeries forcing_at(std::size_t parameter, double t) const;
+  [[nodiscard]] Moved advance(std::size_t parameter, const Forcing& forcing, const Ends& ends, double Dt);
+  void add_rows(std::size_t parameter, const Forcing& forcing, const Ends& ends, const Moved& known);
+  [[nodiscard]] ContactMotion along(std::size_t parameter, std::size_t contact, const Forcing& forcing,
+                                    const Node& at, const Moved& moved,
+                                    const ForcingRatesSeries& series) const;
+  [[nodiscard]] double end_of(std::size_t parameter, const ObservedStep& step, const Ends& ends);
+  void row(const ObservedStep& step, double t);
+  void hit(std::size_t parameter, const ObservedInstant& instant);
+  void hold(std::size_t parameter, const ObservedInstant& instant);
+  void pass(const ObservedInstant& instant);
+  void rows_at(const ObservedInstant& instant);
+  void fill(std::size_t parameter, const ObservedInstant& instant, const Node& before, const Moved& was);
+
+  const Model& model_;
+  Structure structure_;
+  ModeSystems systems_;
+  TangentListener& listener_;
+  std::vector<TangentState> states_;
+  std::vector<double> grid_;
+  std::size_t next_ = 0;
+  double t_end_;
+  NewmarkStep step_;
+  SystemMatrix matrix_;
+  double factored_ = -1.0;  // the length of steps of matrix_; -1: it holds nothing
+  Mode mode_;
+  Node node_;
+  std::vector<Moved> moved_;  // of node_, one a parameter
+  std::vector<std::vector<double>> impulse_n_, impulse_t_;
+  Vector x_, work_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,96 @@
+#include "sensitivity/loss_rates.hpp"
+
+namespace signorini {
+
+/// Of both sides of an instant, along it.
+struct LossRates::Sides {
+  const InstantMotion& motion;
+  const TangentBefore& before;
+  const TangentAfter& after;
+  Vector Du_before, Dv_before, Du_after, Dv_after;
+  std::vector<ContactMotion> D_before, D_after;
+};
+
+void LossRates::add_impact(const Sides& s, WorkRates& works) const {
+  const ObservedInstant& now = s.motion.instant;
+  if (s.after.impulse_n.empty()) return;
+  const WorkTangent energy(model_, derivative_);
+  double driven = 0.0;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Impulse& impulse = now.after.impulses[c];
+    const double dt = s.after.rates[c].t;
+    const double moved =
+        s.after.impulse_t[c] * now.forcing_before.surface(c, now.t, 1) +
+        impulse.tangent * (s.before.driven[c].surface[1] + dt * now.forcing_before.surface(c, now.t, 2));
+    works.works.surface[c] += moved;
+    driven += moved;
+  }
+  works.impact +=
+      energy.kinetic(s.motion.before.v, s.Dv_before) - energy.kinetic(s.motion.after.v, s.Dv_after) + driven;
+}
+
+void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
+  const ObservedInstant& now = s.motion.instant;
+  const InstantMotion& m = s.motion;
+  double released = 0.0, lost = 0.0;
+  if (massless_) {
+    const Energy from = works.stored(
+        {now.mode_before, m.before.u, m.before.v, s.Du_before, s.Dv_before, m.motion_before, s.D_before});
+    const Energy to = works.stored(
+        {now.after.mode, m.after.u, m.after.v, s.Du_after, s.Dv_after, m.motion_after, s.D_after});
+    WorkRates impact{Works(model_.contacts.size()), 0.0};
+    add_impact(s, impact);
+    released = from.stored() - to.stored() - (impact.impact - impact.surface());
+  }
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    if (!now.after.jumped[c] && !(massless_ && now.load_jumps)) continue;
+    const Contact& contact = model_.contacts[c];
+    const ContactRates& rates = derivative_.contacts[c];
+    const ContactMotion &b = m.motion_before[c], &a = m.motion_after[c];
+    const ContactMotion &Db = s.D_before[c], &Da = s.D_after[c];
+    const double kt = contact.own ? 0.0 : contact.tangential_stiffness.value_or(0.0);
+    double loss = 0.0;
+    if (!massless_) {
+      if (kt > 0.0 && std::abs(a.T) < std::abs(b.T))
+        loss = (b.T * Db.T - a.T * Da.T) / kt -
+               (b.T * b.T - a.T * a.T) * rates.tangential_stiffness / (2.0 * kt * kt);
+    } else if (now.load_jumps) {
+      loss = Da.T * (slip_of(contact, a) - slip_of(contact, b)) +
+             a.T * (slip_by(contact, rates, a, Da) - slip_by(contact, rates, b, Db));
+    } else if (contact.tangential_stiffness) {
+      loss = released - lost;
+    }
+    works.now().works.friction[c] += loss;
+    lost += loss;
+  }
+  if (massless_ && now.load_jumps) works.now().works.loads += lost - released;
+}
+
+WorkRates LossRates::pass(const InstantMotion& m, const TangentBefore& before, const TangentAfter& after,
+                          WorkTangent& works) const {
+  const ObservedInstant& now = m.instant;
+  std::vector<double> dt_of;
+  Sides s{m, before, after, {}, {}, {}, {}, {}, {}};
+  s.Du_before = before.point.u + after.dt * m.before.v;
+  s.Dv_before = before.point.v + after.dt * m.before.a;
+  s.Du_after = after.point.u + after.dt * m.after.v;  // with parts without mass, which have moved
+  s.Dv_after = after.point.v + after.dt * m.after.a;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const ContactRates& rates = derivative_.contacts[c];
+    dt_of.push_back(after.rates[c].t);
+    s.D_before.push_back(sum(parameter_rate(contact, rates, c, m.before, before.point, before.driven[c]),
+                             m.rate_before[c], dt_of[c]));
+    s.D_after.push_back(sum(parameter_rate(contact, rates, c, m.after, after.point, after.driven[c]),
+                            m.rate_after[c], dt_of[c]));
+  }
+  works.shift(now.forcing_before, now.t, now.mode_before, m.before, m.motion_before, after.dt, dt_of);
+  add_impact(s, works.now());
+  add_drops(s, works);
+  WorkRates along = works.now();
+  for (double& dt : dt_of) dt = -dt;
+  works.shift(now.forcing_after, now.t, now.after.mode, m.after, m.motion_after, -after.dt, dt_of);
+  return along;
+}
+
+}  // namespace signorini

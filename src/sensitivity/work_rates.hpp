@@ -1,0 +1,75 @@
+// work_rates.hpp: how works and losses since t = 0 move with a parameter.
+//
+//   W_p+ = W_p + int d/dp ( power at fixed time ) dt         between instants, Gauss's rule over a series
+//   W_p+ = W_p- + (power- - power+) dt/dp + DL               across an instant at which L is lost at once
+//   power: P . v,  v^T C v + cn g'^2,  T p',  -T s',  -N     motion/powers.hpp
+//   E_p = v^T M w' + v^T M_p v / 2 + u^T K w + ...           what is stored, at one time
+//
+// L: impacts, friction that drops, loads that jump on parts without mass (run/audit.hpp). D: along the moving
+// instant. Units: the machine's, over that of the key.
+#pragma once
+
+#include "linear/structure.hpp"
+#include "motion/powers.hpp"
+#include "sensitivity/contact_rates.hpp"
+
+namespace signorini {
+
+struct WorkRates {
+  Works works;
+  double impact = 0.0;
+
+  [[nodiscard]] double friction() const;
+  [[nodiscard]] double surface() const;
+};
+
+/// Everything at one place between instants.
+struct TangentPlace {
+  double t = 0.0;
+  const Forcing& forcing;
+  const Mode& mode;
+  SeriesPoint motion, tangent;
+  std::vector<DrivenRates> driven;  ///< one a contact
+  Vector load;                      ///< P_p
+};
+
+/// u and v with their derivatives, and those of all contacts: at fixed time, or along an instant.
+struct StoredMotion {
+  const Mode& mode;
+  const Vector &u, &v, &Du, &Dv;
+  const std::vector<ContactMotion>&m, &D;
+};
+
+class WorkTangent {
+ public:
+  /// All must outlive it.
+  WorkTangent(const Model& model, const ModelDerivative& derivative)
+      : model_(model), derivative_(derivative), now_{Works(model.contacts.size()), 0.0} {}
+
+  [[nodiscard]] const WorkRates& now() const { return now_; }
+  [[nodiscard]] WorkRates& now() { return now_; }
+  /// += factor times the derivatives of all powers.
+  void add(const TangentPlace& place, double factor);
+  /// += dt times the powers themselves; of each contact its own dt.
+  void shift(const Forcing& forcing, double t, const Mode& mode, const SeriesPoint& motion,
+             const std::vector<ContactMotion>& m, double dt, const std::vector<double>& dt_of);
+  /// Derivatives of kinetic, elastic and contact energy; all else zero.
+  [[nodiscard]] Energy stored(const StoredMotion& at) const;
+  [[nodiscard]] double kinetic(const Vector& v, const Vector& Dv) const;
+
+ private:
+  [[nodiscard]] double contact_energy(std::size_t c, const StoredMotion& at, double& shear) const;
+
+  const Model& model_;
+  const ModelDerivative& derivative_;
+  WorkRates now_;
+};
+
+/// kn_p and cn_p, which the rows of a closed contact hold.
+[[nodiscard]] double stiffness_rate(const ContactRates& rates);
+[[nodiscard]] double damping_rate(const ContactRates& rates);
+/// The derivative of ut - T/kt.
+[[nodiscard]] double slip_by(const Contact& contact, const ContactRates& rates, const ContactMotion& m,
+                             const ContactMotion& D);
+
+}  // namespace signorini

@@ -125,7 +125,9 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Scene
 Outcomes run_engines(const CompareOptions& options, const fs::path& path,
                      const std::vector<std::string>& command_line) {
   std::vector<Scene> scenes;
-  for (const std::string& engine : options.engines) scenes.push_back(find_cutoff(scene_for(options, engine)));
+  for (const std::string& engine : options.engines)
+    scenes.push_back(
+        find_cutoff(scene_for(options, engine), scenes.empty() ? std::nullopt : scenes.front().reduction));
   (void)build_model(scenes.front());  // what no engine can run is refused before anything is written
   begin(path);
   Outcomes outcomes;

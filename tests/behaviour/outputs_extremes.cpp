@@ -176,6 +176,21 @@ stiffness = [[1.0, 0.0], [0.0, {:.17g}]]
   }
 }
 
+namespace {
+
+/// Two loads that are faster than every mode.
+std::string shaken(const std::string& node, const std::string& direction) {
+  std::string text;
+  for (const char* course : {"omega = 100.0", "omega = 101.3, phase = 1.0"})
+    text += fmt::format(
+        "[[loads]]\nnode = \"{}\"\ndirection = {}\namplitude = 1.0\nhistory = {{ type = \"harmonic\", {} "
+        "}}\n",
+        node, direction, course);
+  return text;
+}
+
+}  // namespace
+
 TEST_CASE("outputs: extremes that a load makes which is faster than every mode") {
   const std::string text = R"(schema = 1
 units = { force = "N", mass = "kg", length = "m", time = "s" }
@@ -201,27 +216,9 @@ fix = ["uy"]
 node = "B"
 direction = [1.0, 0.0]
 stiffness = 1.0
-[[loads]]
-node = "A"
-direction = [0.0, 1.0]
-amplitude = 1.0
-history = { type = "harmonic", omega = 100.0 }
-[[loads]]
-node = "A"
-direction = [0.0, 1.0]
-amplitude = 1.0
-history = { type = "harmonic", omega = 101.3, phase = 1.0 }
-[[loads]]
-node = "B"
-direction = [1.0, 0.0]
-amplitude = 1.0
-history = { type = "harmonic", omega = 100.0 }
-[[loads]]
-node = "B"
-direction = [1.0, 0.0]
-amplitude = 1.0
-history = { type = "harmonic", omega = 101.3, phase = 1.0 }
-)" + output("R", "reaction", "at = \"A\"\ndirection = [0.0, 1.0]") +
+)" + shaken("A", "[0.0, 1.0]") +
+                           shaken("B", "[1.0, 0.0]") +
+                           output("R", "reaction", "at = \"A\"\ndirection = [0.0, 1.0]") +
                            output("a", "acceleration", "at = \"B\"\ndirection = [1.0, 0.0]");
   // u'' + u = sin(w t + p) from rest: c (sin(w t + p) - sin p cos t - w cos p sin t), c = 1 / (1 - w^2)
   const auto at = [](double t, double w, double p) {

@@ -305,6 +305,23 @@ TEST_CASE("a tolerance that no cutoff meets keeps all modes; what has no modes i
       doctest::Contains("reduction.tolerance"), SceneError);
 }
 
+TEST_CASE("runs that are compared have one cutoff; another tolerance has its own") {
+  const auto asked = [](const char* engine, const char* tolerance) {
+    return read_scene(pipeline,
+                      {{"run.t_end", "2e-3"}, {"run.engine", engine}, {"reduction.tolerance", tolerance}});
+  };
+  Scene first = find_cutoff(asked("exact", "1e-2"));
+  first.reduction->cutoff_omega *= 1.01;  // what no search of its own would find
+  const Scene same = find_cutoff(asked("ida", "1e-2"), first.reduction);
+  CHECK(same.reduction->cutoff_omega == first.reduction->cutoff_omega);
+  CHECK(same.run.engine == Engine::ida);
+  const Scene sharper = find_cutoff(asked("exact", "1e-3"), first.reduction);
+  CHECK(sharper.reduction->tolerance == 1e-3);
+  CHECK(sharper.reduction->tried.back().error <= 1e-3);
+  CHECK(sharper.reduction->cutoff_omega > first.reduction->cutoff_omega);
+  CHECK_FALSE(find_cutoff(asked("exact", "1e-2"), std::nullopt).reduction->tried.empty());
+}
+
 TEST_CASE("one model of a scene with a tolerance has a cutoff only where it was looked for") {
   const Scene scene = read_scene(pipeline, {{"reduction.tolerance", "1e-3"}});
   CHECK(scene.reduction->cutoff_omega == 0.0);

@@ -171,4 +171,10 @@ Scene find_cutoff(Scene scene, const std::function<bool()>& go_on) {
   }
 }
 
+Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found) {
+  if (found && found->tolerance && scene.reduction && scene.reduction->tolerance == found->tolerance)
+    scene.reduction = found;
+  return find_cutoff(std::move(scene));
+}
+
 }  // namespace signorini

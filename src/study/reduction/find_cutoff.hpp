@@ -10,6 +10,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "signorini/scene.hpp"
 
@@ -19,5 +20,9 @@ namespace signorini {
 /// go_on: asked now and then; false ends the search with the scene as it is.
 [[nodiscard]] Scene find_cutoff(
     Scene scene, const std::function<bool()>& go_on = [] { return true; });
+
+/// The cutoff of another scene that asked for the same tolerance, or else its own: runs that are compared are
+/// those of one model, which is looked for once.
+[[nodiscard]] Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found);
 
 }  // namespace signorini

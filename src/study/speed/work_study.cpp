@@ -99,7 +99,8 @@ std::string without_option(const std::string& message) {
 }  // namespace
 
 WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
-  const Scene scene = read_scene(request_.scene, request_.settings(""));
+  const Scene scene = find_cutoff(read_scene(request_.scene, request_.settings("")));
+  reduction_ = scene.reduction;
   const Model model = build_model(scene);
   fingerprint_ = fingerprint_of(scene.resolved);
   held_ = capture_velocities(scene, model);
@@ -122,7 +123,7 @@ WorkStudy::Prepared WorkStudy::prepare(const WorkPoint& point) const {
   std::vector<Override> changes = held_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
-  Scene scene = find_cutoff(read_scene(request_.scene, changes));
+  Scene scene = find_cutoff(read_scene(request_.scene, changes), reduction_);
   Model model = build_model(scene);
   return {std::move(scene), std::move(model)};
 }

@@ -88,8 +88,9 @@ class WorkStudy {
 
   WorkRequest request_;
   WorkReport report_;
-  std::string fingerprint_;     // of the scene as it was first read
-  std::vector<Override> held_;  // capture velocities, the same in all runs
+  std::string fingerprint_;                 // of the scene as it was first read
+  std::vector<Override> held_;              // capture velocities, the same in all runs
+  std::optional<ReductionSpec> reduction_;  // with the cutoff of all runs
   std::map<std::string, Recorded> recorded_;
   ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
   bool doubted_ = false;

@@ -24,7 +24,7 @@ class DampedFlow final : public ModalFlow {
   void advance(const ModalPoint& from, double time, ModalPoint& to) const override {
     motion_.advance(from, time, to);
   }
-  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const override {
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const override {
     motion_.motion(at, q, rate, change);
   }
   void forces(const ModalPoint& at, Point& point) const override;

@@ -166,13 +166,13 @@ void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) 
   to.time = from.time + time;
 }
 
-void DampedMotion::motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const {
+void DampedMotion::motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const {
   const Eigen::VectorXd b = time_.at(at.time);
   const Eigen::MatrixXcd& shape = state_->modes.shape;
-  const Eigen::VectorXcd first = root().cwiseProduct(at.y), second = root().cwiseProduct(first);
+  const Eigen::VectorXcd first = root().cwiseProduct(at.y);
   q = (shape * at.y).real() + place_ * b;
   rate = (shape * first).real() + rate_ * b;
-  change = (shape * second).real() + change_ * b;
+  if (change) *change = (shape * root().cwiseProduct(first)).real() + change_ * b;
 }
 
 }  // namespace signorini

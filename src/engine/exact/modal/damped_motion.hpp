@@ -40,7 +40,7 @@ class DampedMotion {
   [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now);
   void advance(const ModalPoint& from, double time, ModalPoint& to) const;
-  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const;
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const;
 
   [[nodiscard]] const DampedState& state() const { return *state_; }
   [[nodiscard]] const DampedSystem& system() const { return system_; }

@@ -104,7 +104,7 @@ double ModalEngine::sharpen(std::size_t slot) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
     t_ = part.begin + part.length;
-    fill(now_, end_);
+    fill(now_, end_, true);
     const Fall fall = fall_of(slot, end_);
     const bool sharp = std::abs(fall.off) <= std::max(0.25 * resolution_at(t_, 0.0), fall.blur);
     if (i == most_corrections || sharp) return fall.blur;
@@ -159,7 +159,7 @@ Step ModalEngine::advance() {
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
-  if (step.kind != Step::Kind::event) fill(now_, end_);
+  if (step.kind != Step::Kind::event) fill(now_, end_, true);
   return step;
 }
 
@@ -173,11 +173,16 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
-/// u, v, a and forces; keeps q of the end of the step.
-void ModalEngine::fill(const ModalPoint& z, Point& point) {
+/// u, v, forces and, where they are wanted, a; keeps q of the end of the step.
+void ModalEngine::fill(const ModalPoint& z, Point& point, bool accelerations) {
   Vector q, rate, change;
-  flow_->motion(z, q, rate, change);
-  basis_.motions({&q, &rate, &change}, {&point.u, &point.v, &point.a});
+  flow_->motion(z, q, rate, accelerations ? &change : nullptr);
+  if (accelerations) {
+    basis_.motions({&q, &rate, &change}, {&point.u, &point.v, &point.a});
+  } else {
+    basis_.motions({&q, &rate}, {&point.u, &point.v});
+    point.a.resize(0);
+  }
   point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
   flow_->forces(z, point);
   if (&point == &end_) {
@@ -191,7 +196,18 @@ void ModalEngine::evaluate(double t, Point& point) {
   if (t == t_)
     point = end_;
   else
-    fill(at(t), point);
+    fill(at(t), point, false);
+}
+
+void ModalEngine::accelerate(double t, Point& point) {
+  if (point.a.size() == 0) interpolate(t, point);
+}
+
+void ModalEngine::interpolate(double t, Point& point) {
+  if (modal_ && t != t_)
+    fill(at(t), point, true);
+  else
+    evaluate(t, point);
 }
 
 void ModalEngine::integrate(double from, double to, Works& works) {

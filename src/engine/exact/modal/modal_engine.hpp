@@ -21,7 +21,10 @@ class ModalEngine final : public Stepper {
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
+  /// Without accelerations inside of a step: a third of the work.
   void evaluate(double t, Point& point) override;
+  void accelerate(double t, Point& point) override;
+  void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   [[nodiscard]] double guard_error(const Form& form, const ContactMotion& motion,
@@ -46,7 +49,7 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] Step give_way();
   [[nodiscard]] std::string follow(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
-  void fill(const ModalPoint& z, Point& point);
+  void fill(const ModalPoint& z, Point& point, bool accelerations);
   struct Fall {
     double off = 0.0, blur = 0.0;  // times
   };

@@ -37,8 +37,8 @@ class ModalFlow {
   /// After a passage without event: which guards are armed now.
   virtual void rearm(const ModalPoint& at) = 0;
   virtual void advance(const ModalPoint& from, double time, ModalPoint& to) const = 0;
-  /// Amplitudes of the open modes, their rates and the rates of those.
-  virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const = 0;
+  /// Amplitudes of the open modes, their rates and, where they are wanted, the rates of those.
+  virtual void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const = 0;
   /// N and T of all contacts, at a point whose u and v are known.
   virtual void forces(const ModalPoint& at, Point& point) const = 0;
   /// Rate of a guard at time t.

@@ -76,8 +76,7 @@ std::shared_ptr<const StateModes> ModalSystem::state(const Mode& mode) {
   auto made = std::make_shared<const StateModes>(make(mode));
   const auto rows = static_cast<std::size_t>(poles_.size());
   const std::size_t lists = 2 * (basis_.normals().size() + basis_.tangents().size() + basis_.loads().size());
-  const auto pairs = static_cast<std::size_t>(made->pairs.e.size() + made->pairs.shared.size());
-  const std::size_t bytes = made->spectrum.written_bytes() + sizeof(double) * pairs;
+  const std::size_t bytes = made->spectrum.written_bytes() + made->pairs.bytes();
   return known_.insert(states, std::move(made),
                        bytes + rows * sizeof(double) * (lists + 8 * (1 + 2 * mode.size())));
 }
@@ -119,7 +118,7 @@ StateModes ModalSystem::make(const Mode& mode) const {
   both(basis_.loads(), made.load, made.from_load);
   const bool slips =
       std::any_of(mode.begin(), mode.end(), [](const ContactState& c) { return slip_sign(c.state) != 0; });
-  if (slips && spectrum.written_bytes() > 0) made.pairs = mode_pairs(spectrum, alpha_);
+  if (slips && spectrum.written_bytes() > 0) made.pairs = ModePairs(spectrum, alpha_);
   return made;
 }
 

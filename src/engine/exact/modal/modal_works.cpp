@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "contact/law.hpp"
 
@@ -158,32 +159,64 @@ ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::siz
   return lanes;
 }
 
-/// `integrals` of all modes that oscillate with all before them, d = l_l - l_k, e as in mode_pairs.hpp:
-///   rates = -e ( 2 alpha l_k l_l [yy] + alpha (l_k + l_l) [rr] + d (l_k [yr] - l_l [ry]) )
-///   mixed =  e ( l_l (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_l [ry]) )
+namespace {
+
+using Two = Eigen::Array2d;
+
+template <class T>
+T read(const double* from) {
+  if constexpr (std::is_same_v<T, double>)
+    return *from;
+  else
+    return Eigen::Map<const T>(from);
+}
+template <class T>
+void write(const T& value, double* to) {
+  if constexpr (std::is_same_v<T, double>)
+    *to = value;
+  else
+    Eigen::Map<T>{to} = value;
+}
+
+/// `integrals` of mode k with mode i, or (T = Two) with modes i and i + 1, d = l_i - l_k, e as in mode_pairs.hpp:
+///   rates = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
+///   mixed =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
+/// Returns -x_k^T x_i rates; [yy] and mixed are written.
+template <class T>
+T meet(const ModalWorks::Lanes& a, double alpha, Eigen::Index k, Eigen::Index i, const double* shared,
+       double* yy_out, double* mixed_out) {
+  const double lk = a.l[k], y0 = a.y0[k], r0 = a.r0[k], y1 = a.y1[k], r1 = a.r1[k];
+  const T l = read<T>(&a.l[i]), at_begin = read<T>(&a.y0[i]), at_end = read<T>(&a.y1[i]);
+  const T rate0 = read<T>(&a.r0[i]), rate1 = read<T>(&a.r1[i]);
+  const T d = l - lk, both = l + lk, e = 1.0 / (d * d + (2.0 * alpha * alpha) * both);
+  const T yy = y1 * at_end - y0 * at_begin, pulled = l * yy, rr = r1 * rate1 - r0 * rate0;
+  const T turned = lk * (y1 * rate1 - y0 * rate0) - l * (r1 * at_end - r0 * at_begin);
+  write<T>(yy, yy_out + i);
+  write<T>(e * ((d + 2.0 * alpha * alpha) * pulled + d * rr - (2.0 * alpha) * turned), mixed_out + i);
+  return read<T>(shared + i) * ((2.0 * alpha * lk) * pulled + (alpha * both) * rr + d * turned);
+}
+
+}  // namespace
+
+/// All modes that oscillate with all before them.
 void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
-  const bool known = state_->pairs.e.size() > 0;
+  const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = lanes.l.size();
-  Eigen::ArrayXd own_e(known ? 0 : n), own_shared(known ? 0 : n), yy, rr, turned, mixed;
+  Eigen::ArrayXd own(pairs.known() ? 0 : n), yy(n), mixed(n);
   for (Eigen::Index k = 1; k < n; ++k) {
-    const double lk = lanes.l[k], y0k = lanes.y0[k], y1k = lanes.y1[k], r0k = lanes.r0[k], r1k = lanes.r1[k];
-    if (y0k == 0.0 && y1k == 0.0 && r0k == 0.0 && r1k == 0.0) continue;
-    if (!known) pairs_of_mode(state_->spectrum, alpha_, k, own_e.head(k), own_shared.head(k));
-    const Eigen::Map<const Eigen::ArrayXd> e(known ? &state_->pairs.e(0, k) : own_e.data(), k),
-        shared(known ? &state_->pairs.shared(0, k) : own_shared.data(), k);
-    const auto l = lanes.l.head(k), y0 = lanes.y0.head(k), y1 = lanes.y1.head(k), r0 = lanes.r0.head(k),
-               r1 = lanes.r1.head(k);
-    yy = y1k * y1 - y0k * y0;
-    rr = r1k * r1 - r0k * r0;
-    turned = lk * (y1k * r1 - y0k * r0) - l * (r1k * y1 - r0k * y0);
-    sums.rates -=
-        2.0 * (shared * ((2.0 * alpha_ * lk) * l * yy + alpha_ * (l + lk) * rr + (l - lk) * turned)).sum();
-    mixed = e * (l * ((l - lk) + 2.0 * alpha_ * alpha_) * yy + (l - lk) * rr - (2.0 * alpha_) * turned);
+    if (lanes.y0[k] == 0.0 && lanes.y1[k] == 0.0 && lanes.r0[k] == 0.0 && lanes.r1[k] == 0.0) continue;
+    if (!pairs.known()) pairs_of_mode(state_->spectrum, alpha_, k, own.data());
+    const double* shared = pairs.known() ? pairs.of(k) : own.data();
+    Two lost = Two::Zero();
+    Eigen::Index i = 0;
+    for (; i + 2 <= k; i += 2) lost += meet<Two>(lanes, alpha_, k, i, shared, yy.data(), mixed.data());
+    if (i < k) lost[0] += meet<double>(lanes, alpha_, k, i, shared, yy.data(), mixed.data());
+    sums.rates -= 2.0 * lost.sum();
     for (const std::size_t c : slipping_) {
       const Eigen::Map<const Eigen::ArrayXd> normal(state_->normal[c].real.data(), n),
           tangent(state_->tangent[c].real.data(), n);
-      sums.crossed[c] +=
-          normal[k] * (tangent.head(k) * mixed).sum() + tangent[k] * (normal.head(k) * (yy - mixed)).sum();
+      sums.crossed[c] += normal[k] * (tangent.head(k) * mixed.head(k)).sum() +
+                         tangent[k] * (normal.head(k) * (yy - mixed).head(k)).sum();
     }
   }
 }

@@ -33,6 +33,10 @@ class ModalWorks {
   struct Ends {
     S l{}, y0{}, r0{}, y1{}, r1{};
   };
+  /// The same of all modes, for sums over pairs of them.
+  struct Lanes {
+    Eigen::ArrayXd l, y0, r0, y1, r1;
+  };
 
  private:
   struct Stretch {
@@ -50,9 +54,6 @@ class ModalWorks {
   };
   [[nodiscard]] Stretch stretch(const ModalPoint& from, const ModalPoint& to, double time) const;
   [[nodiscard]] double with_drifts(const Stretch& s, std::size_t k, std::size_t l, double product) const;
-  struct Lanes {
-    Eigen::ArrayXd l, y0, r0, y1, r1;
-  };
   [[nodiscard]] Lanes lanes(const Stretch& s, const std::vector<std::size_t>& oscillating) const;
   void add_two(const Stretch& s, std::size_t k, std::size_t l, Sums& sums) const;
   void add_oscillating(const Lanes& lanes, Sums& sums) const;

@@ -2,21 +2,30 @@
 //
 //   e_kl = 1 / ( (l_k - l_l)^2 + 2 alpha^2 (l_k + l_l) ),      shared_kl = x_k^T x_l e_kl
 //
-// Real modes k != l; e = 0 for two without frequency. Both are symmetric, and known for l < k.
+// Real modes k != l; 0 for two without frequency. Symmetric, and known for l < k.
 #pragma once
+
+#include <vector>
 
 #include "engine/exact/modal/spectrum.hpp"
 
 namespace signorini {
 
-/// One column a mode k, in which rows l < k count; empty where the state's X is not written out either.
-struct ModePairs {
-  Eigen::ArrayXXd e, shared;
+/// Empty where the state's X is not written out either.
+class ModePairs {
+ public:
+  ModePairs() = default;
+  ModePairs(const Spectrum& spectrum, double alpha);
+  [[nodiscard]] bool known() const { return !shared_.empty(); }
+  /// shared_kl of all l < k.
+  [[nodiscard]] const double* of(Eigen::Index k) const { return shared_.data() + k * (k - 1) / 2; }
+  [[nodiscard]] std::size_t bytes() const { return sizeof(double) * shared_.size(); }
+
+ private:
+  std::vector<double> shared_;  // k = 1, 2, ... one after the other
 };
 
-/// Rows below k of column k, into arrays of that length.
-void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, Eigen::Ref<Eigen::ArrayXd> e,
-                   Eigen::Ref<Eigen::ArrayXd> shared);
-[[nodiscard]] ModePairs mode_pairs(const Spectrum& spectrum, double alpha);
+/// shared_kl of all l < k.
+void pairs_of_mode(const Spectrum& spectrum, double alpha, Eigen::Index k, double* shared);
 
 }  // namespace signorini

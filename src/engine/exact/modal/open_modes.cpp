@@ -64,7 +64,8 @@ constexpr std::size_t widest_band = 48;  // on one side of the diagonal
 constexpr double free_share = 1e-14;     // of the highest omega^2: below, a motion is free
 constexpr double doubtful = 100.0;       // times that: a mode so low cannot be told from a free motion
 constexpr double same_frequency = 1e-9;  // relative width of a bracket whose modes are found together
-constexpr int more_halvings = 6;  // of a bracket that holds one mode: inverse iteration gains 60 a solve
+constexpr int more_halvings = 11;  // of a bracket that holds one mode: inverse iteration gains 2000 a solve
+constexpr int quick_solves = 3;
 constexpr int most_quotients = 6;
 constexpr double worst_product = 1e-4;  // of two shapes, before they are made orthogonal
 
@@ -113,10 +114,22 @@ class Shapes {
     rotate(x, square);
   }
 
-  /// One mode: the Rayleigh quotient as the next shift triples the digits.
-  void sharpen(LongVector& x, Long& square) {
-    std::vector<LongVector> one{x};
-    LongVector value{square};
+  /// One mode, begun in doubles: the Rayleigh quotient as the next shift triples the digits.
+  void find_one(BandPencil<double>& quick, const Bracket& bracket, LongVector& x, Long& square) {
+    std::vector<double> begun(pencil_.size()), mx(pencil_.size());
+    for (double& entry : begun) entry = uniform_(random_);
+    quick.factor(0.5 * (bracket.low + bracket.high));
+    for (int i = 0; i < quick_solves; ++i) {
+      quick.times_mass(begun.data(), mx.data());
+      quick.solve(mx.data());
+      double greatest = 0.0;
+      for (const double entry : mx) greatest = std::max(greatest, std::abs(entry));
+      for (std::size_t j = 0; j < mx.size(); ++j) begun[j] = mx[j] / greatest;
+    }
+    std::vector<LongVector> one{LongVector(begun.begin(), begun.end())};
+    LongVector value;
+    orthonormal(one);
+    rotate(one, value);
     for (int i = 0; i < most_quotients; ++i) {
       const Long before = value[0];
       pencil_.factor(before);
@@ -147,19 +160,23 @@ class Shapes {
 
   void orthonormal(std::vector<LongVector>& x) {
     for (std::size_t k = 0; k < x.size(); ++k)
-      for (int twice = 0; twice < 2; ++twice) {
-        Long greatest = 0;  // squares must not overflow: a solve at an eigenvalue yields great numbers
+      for (int twice = 0; twice < (k > 0 ? 2 : 1); ++twice) {
+        // Squares must not overflow: a solve at an eigenvalue yields great numbers.
+        Long greatest = 0;
         for (const Long entry : x[k]) greatest = std::max(greatest, std::abs(entry));
-        for (Long& entry : x[k]) entry /= greatest;
+        scale(x[k], 1 / greatest);
         pencil_.times_mass(x[k].data(), mx_.data());
         for (std::size_t j = 0; j < k; ++j) {
           const Long along = dot(x[j], mx_);
           for (std::size_t i = 0; i < mx_.size(); ++i) x[k][i] -= along * x[j][i];
         }
-        pencil_.times_mass(x[k].data(), mx_.data());
-        const Long size = std::sqrt(dot(x[k], mx_));
-        for (Long& entry : x[k]) entry /= size;
+        if (k > 0) pencil_.times_mass(x[k].data(), mx_.data());
+        scale(x[k], 1 / std::sqrt(dot(x[k], mx_)));
       }
+  }
+
+  static void scale(LongVector& x, Long factor) {
+    for (Long& entry : x) entry *= factor;
   }
 
   /// To the motions of the span on which K is diagonal too.
@@ -273,8 +290,13 @@ OpenModes open_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
   std::size_t k = free;
   for (const Bracket& bracket : all) {
     const std::size_t count = bracket.up_to - bracket.below;
-    shapes.find(0.5L * (static_cast<Long>(bracket.low) + bracket.high), count, 3, x, square);
-    if (count == 1) shapes.sharpen(x[0], square[0]);
+    if (count == 1) {
+      x.resize(1);
+      square.resize(1);
+      shapes.find_one(quick, bracket, x[0], square[0]);
+    } else {
+      shapes.find(0.5L * (static_cast<Long>(bracket.low) + bracket.high), count, 3, x, square);
+    }
     for (std::size_t j = 0; j < count; ++j, ++k) {
       keep(k, x[j]);
       modes.square[static_cast<Eigen::Index>(k)] = static_cast<double>(square[j]);

@@ -26,8 +26,7 @@ std::string ProportionalFlow::start(const Segment& segment, const Vector& q, con
   if (std::string why = obstacle(segment); !why.empty()) return why;
   segment_ = &segment;
   oscillators_ = Oscillators(state_->spectrum, system_.alpha());
-  state_->spectrum.to_modes(q, now.z);
-  state_->spectrum.to_modes(rate, now.rate);
+  state_->spectrum.to_modes({&q, &rate}, {&now.z, &now.rate});
   forces_ =
       constant_forces(model_, *state_, segment.decision->mode, *segment.forcing, segment.decision->jet.t);
   proof_.start(segment, *state_, oscillators_, forces_);
@@ -57,9 +56,10 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
   }
 }
 
-void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector& change) const {
+void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector* change) const {
+  if (!change) return state_->spectrum.from_modes({&z.z, &z.rate}, {&q, &rate});
   const Amplitudes second = oscillators_.second(z, forces_);
-  state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, &change});
+  state_->spectrum.from_modes({&z.z, &z.rate, &second}, {&q, &rate, change});
 }
 
 void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {

@@ -22,7 +22,7 @@ class ProportionalFlow final : public ModalFlow {
   void advance(const ModalPoint& from, double time, ModalPoint& to) const override {
     oscillators_.advance(from, forces_, time, to);
   }
-  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector& change) const override;
+  void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const override;
   void forces(const ModalPoint& at, Point& point) const override;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at, const Point& point,
                              double t) const override;

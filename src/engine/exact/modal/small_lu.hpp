@@ -51,7 +51,8 @@ class SmallLu {
   [[nodiscard]] bool singular() const { return singular_; }
 
   /// tr(G^-1 B)
-  [[nodiscard]] S trace_of_solution(const SmallMatrix<S>& b) const {
+  template <class T>
+  [[nodiscard]] S trace_of_solution(const SmallMatrix<T>& b) const {
     S trace{};
     for (std::size_t c = 0; c < rank_; ++c) {
       SmallVector<S> x{};

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,8 @@ class Spectrum {
     return {std::vector<double>(real().size(), 0.0), std::vector<Complex>(pairs().size())};
   }
   /// Y q and X^T q: amplitudes of a state, and what each mode shows of a form.
-  void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { project(q, false, z); }
+  void to_modes(const Eigen::VectorXd& q, Amplitudes& z) const { to_modes({&q}, {&z}); }
+  void to_modes(const std::vector<const Eigen::VectorXd*>& q, const std::vector<Amplitudes*>& z) const;
   void of_form(const Eigen::VectorXd& form, Amplitudes& row) const { project(form, true, row); }
   [[nodiscard]] const VectorProducts& products() const { return products_; }
   /// x_k^T x_l of real modes, k != l; x_k^T x_k of a real mode and of a pair's.
@@ -115,15 +117,18 @@ class Spectrum {
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
   template <class S>
+  using Rough = std::conditional_t<std::is_same_v<S, Wide>, double, S>;  // for slopes: of Newton's last step
+  template <class S>
   struct Local {
-    SmallMatrix<S> g{}, slope{}, s{};
+    SmallMatrix<S> g{}, s{};
+    SmallMatrix<Rough<S>> slope{};
     std::size_t first = 0, count = 0;
   };
   template <class S>
   S gather(std::size_t home, S own, Local<S>& local) const;
   template <class S>
   std::optional<S> trace(std::size_t home, S own, Local<S>& local) const;
-  [[nodiscard]] Wide polished(std::size_t home, Wide own) const;
+  [[nodiscard]] Wide polished(std::size_t home, Wide own, Local<Wide>& local) const;
   template <class S>
   void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
   template <class S>
@@ -144,7 +149,9 @@ class Spectrum {
   void entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small, const Eigen::MatrixXd& side,
                std::vector<S>& out) const;
   void write_out();
-  void project_written(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;
+  void to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
+                        const std::vector<Amplitudes*>& z) const;
+  void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
   void from_modes_written(const std::vector<const Amplitudes*>& z,
                           const std::vector<Eigen::VectorXd*>& q) const;
   void part_close_roots();
@@ -179,8 +186,7 @@ class Spectrum {
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits
   VectorProducts products_;
-  RowMatrix x_;
-  Eigen::MatrixXd y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
+  RowMatrix x_, y_;  // a pair in two columns, 2 Re x and -2 Im x, and in two rows, Re y and Im y
   std::string failure_;
   double condition_ = 1.0, round_trip_ = 0.0;
 };

@@ -56,7 +56,7 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
     z.pair.clear();
     return;
   }
-  if (x_.size() > 0) return project_written(q, form, z);
+  if (form && x_.size() > 0) return of_form_written(q, z);
   Eigen::VectorXd turned = q;
   for (const auto& [row, vectors] : turns_)
     turned.segment(row, vectors.rows()) = vectors.transpose() * q.segment(row, vectors.rows());
@@ -83,6 +83,12 @@ void Spectrum::project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const
   }
   z.real.resize(order_.size());
   for (std::size_t p = 0; p < order_.size(); ++p) z.real[p] = real[order_[p]];
+}
+
+void Spectrum::to_modes(const std::vector<const Eigen::VectorXd*>& q,
+                        const std::vector<Amplitudes*>& z) const {
+  if (x_.size() > 0) return to_modes_written(q, z);
+  for (std::size_t s = 0; s < q.size(); ++s) project(*q[s], false, *z[s]);
 }
 
 void Spectrum::from_modes(const std::vector<const Amplitudes*>& z,

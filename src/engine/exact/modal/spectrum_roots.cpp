@@ -13,8 +13,10 @@ namespace signorini {
 namespace {
 
 constexpr int most_sweeps = 200;
-constexpr double nearly = 1e-9;      // relative step from which on rounding may end the convergence
-constexpr double lift = 1e-3;        // of a start, off the real axis: complex roots are not found from it
+constexpr double nearly = 1e-9;  // relative step from which on rounding may end the convergence
+constexpr double straight =
+    1e-14;                     // relative step on which G0 is a line: its square, times what close roots lose
+constexpr double lift = 1e-3;  // of a start, off the real axis: complex roots are not found from it
 constexpr double real_share = 1e-7;  // imaginary part of an offset that rounding makes of a real root
 constexpr double paired = 1e-8;      // relative distance of conjugates
 
@@ -110,7 +112,8 @@ S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   S poles{};
   for (std::size_t i = 0; i < n_; ++i) {
     if (i >= local.first && i < local.first + local.count) continue;
-    const S one = inverse(own - S(poles_.between(i, home))), two = one * one;  // 1 / (l - D_i)
+    const S one = inverse(own - S(poles_.between(i, home)));  // 1 / (l - D_i)
+    const auto rough = static_cast<Rough<S>>(one), two = rough * rough;
     const double* term = terms_.data() + i * squares;
     for (std::size_t a = 0; a < rank_; ++a)
       for (std::size_t b = 0; b < rank_; ++b) {
@@ -176,14 +179,21 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
 
-/// One of Newton's steps, in extended precision: what is lost to close roots is won back.
-Spectrum::Wide Spectrum::polished(std::size_t home, Wide own) const {
-  Local<Wide> local;
+/// One of Newton's steps, in extended precision: what is lost to close roots is won back. local: G0 at the root.
+Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local) const {
   const Wide poles = gather(home, own, local);
   const std::optional<Wide> slope = trace(home, own, local);
   if (!slope) return own;
-  const Wide next = own - inverse(poles + *slope);
-  return size_of(next - own) <= nearly * size_of(own) ? next : own;
+  const Wide step = inverse(poles + *slope);
+  if (!(size_of(step) <= nearly * size_of(own))) return own;
+  if (size_of(step) > straight * size_of(own)) {
+    local = {};
+    (void)gather(home, own - step, local);
+    return own - step;
+  }
+  for (std::size_t a = 0; a < rank_; ++a)
+    for (std::size_t b = 0; b < rank_; ++b) local.g[a][b] -= step * local.slope[a][b];
+  return own - step;
 }
 
 /// To the nearest pole.

@@ -23,11 +23,13 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   for (std::size_t k = 0; k < roots.size(); ++k) {
     const std::size_t home = roots.home[k];
     W own = roots.offset[k];
-    if constexpr (is_real) own = polished(home, own);
+    Local<W> local;
+    if constexpr (is_real)
+      own = polished(home, own, local);
+    else
+      (void)gather(home, own, local);
     roots.offset[k] = static_cast<S>(own);
     roots.value.push_back(roots.offset[k] + (poles_.base[home] + poles_.tiny[home]));
-    Local<W> local;
-    (void)gather(home, own, local);
     const SmallLu<W> lu(local.g, rank_);
     group_matrix(lu, own, home, local);
     SmallVector<W> right{}, left{}, c{}, d{};  // of the group, and what they are outside

@@ -1,4 +1,6 @@
 // X and Y written out as matrices: a product with them is n^2 multiplications instead of n^2 divisions.
+#include <map>
+
 #include "engine/exact/modal/spectrum.hpp"
 
 namespace signorini {
@@ -25,17 +27,18 @@ void Spectrum::write_out() {
   const auto reals = static_cast<Eigen::Index>(order_.size()),
              pairs = static_cast<Eigen::Index>(pairs_.size()),
              n = static_cast<Eigen::Index>(seen_.size() + unseen_.size());
-  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(reals + 2 * pairs, n);  // rows as real_, unseen_, pairs_
+  std::vector<Eigen::Index> place(order_.size());  // of real_ and unseen_ among amplitudes
+  for (std::size_t p = 0; p < order_.size(); ++p) place[order_[p]] = static_cast<Eigen::Index>(p);
+  y_.setZero(reals + 2 * pairs, n);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, reals + 2 * pairs);
   std::vector<double> one;
   for (std::size_t k = 0; k < real_.size(); ++k) {
-    const auto at = static_cast<Eigen::Index>(k);
     entries(real_, k, real_.right, u_, one);
-    right.col(at) = Eigen::Map<const Eigen::VectorXd>(one.data(), n);
+    right.col(place[k]) = Eigen::Map<const Eigen::VectorXd>(one.data(), n);
     for (std::size_t j = 0; j < unseen_.size(); ++j)
-      right(unseen_[j], at) = moved(real_, k, j, unseen_poles_[j]);
+      right(unseen_[j], place[k]) = moved(real_, k, j, unseen_poles_[j]);
     entries(real_, k, real_.left, v_, one);
-    left.row(at) = Eigen::Map<const Eigen::RowVectorXd>(one.data(), n);
+    y_.row(place[k]) = Eigen::Map<const Eigen::RowVectorXd>(one.data(), n);
   }
   std::vector<Complex> entry;
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -49,45 +52,46 @@ void Spectrum::write_out() {
     }
     entries(pairs_, k, pairs_.left, v_, entry);
     for (Eigen::Index i = 0; i < n; ++i) {
-      left(at, i) = entry[static_cast<std::size_t>(i)].re;
-      left(at + 1, i) = entry[static_cast<std::size_t>(i)].im;
+      y_(at, i) = entry[static_cast<std::size_t>(i)].re;
+      y_(at + 1, i) = entry[static_cast<std::size_t>(i)].im;
     }
   }
-  const Eigen::MatrixXd mixed = left;
-  for (const Close& pair : close_)
-    left.row(static_cast<Eigen::Index>(pair.k)) -=
-        pair.product * mixed.row(static_cast<Eigen::Index>(pair.l));
+  std::map<std::size_t, Eigen::RowVectorXd> mixed;
+  for (const Close& pair : close_) mixed.try_emplace(pair.l, y_.row(place[pair.l]));
+  for (const Close& pair : close_) y_.row(place[pair.k]) -= pair.product * mixed.at(pair.l);
   for (std::size_t j = 0; j < unseen_.size(); ++j) {
-    const auto at = static_cast<Eigen::Index>(real_.size() + j);
-    left.row(at) = -(right.row(unseen_[j]) * left);  // none of this row yet, and none of right's column
-    left(at, unseen_[j]) += 1.0;
+    const Eigen::Index at = place[real_.size() + j];
+    y_.row(at) = -(right.row(unseen_[j]) * y_).eval();  // none of this row yet, and none of right's column
+    y_(at, unseen_[j]) += 1.0;
     right(unseen_[j], at) = 1.0;
   }
   for (const auto& [row, vectors] : turns_) {
     right.middleRows(row, vectors.rows()) = (vectors * right.middleRows(row, vectors.rows())).eval();
-    left.middleCols(row, vectors.rows()) =
-        (left.middleCols(row, vectors.rows()) * vectors.transpose()).eval();
+    y_.middleCols(row, vectors.rows()) = (y_.middleCols(row, vectors.rows()) * vectors.transpose()).eval();
   }
-  y_ = left;
   x_ = right;
-  for (std::size_t p = 0; p < order_.size(); ++p) {
-    const auto to = static_cast<Eigen::Index>(p), from = static_cast<Eigen::Index>(order_[p]);
-    x_.col(to) = right.col(from);
-    y_.row(to) = left.row(from);
-  }
 }
 
-void Spectrum::project_written(const Eigen::VectorXd& q, bool form, Amplitudes& z) const {
-  Eigen::VectorXd all;
-  if (form)
-    all.noalias() = x_.transpose() * q;
-  else
-    all.noalias() = y_ * q;
+void Spectrum::of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const {
+  const Eigen::VectorXd all = x_.transpose() * form;
   const auto reals = static_cast<Eigen::Index>(order_.size());
-  z.real.assign(all.data(), all.data() + reals);
-  z.pair.clear();
-  for (Eigen::Index k = reals; k < all.size(); k += 2)
-    z.pair.push_back(form ? Complex{0.5 * all[k], -0.5 * all[k + 1]} : Complex{all[k], all[k + 1]});
+  row.real.assign(all.data(), all.data() + reals);
+  row.pair.clear();
+  for (Eigen::Index k = reals; k < all.size(); k += 2) row.pair.push_back({0.5 * all[k], -0.5 * all[k + 1]});
+}
+
+void Spectrum::to_modes_written(const std::vector<const Eigen::VectorXd*>& q,
+                                const std::vector<Amplitudes*>& z) const {
+  std::vector<Eigen::VectorXd> all(q.size());
+  std::vector<Eigen::VectorXd*> lists;
+  for (Eigen::VectorXd& list : all) lists.push_back(&list);
+  thin_product(y_, q, lists);
+  const auto reals = static_cast<Eigen::Index>(order_.size());
+  for (std::size_t s = 0; s < q.size(); ++s) {
+    z[s]->real.assign(all[s].data(), all[s].data() + reals);
+    z[s]->pair.clear();
+    for (Eigen::Index k = reals; k < all[s].size(); k += 2) z[s]->pair.push_back({all[s][k], all[s][k + 1]});
+  }
 }
 
 void Spectrum::from_modes_written(const std::vector<const Amplitudes*>& z,

@@ -1,7 +1,7 @@
-# compile_together(TARGET): the sources of each folder are compiled up to twelve at a time (unity build), where SIGNORINI_TOGETHER
+# compile_together(TARGET MOST): the sources of each folder are compiled up to MOST at a time (unity build), where SIGNORINI_TOGETHER
 # asks for it. What costs is what each file includes and instantiates anew, a third of which is left this way. Grouped by folder, so
 # that a new file disturbs its own folder only; the clang and debug presets compile each file alone, which shows a missing include.
-function(compile_together target)
+function(compile_together target most)
   if(NOT SIGNORINI_TOGETHER)
     return()
   endif()
@@ -13,7 +13,7 @@ function(compile_together target)
     if(NOT DEFINED count_${group})
       set(count_${group} 0)
     endif()
-    math(EXPR part "${count_${group}} / 12")
+    math(EXPR part "${count_${group}} / ${most}")
     math(EXPR count_${group} "${count_${group}} + 1")
     set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group}_${part})
   endforeach()

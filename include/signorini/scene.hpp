@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -265,7 +266,18 @@ struct Friction {
   std::optional<double> stribeck_velocity = {};
 
   [[nodiscard]] bool any() const { return static_ > 0.0; }
+  /// It depends on the slip rate: what slips is not linear.
+  [[nodiscard]] bool varies() const { return stribeck_velocity.has_value(); }
 };
+
+/// A constant of friction beside the two coefficients: its key below `friction`, and its unit.
+struct FrictionConstant {
+  std::string_view key;
+  std::optional<double> Friction::*value;
+  Unit unit;
+};
+inline constexpr std::array friction_constants = {
+    FrictionConstant{"stribeck_velocity", &Friction::stribeck_velocity, {0, 1, -1}}};
 
 struct ContactSpec {
   std::string name = {};

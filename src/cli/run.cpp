@@ -56,7 +56,7 @@ ExitCode conclude(const Outcome& outcome, const Units& units, const fs::path& di
 }
 
 /// Tables with an empty line between them.
-std::string joined(const std::vector<std::string>& tables) {
+std::string stacked(const std::vector<std::string>& tables) {
   std::string text;
   for (const std::string& table : tables)
     if (!table.empty()) text += (text.empty() ? "" : "\n") + table;
@@ -76,8 +76,8 @@ std::string reduction_line(const Model& model) {
 std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
                  const std::string& events, const fs::path& path) {
   const Report& report = certified.report;
-  const std::string tables = joined({start_table(model), events, contact_table(model, report),
-                                     response_table(model, report), closing(scene.run, model, report)});
+  const std::string tables = stacked({start_table(model), events, contact_table(model, report),
+                                      response_table(model, report), closing(scene.run, model, report)});
   const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
@@ -101,8 +101,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
 
   RunSpec chosen = scene.run;
   chosen.engine = choose_engine(model, scene.run).engine;
-  if (const std::string patience = warn_of_patience(model, chosen, options.scene); !patience.empty())
-    print_warning(patience);
+  if (const std::string warning = warn_of_patience(model, chosen, options.scene); !warning.empty())
+    print_warning(warning);
   CertifiedReport certified;
   const Report& report = certified.report;
   std::string events;
@@ -126,8 +126,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
 
   if (options.json) print(summary);
   if (!plain) {
-    print(joined({start_table(model, style), events, contact_table(model, report, style),
-                  response_table(model, report, style), audit_table(model, report.audit, style)}));
+    print(stacked({start_table(model, style), events, contact_table(model, report, style),
+                   response_table(model, report, style), audit_table(model, report.audit, style)}));
   } else if (options.tables()) {
     print(told(scene, model, certified, events, path));
   }

@@ -27,7 +27,7 @@ namespace signorini::cli {
 
 namespace {
 
-constexpr int patience = 200;          // milliseconds between two looks where nothing happens
+constexpr int between_looks = 200;     // milliseconds between two looks where nothing happens
 constexpr std::size_t most_ahead = 2;  // tasks of a worker: the next one waits in its pipe
 
 /// A file descriptor that is closed with its owner.
@@ -219,7 +219,7 @@ class Pool {
   bool listen(std::deque<std::size_t>& queue, std::vector<WorkerEnd>& ends) {
     std::vector<pollfd> watched{{signals_.fd(), POLLIN, 0}};
     for (const Worker& w : workers_) watched.push_back({w.reports.get(), POLLIN, 0});
-    if (poll(watched.data(), watched.size(), patience) <= 0) return false;
+    if (poll(watched.data(), watched.size(), between_looks) <= 0) return false;
     for (auto worker = workers_.begin(); worker != workers_.end();) {
       const bool alive = hear(*worker, ends);
       if (alive) {

@@ -53,4 +53,30 @@ void FrictionRecursion::extend(double rate) {
   f_.push_back(sum / static_cast<double>(k));
 }
 
+FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
+    : static_(friction.static_),
+      kinetic_(friction.kinetic),
+      velocity_(friction.stribeck_velocity.value()),
+      by_static_(by.static_),
+      by_kinetic_(by.kinetic),
+      by_velocity_(by.stribeck_velocity.value_or(0.0)),
+      s_(s) {}
+
+void FrictionTangent::extend(double rate, double moved_rate) {
+  const std::size_t k = x_.size();
+  x_.push_back(s_ * rate);
+  y_.push_back((x_[k] * by_velocity_ / velocity_ - s_ * moved_rate) / velocity_);
+  if (k == 0) {
+    e_.push_back(std::exp(-x_[0] / velocity_));
+  } else {
+    double sum = 0.0;
+    for (std::size_t j = 1; j <= k; ++j) sum -= static_cast<double>(j) * x_[j] * e_[k - j];
+    e_.push_back(sum / (velocity_ * static_cast<double>(k)));
+  }
+  double product = 0.0;
+  for (std::size_t j = 0; j <= k; ++j) product += e_[j] * y_[k - j];
+  by_p_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +
+                  (static_ - kinetic_) * product);
+}
+
 }  // namespace signorini

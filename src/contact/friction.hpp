@@ -7,7 +7,11 @@
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
 // so that f_0 stands in the matrix and the rest is known when N_k and T_k are asked for.
 //
-// A law of friction is these functions and its constants; all else asks here. Units: f is a number.
+// and with the derivatives of all that by a parameter p:
+//   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
+//
+// A law of friction is these functions and its constants (friction_constants); all else asks here. Units: f is a
+// number.
 #pragma once
 
 #include <vector>
@@ -25,9 +29,7 @@ namespace signorini {
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
 /// The coefficient depends on the slip rate: what slips is not linear.
-[[nodiscard]] inline bool friction_varies(const Contact& contact) {
-  return contact.friction.stribeck_velocity.has_value();
-}
+[[nodiscard]] inline bool friction_varies(const Contact& contact) { return contact.friction.varies(); }
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;
 }
@@ -61,6 +63,34 @@ class FrictionRecursion {
   double kinetic_ = 0.0, velocity_ = 0.0;  // fk, v_s
   int s_ = 0;
   std::vector<double> exponent_, f_;  // g_k, f_k
+};
+
+/// Its derivative by a parameter, coefficient by coefficient beside the motion's. Products of series: at level k
+/// all but f_0 N_p,k is known, for x_k and x_p,k are of level k - 1.
+class FrictionTangent {
+ public:
+  /// Of a contact that slips in direction s; by: of its constants, by the parameter.
+  FrictionTangent(const Friction& friction, const Friction& by, int s);
+
+  /// Takes coefficient k of ut' and of its derivative by p, in turn from 0 on; returns
+  /// s sum_(j = 1..k) f_j N_p,(k-j) + s sum_(j = 0..k) f_p,j N_(k-j). pressing(i): N_i; moved(i): N_p,i.
+  template <class Pressing, class Moved>
+  [[nodiscard]] double next(double rate, double moved_rate, const Pressing& pressing, const Moved& moved) {
+    extend(rate, moved_rate);
+    const std::size_t k = x_.size() - 1;
+    double sum = 0.0;
+    for (std::size_t j = 1; j <= k; ++j) sum += (static_ - kinetic_) * e_[j] * moved(k - j);
+    for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * pressing(k - j);
+    return s_ * sum;
+  }
+
+ private:
+  void extend(double rate, double moved_rate);
+
+  double static_, kinetic_, velocity_ = 1.0;           // fs, fk, v_s
+  double by_static_, by_kinetic_, by_velocity_ = 0.0;  // by p
+  int s_;
+  std::vector<double> x_, e_, y_, by_p_;  // x, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
 
 }  // namespace signorini

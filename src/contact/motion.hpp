@@ -10,16 +10,26 @@
 
 namespace signorini {
 
+/// ut, of a place; ut', of a velocity.
+template <class U>
+[[nodiscard]] double along_surface(const Contact& contact, const U& u, double surface) {
+  return contact.tangent.dot(u) - surface;
+}
+template <class V>
+[[nodiscard]] double gap_rate(const Contact& contact, const V& v) {
+  return contact.normal.dot(v);
+}
+
 template <class U>
 void set_place(const Contact& contact, const U& u, double surface, ContactMotion& m) {
   m.gap = contact.gap_at(u);
-  m.ut = contact.tangent.dot(u) - surface;
+  m.ut = along_surface(contact, u, surface);
 }
 
 template <class V>
 void set_velocity(const Contact& contact, const V& v, double surface_velocity, ContactMotion& m) {
-  m.vn = contact.normal.dot(v);
-  m.vt = contact.tangent.dot(v) - surface_velocity;
+  m.vn = gap_rate(contact, v);
+  m.vt = along_surface(contact, v, surface_velocity);
 }
 
 template <class A>

@@ -21,5 +21,6 @@ inline constexpr std::size_t guards_per_contact = 3;
   return guards_per_contact * contact + guard;
 }
 [[nodiscard]] constexpr std::size_t contact_of_guard(std::size_t slot) { return slot / guards_per_contact; }
+[[nodiscard]] constexpr std::size_t guard_within(std::size_t slot) { return slot % guards_per_contact; }
 
 }  // namespace signorini

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/complementarity.hpp"
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
-#include "decide/complementarity.hpp"
 #include "decide/places.hpp"
 
 namespace signorini {
@@ -22,7 +22,7 @@ constexpr double misses = rounding::of_elimination;
 // Responses that differ by less, of the problem's size, are the same; or by what the condition of their own
 // equations makes of `misses`. Chosen: far below what differs in Painleve's paradox.
 constexpr double same_solution = 1e-9;
-// At most this, whatever the condition. Chosen: tests/unit/decide/complementarity.cpp needs 1e-4 at a margin of
+// At most this, whatever the condition. Chosen: tests/unit/base/complementarity.cpp needs 1e-4 at a margin of
 // 1e-10, motions of Painleve's paradox differ by the size itself.
 constexpr double most_alike = 1e-3;
 

@@ -7,6 +7,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
+#include "contact/motion.hpp"
 #include "decide/coulomb_reading.hpp"
 #include "decide/places.hpp"
 #include "scene/quantities.hpp"
@@ -63,8 +64,8 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
   for (Eigen::Index i = 0; i < m; ++i) {
     const std::size_t c = touching[static_cast<std::size_t>(i)];
     const Contact& contact = model_.contacts[c];
-    hit.before[normal_place(i)] = contact.normal.dot(v);
-    hit.before[tangent_place(i)] = contact.tangent.dot(v) - forcing.surface(c, t, 1);
+    hit.before[normal_place(i)] = gap_rate(contact, v);
+    hit.before[tangent_place(i)] = along_surface(contact, v, forcing.surface(c, t, 1));
     hit.size[normal_place(i)] = contact.normal.magnitude(v);
     hit.size[tangent_place(i)] = contact.tangent.magnitude(v) + std::abs(forcing.surface(c, t, 1));
     hit.restitution[i] = contact.restitution;
@@ -175,6 +176,23 @@ Impact Impacts::solve(const Forcing& forcing, double t, const Mode& mode,
   come_to_rest(forcing, t, touching, hit, impact);
   balance(forcing, t, mode, touching, hit, impact);
   return impact;
+}
+
+Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses) {
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (!contact.takes_impulses() && !contact.sticks_rigidly()) continue;
+    mode[c] = {State::open, 0.0};
+    const Impulse& impulse = impulses[c];
+    if (!(impulse.normal > 0.0)) continue;
+    if (!contact.has_friction())
+      mode[c].state = State::closed;
+    else if (impulse.sticks)
+      mode[c].state = State::stick;
+    else
+      mode[c].state = impulse.tangent > 0.0 ? State::slip_minus : State::slip_plus;
+  }
+  return mode;
 }
 
 }  // namespace signorini

@@ -73,4 +73,8 @@ class Impacts {
   double capture_velocity_;  // where a contact has none of its own
 };
 
+/// States during an impact: whoever takes an impulse is closed, sticks or slides by it; of the contacts with impulses
+/// nobody else holds anything. impulses: one a contact.
+[[nodiscard]] Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses);
+
 }  // namespace signorini

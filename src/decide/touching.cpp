@@ -7,6 +7,7 @@
 #include "base/rounding.hpp"
 
 #include "contact/friction.hpp"
+#include "contact/motion.hpp"
 #include "decide/places.hpp"
 
 namespace signorini {
@@ -71,7 +72,7 @@ void Touching::follow_velocity(const Instant& instant, const Forcing& after, con
     if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
       mode[c] = {State::stick, slip_of(contact, before[c])};
     if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].is_open()) continue;
-    const double vt = contact.tangent.dot(instant.v) - after.surface(c, instant.t, 1);
+    const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
     if (std::abs(vt) > rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
   }
 }
@@ -107,7 +108,7 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
     const std::size_t c = who.contact;
     if (!who.slipping || !std::binary_search(met.contacts.begin(), met.contacts.end(), c)) continue;
     const Contact& contact = model_.contacts[c];
-    const double vt = contact.tangent.dot(instant.v) - forcing.surface(c, instant.t, 1);
+    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     who.sign = vt > 0.0 ? 1 : -1;
     who.sliding_friction = sliding_friction(contact, std::abs(vt));
     if (std::abs(vt) > rounding_of_slide(c, forcing, instant)) continue;
@@ -217,7 +218,7 @@ void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.has_gap() || !contact.sticks_rigidly()) continue;
-    const double vt = contact.tangent.dot(instant.v) - forcing.surface(c, instant.t, 1);
+    const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     const bool stopped =
         met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
     if (!stopped && !(found.sliders && decision.visited[c])) continue;

@@ -116,7 +116,8 @@ class Rescaling {
       (*this)(c.shear->damping, unit::damping);
     }
     (*this)(c.normal_damping, unit::damping);
-    (*this)(c.friction.stribeck_velocity, unit::velocity);
+    for (const FrictionConstant& constant : friction_constants)
+      (*this)(c.friction.*constant.value, constant.unit);
     (*this)(c.capture_velocity, unit::velocity);
     (*this)(c.normal_force, unit::force);
     (*this)(c.surface_motion, unit::length);

@@ -1,5 +1,7 @@
 #include "motion/hold.hpp"
 
+#include "contact/motion.hpp"
+
 #include <algorithm>
 
 namespace signorini {
@@ -32,9 +34,9 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
     const Contact& contact = model.contacts[c];
     if (is_held(c)) {
       places[normal_slot(c)] = -contact.gap_at(u);
-      rates[normal_slot(c)] = -contact.normal.dot(v);
+      rates[normal_slot(c)] = -gap_rate(contact, v);
     }
-    if (sticks(c)) rates[tangent_slot(c)] = forcing.surface(c, t, 1) - contact.tangent.dot(v);
+    if (sticks(c)) rates[tangent_slot(c)] = -along_surface(contact, v, forcing.surface(c, t, 1));
   }
   correct(system, places, u);
   correct(system, rates, v);

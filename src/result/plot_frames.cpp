@@ -71,8 +71,8 @@ Layout layout_of(const FrameScales& scales) {
   l.x0 = scales.x0 - air * size, l.x1 = scales.x1 + air * size;
   l.y0 = scales.y0 - air * size, l.y1 = scales.y1 + air * size;
   const double panel = std::clamp(width * (l.y1 - l.y0) / (l.x1 - l.x0), 220.0, 640.0);
-  const double wide = (l.y1 - l.y0) * width / panel, high = (l.x1 - l.x0) * panel / width;
-  const double dx = std::max(0.0, wide - (l.x1 - l.x0)), dy = std::max(0.0, high - (l.y1 - l.y0));
+  const double wider = (l.y1 - l.y0) * width / panel, higher = (l.x1 - l.x0) * panel / width;
+  const double dx = std::max(0.0, wider - (l.x1 - l.x0)), dy = std::max(0.0, higher - (l.y1 - l.y0));
   l.x0 -= 0.5 * dx, l.x1 += 0.5 * dx;
   l.y0 -= 0.5 * dy, l.y1 += 0.5 * dy;
   l.height = static_cast<int>(panel + room_above + room_below);

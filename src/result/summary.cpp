@@ -112,7 +112,8 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     else
       json["normal_stiffness"] = contact.normal_stiffness;
   }
-  if (contact.friction.stribeck_velocity) json["stribeck_velocity"] = *contact.friction.stribeck_velocity;
+  for (const FrictionConstant& constant : friction_constants)
+    if (const auto& value = contact.friction.*constant.value) json[std::string(constant.key)] = *value;
   if (contact.takes_impulses() && report != nullptr)
     json["capture_velocity"] = contact.capture_velocity.value_or(capture_velocity);
   if (contact.shear) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "contact/conditions.hpp"
+#include "contact/motion.hpp"
 #include "contact/work.hpp"
 
 namespace signorini {
@@ -127,7 +128,7 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     m.N = point.N(k);
     m.T = point.T(k);
     m.gap = contact.gap_at(point.u);
-    m.vn = contact.normal.dot(point.v);
+    m.vn = gap_rate(contact, point.v);
     e.contact += stored_energy(contact, mode[k].state, m);
     if (contact.shear) {  // a spring of the contact, though it stands among those of the structure
       const double strain = contact.shear->body.dot(point.u) - contact.tangent.dot(point.u);

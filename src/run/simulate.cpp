@@ -39,7 +39,7 @@ std::vector<Fired> resting(const Decision& decision) {
   for (std::size_t i = 0; i < decision.guards.size(); ++i) {
     const GuardStart& guard = decision.guards[i];
     const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
-    if (limit && guard.at_zero && guard.leading < 0) result.push_back({i / guards_per_contact, guard.kind});
+    if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
   }
   return result;
 }

@@ -19,7 +19,7 @@ namespace signorini {
 
 namespace {
 
-constexpr std::size_t deepest = 16;  // no key of a scene lies nearly as deep
+constexpr std::size_t most_parts = 16;  // no key of a scene lies nearly as deep
 
 /// Two ways to say the same.
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
@@ -60,7 +60,7 @@ class Change {
         continue;
       }
       if (segment.empty()) fail("expected path=value, the path being names with a dot between");
-      if (segments_.size() == deepest) fail("found a path of more than 16 parts");
+      if (segments_.size() == most_parts) fail("found a path of more than 16 parts");
       segments_.push_back(segment);
       segment.clear();
     }

@@ -103,7 +103,8 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_optional(c.tangential_stiffness, stiffness, visit);
   visit(c.normal_damping, damping);
   visit(c.tangential_damping, damping);
-  visit_optional(c.friction.stribeck_velocity, velocity, visit);
+  for (const FrictionConstant& constant : friction_constants)
+    visit_optional(c.friction.*constant.value, constant.unit, visit);
   visit_history(c.normal_force, force, visit);
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);

@@ -20,7 +20,8 @@ Friction read_friction(Table& contact) {
     Table table = contact.child("friction");
     friction.static_ = table.number("static");
     friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
-    friction.stribeck_velocity = table.optional_number("stribeck_velocity");
+    for (const FrictionConstant& constant : friction_constants)
+      friction.*constant.value = table.optional_number(std::string(constant.key));
     if (friction.kinetic > friction.static_) {
       table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
                                         shortest(friction.kinetic), shortest(friction.static_)));
@@ -35,7 +36,9 @@ Friction read_friction(Table& contact) {
   Record record;
   record.set("static", toml_number(friction.static_));
   record.set("kinetic", toml_number(friction.kinetic));
-  if (friction.stribeck_velocity) record.set("stribeck_velocity", toml_number(*friction.stribeck_velocity));
+  for (const FrictionConstant& constant : friction_constants)
+    if (const auto& value = friction.*constant.value)
+      record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
   return friction;
 }
@@ -132,10 +135,13 @@ void read_elements(Table& table, ContactSpec& contact) {
       if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
   }
   // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
-  if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
-    table.fail("friction",
-               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
-               "point has no mass, so friction that falls with its rate leaves its motion undecided");
+  for (const FrictionConstant& constant : friction_constants)
+    if (contact.tangential_stiffness && contact.friction.*constant.value)
+      table.fail(
+          "friction",
+          fmt::format("found a {}, expected none beside tangential_stiffness: the sliding "
+                      "point has no mass, so friction that falls with its rate leaves its motion undecided",
+                      constant.key));
 }
 
 void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {

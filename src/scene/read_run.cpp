@@ -8,7 +8,7 @@ namespace signorini {
 
 namespace {
 
-constexpr double most_rows = 1e8;
+constexpr double most_output_rows = 1e8;
 
 void check_times(const Table& table, std::string_view key, const std::vector<double>& times, double t_end) {
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -33,7 +33,7 @@ void read_output(Table& table, RunSpec& run) {
     run.output_dt = run.t_end / 1000.0;
     table.record("output_dt", toml_number(*run.output_dt));
   }
-  if (run.output_dt && !(run.t_end / *run.output_dt <= most_rows)) {
+  if (run.output_dt && !(run.t_end / *run.output_dt <= most_output_rows)) {
     table.fail("output_dt", fmt::format("found the number {}, expected at most 1e8 rows up to t_end = {}",
                                         shortest(*run.output_dt), shortest(run.t_end)));
   }
@@ -138,7 +138,8 @@ std::vector<double> RunSpec::grid() const {
     return times;
   }
   const double dt_out = output_dt.value_or(t_end / 1000.0);
-  if (!(t_end / dt_out <= most_rows)) throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
+  if (!(t_end / dt_out <= most_output_rows))
+    throw SceneError(place, "run.output_dt", "expected at most 1e8 rows");
   // Multiples, not sums: row k stands at k dt to the last digit. A multiple that is t_end but for
   // roundoff is t_end.
   times.reserve(static_cast<std::size_t>(t_end / dt_out) + 2);

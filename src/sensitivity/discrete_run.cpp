@@ -16,7 +16,7 @@ std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.step == StepControl::doubling) return "the lengths of steps follow their errors";
   if (has_massless(model)) return "parts without mass have no discrete derivative";
   for (const Contact& c : model.contacts)
-    if (c.friction.stribeck_velocity) return "friction depends on the slip rate";
+    if (friction_varies(c)) return "friction depends on the slip rate";
   return {};
 }
 
@@ -173,11 +173,12 @@ double DiscreteRun::end_of(std::size_t p, const ObservedStep& step, const Ends& 
     if (!jumps.empty()) return jumps.front().rate;
     return ends.to.t >= t_end_ ? 0.0 : ends.moved.t;
   }
-  const auto [c, kind] = step.step.fired.front();
+  const auto& first = step.step.fired.front();
+  const std::size_t c = first.contact;
   const ContactState& state = mode_[c];
   const auto forms = guards(model_.contacts[c], state);
   std::size_t i = 0;
-  while (i + 1 < forms.size() && forms[i].kind != kind) ++i;
+  while (i + 1 < forms.size() && forms[i].kind != first.guard) ++i;
   const Form& by = states_[p].derivative.contacts[c].guards[index_of(state.state)][i];
   const ContactMotion m = motion_of(model_.contacts[c], c, step.forcing, ends.to.t, ends.to.point);
   const auto guard = [&](double Dt) {

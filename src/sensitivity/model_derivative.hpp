@@ -28,8 +28,8 @@ inline constexpr std::array all_states = {State::open,  State::inside,    State:
 /// Of one contact, with anchors at zero.
 struct ContactRates {
   Combination normal, tangent, body_tangent;
-  double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0,
-         kinetic_friction = 0.0, static_friction = 0.0, stribeck_velocity = 0.0, shear_stiffness = 0.0;
+  double gap = 0.0, tangential_stiffness = 0.0, initial_shear = 0.0, restitution = 0.0, shear_stiffness = 0.0;
+  Friction friction;  ///< of the constants that the contact has
   HistoryRates normal_force, surface_motion;
   std::array<Rows, all_states.size()> rows;
   std::array<std::array<Form, guards_per_contact>, all_states.size()> guards;

@@ -28,9 +28,7 @@ ContactRates numbers_of(const Contact& contact) {
   c.tangential_stiffness = contact.tangential_stiffness.value_or(0.0);
   c.initial_shear = contact.initial_shear;
   c.restitution = contact.restitution;
-  c.kinetic_friction = kinetic_friction(contact);
-  c.static_friction = static_friction(contact);
-  c.stribeck_velocity = contact.friction.stribeck_velocity.value_or(0.0);
+  c.friction = contact.friction;
   if (contact.shear) c.shear_stiffness = contact.shear->stiffness;
   c.normal_force = numbers_of(contact.normal_force);
   c.surface_motion = numbers_of(contact.surface_motion);
@@ -89,9 +87,11 @@ std::vector<long> shape_of(const Model& model) {
   for (const Contact& c : model.contacts) {
     history(c.normal_force);
     history(c.surface_motion);
-    for (const bool has : {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(),
-                           c.normal_damping > 0.0, c.friction.stribeck_velocity.has_value()})
+    for (const bool has :
+         {c.tangential_stiffness.has_value(), c.shear.has_value(), c.has_friction(), c.normal_damping > 0.0})
       shape.push_back(has);
+    for (const FrictionConstant& constant : friction_constants)
+      shape.push_back((c.friction.*constant.value).has_value());
     shape.push_back(static_cast<long>(c.law));
   }
   for (const double reaction : model.statics.reactions) shape.push_back(reaction > 0.0);

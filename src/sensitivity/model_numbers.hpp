@@ -43,9 +43,11 @@ void visit_all(ModelDerivative& d, const Visit& visit) {
   });
   for (LoadRates& load : d.loads) visit_rates(load.history, visit);
   for (ContactRates& c : d.contacts) {
-    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.kinetic_friction,
-                      &c.static_friction, &c.stribeck_velocity, &c.shear_stiffness})
+    for (double* x : {&c.gap, &c.tangential_stiffness, &c.initial_shear, &c.restitution, &c.shear_stiffness,
+                      &c.friction.static_, &c.friction.kinetic})
       visit(*x);
+    for (const FrictionConstant& constant : friction_constants)
+      if (auto& x = c.friction.*constant.value) visit(*x);
     visit_rates(c.normal_force, visit);
     visit_rates(c.surface_motion, visit);
     for (Rows& rows : c.rows) {

@@ -22,10 +22,12 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
     if (const auto* both = node.as_table(); both && rest.back() == "friction") {
       for (const char* key : {"static", "kinetic"})
         if (const auto f = (*both)[key].value<double>()) found.insert(*f);
-      if (both->contains("stribeck_velocity"))
-        fail_at(path,
-                "expected friction.static, friction.kinetic or friction.stribeck_velocity: three numbers "
-                "make the friction");
+      for (const FrictionConstant& constant : friction_constants)
+        if (both->contains(constant.key))
+          fail_at(path,
+                  fmt::format("expected friction.static, friction.kinetic or friction.{}: several numbers "
+                              "make the friction",
+                              constant.key));
       return;
     }
     const auto number = node.value<double>();

@@ -180,7 +180,7 @@ void TangentEvents::move_anchors(Course& course) const {
     for (const int s : {1, -1}) {
       if (matches(T)) break;
       T = -s * kinetic_friction(contact) * before.N;
-      DT = -s * (rates.kinetic_friction * before.N + kinetic_friction(contact) * D.N);
+      DT = -s * (rates.friction.kinetic * before.N + kinetic_friction(contact) * D.N);
     }
     if (!matches(T))
       return course.stop(
@@ -234,7 +234,7 @@ void TangentEvents::look_for_kinks(Course& course) const {
     const ContactMotion p = parameter_rate(contact, derivative_.contacts[c], c, m.after, course.after.point,
                                            course.after.driven[c]);
     const Form& form_rate =
-        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][slot % guards_per_contact];
+        derivative_.contacts[c].guards[index_of(decision.mode[c].state)][guard_within(slot)];
     const ContactMotion D = sum(p, m.rate_after[c], dt);
     const double value = form_rate.value(m.motion_after[c]) + guard.form.rate(D);
     ContactMotion terms = p;

@@ -1,29 +1,9 @@
 #include "sensitivity/tangent_impact.hpp"
 
 #include "contact/friction.hpp"
+#include "decide/impact.hpp"
 
 namespace signorini {
-namespace {
-
-/// Whoever takes an impulse is closed, sticks or slides by it; nobody else holds anything.
-Mode mode_of_impact(const Model& model, Mode mode, const std::vector<Impulse>& impulses) {
-  for (std::size_t c = 0; c < mode.size(); ++c) {
-    const Contact& contact = model.contacts[c];
-    if (!contact.takes_impulses() && !contact.sticks_rigidly()) continue;
-    mode[c] = {State::open, 0.0};
-    const Impulse& impulse = impulses[c];
-    if (!(impulse.normal > 0.0)) continue;
-    if (!contact.has_friction())
-      mode[c].state = State::closed;
-    else if (impulse.sticks)
-      mode[c].state = State::stick;
-    else
-      mode[c].state = impulse.tangent > 0.0 ? State::slip_minus : State::slip_plus;
-  }
-  return mode;
-}
-
-}  // namespace
 
 ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative, Mode mode,
                          const Decision& after, const Vector& v, const Vector& Dv,
@@ -53,7 +33,7 @@ ImpactRates impact_rates(ModeSystems& systems, const ModelDerivative& derivative
     if (mode[c].state == State::stick)
       x[at.tangent(c)] = surface[c] - rates.tangent.dot(after.v) - contact.tangent.dot(Dv);
     else if (const int s = slip_sign(mode[c].state); s != 0)
-      x[at.tangent(c)] = s * rates.kinetic_friction * impulse.normal;
+      x[at.tangent(c)] = s * rates.friction.kinetic * impulse.normal;
   }
   system->solve(x.data(), work.data());
   result.known = true;

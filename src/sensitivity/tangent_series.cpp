@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "contact/friction.hpp"
 
 namespace signorini {
 namespace {
@@ -100,8 +99,8 @@ void TangentSeries::begin(const ModeSystem& system, const Series& motion, const 
   forcing.expand(motion.t, motion.scale, motion.forcing.count, forcing_);
   friction_.clear();
   for (const std::size_t c : system.factorised().by_rate)
-    friction_.emplace_back(model_.contacts[c], derivative_.contacts[c], c, slip_sign(system.mode()[c].state),
-                           motion);
+    friction_.emplace_back(c, FrictionTangent(model_.contacts[c].friction, derivative_.contacts[c].friction,
+                                              slip_sign(system.mode()[c].state)));
   u_.col(0) = start.u;
   for (Eigen::Index i = 0; i < start.u.size(); ++i)
     if (system.kinds()[static_cast<std::size_t>(i)] == DofKind::massive) u_(i, 1) = scale_ * start.v[i];
@@ -155,10 +154,11 @@ void TangentSeries::add_sources(int k) {
     if (derivative_.stiffness.nonZeros() > 0) r -= derivative_.stiffness * motion_->u.col(k);
   }
   if (!forms_) return;
+  double* const x = x_.data();
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     const auto at = static_cast<Eigen::Index>(normal_slot(c));
-    derivative_.contacts[c].normal.add_to(x_, -motion_->forces(at, k));
-    derivative_.contacts[c].tangent.add_to(x_, -motion_->forces(at + 1, k));
+    derivative_.contacts[c].normal.add_to(x, -motion_->forces(at, k));
+    derivative_.contacts[c].tangent.add_to(x, -motion_->forces(at + 1, k));
   }
 }
 
@@ -173,10 +173,10 @@ void TangentSeries::add_rows(int k) {
     const ContactState& state = system_->mode()[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
-    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_);
-    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_);
-    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_);
-    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_);
+    if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());
+    if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_.data());
+    if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_.data());
+    if (tangent.vt != 0.0) q += tangent.vt * contact.tangent.dot(known_v_.data());
     if (source) {
       const ContactRates& rates = derivative_.contacts[c];
       const auto u = s.u.col(k), v = s.u.col(k + 1), a = s.u.col(k + 2);
@@ -214,19 +214,25 @@ void TangentSeries::add_rows(int k) {
   }
 }
 
-/// Friction that depends on the slip rate (friction_rates.hpp).
+/// Friction that depends on the slip rate; what the motion left out is nothing.
 void TangentSeries::add_friction(int k) {
   const double to_velocity = (k + 1) / scale_;
-  for (FrictionRates& friction : friction_) {
-    const std::size_t c = friction.contact();
+  for (auto& [contact, friction] : friction_) {
+    const std::size_t c = contact, level = static_cast<std::size_t>(k);
     const ContactRates& rates = derivative_.contacts[c];
-    double slip = model_.contacts[c].tangent.dot(u_.col(k + 1));
-    if (k <= motion_->levels)
-      slip += rates.tangent.dot(motion_->u.col(k + 1)) -
-              forcing_.surface[c * forcing_.count + static_cast<std::size_t>(k) + 1];
+    double rate = 0.0, slip = model_.contacts[c].tangent.dot(u_.col(k + 1));
+    if (k <= motion_->levels) {
+      rate = ut_coefficient(model_.contacts[c], c, *motion_, level + 1);
+      slip += rates.tangent.dot(motion_->u.col(k + 1)) - forcing_.surface[c * forcing_.count + level + 1];
+    }
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    x_[system_->unknowns().tangent(c)] -= friction.known(
-        k, to_velocity * slip, [&](std::size_t i) { return forces_(row, static_cast<Eigen::Index>(i)); });
+    x_[system_->unknowns().tangent(c)] -= friction.next(
+        to_velocity * rate, to_velocity * slip,
+        [&](std::size_t i) {
+          const auto at = static_cast<Eigen::Index>(i);
+          return at > motion_->levels ? 0.0 : motion_->forces(row, at);
+        },
+        [&](std::size_t i) { return forces_(row, static_cast<Eigen::Index>(i)); });
   }
 }
 

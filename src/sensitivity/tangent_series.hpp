@@ -11,10 +11,11 @@
 // convergence.
 #pragma once
 
+#include "contact/friction.hpp"
 #include "motion/mode_systems.hpp"
 #include "motion/series.hpp"
 #include "sensitivity/forcing_rates.hpp"
-#include "sensitivity/friction_rates.hpp"
+#include "sensitivity/model_derivative.hpp"
 
 namespace signorini {
 
@@ -75,7 +76,7 @@ class TangentSeries {
   const Series* motion_ = nullptr;
   const Tangent* start_ = nullptr;
   ForcingRatesSeries forcing_;
-  std::vector<FrictionRates> friction_;  // of contacts whose friction depends on their slip rates
+  std::vector<std::pair<std::size_t, FrictionTangent>> friction_;  // of contacts whose friction varies
   Eigen::MatrixXd u_, forces_;
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;

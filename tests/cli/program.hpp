@@ -7,8 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -84,6 +86,22 @@ class Shell {
 
 [[nodiscard]] inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// A shell line in the folder; the program is $SIGNORINI. The exit code.
+inline int line(const Shell& shell, const std::string& text) {
+  const std::string command =
+      "cd '" + (shell / "").string() + "' && SIGNORINI='" + SIGNORINI_PROGRAM + "' && " + text;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+[[nodiscard]] inline bool on_path(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+[[nodiscard]] inline long lines(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
 }
 
 [[nodiscard]] inline bool exists(const Shell& shell, const std::string& name) {

@@ -13,30 +13,23 @@ using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
 using signorini::cli_test::exists;
 using signorini::cli_test::has;
+using signorini::cli_test::line;
 using signorini::cli_test::Shell;
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A shell line in the folder; the program is $SIGNORINI. The exit code.
-int line(const Shell& shell, const std::string& text) {
-  const std::string command =
-      "cd '" + (shell / "").string() + "' && SIGNORINI='" + SIGNORINI_PROGRAM + "' && " + text;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 std::string last_cell(const std::string& table) {
   const std::size_t end = table.rfind('\n'), begin = table.rfind('\n', end - 1) + 1;
   return table.substr(begin, table.find(',', begin) - begin);
 }
 
-const std::string vary = "contacts.belt.friction.static=1:2:0.5";  // three rows
+const std::string three_rows = "contacts.belt.friction.static=1:2:0.5";  // three rows
 
 void sweep(const Shell& shell, const std::vector<std::string>& more = {}) {
   shell.write("belt.toml", belt(5));
-  std::vector<std::string> arguments = {"sweep", "belt.toml", "--vary", vary, "--no-plots", "--quiet"};
+  std::vector<std::string> arguments = {"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   REQUIRE(shell.run(arguments).code == 0);
 }
@@ -108,7 +101,7 @@ TEST_CASE("cli sweep: --force removes no file that is not its own") {
     CAPTURE(foreign);
     shell.write("belt-sweep/rows/" + foreign, "mine");
     const Ending ending =
-        shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "--quiet", "--force"});
+        shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--force"});
     CHECK(ending.code == 6);
     CHECK(has(ending.err, foreign));
     CHECK(shell.read("belt-sweep/rows/" + foreign) == "mine");
@@ -126,7 +119,7 @@ TEST_CASE("cli sweep: --force follows no link") {
     fs::rename(shell / ("belt-sweep/" + folder), shell / "elsewhere");
     fs::create_directory_symlink(shell / "elsewhere", shell / ("belt-sweep/" + folder));
     const Ending ending =
-        shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "--quiet", "--force"});
+        shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "--force"});
     CHECK(ending.code == 6);
     CHECK(has(ending.err, "belt-sweep/" + folder));
     CHECK(std::distance(fs::directory_iterator(shell / "elsewhere"), {}) == 3);
@@ -146,7 +139,7 @@ TEST_CASE("cli sweep: rows that are no files, or were altered or misnumbered, ar
   const std::string row = "belt-sweep/rows/000002.json", good = shell.read(row);
   const auto refused = [&](const std::string& message) {
     for (const std::vector<std::string>& arguments :
-         {std::vector<std::string>{"sweep", "belt.toml", "--vary", vary, "--no-plots"},
+         {std::vector<std::string>{"sweep", "belt.toml", "--vary", three_rows, "--no-plots"},
           std::vector<std::string>{"sweep", "--merge", "belt-sweep", "-o", "joined", "--no-plots"}}) {
       const Ending ending = shell.run(arguments);
       CHECK(ending.code == 6);
@@ -182,7 +175,7 @@ TEST_CASE("cli sweep: shares that contradict each other are not merged") {
   CHECK(merge().code == 0);  // alike but for their times
   // The same sweep of a scene that ends earlier, passed off as a share.
   shell.write("belt.toml", belt(4));
-  REQUIRE(shell.run({"sweep", "belt.toml", "--vary", vary, "--no-plots", "-o", "short"}).code == 0);
+  REQUIRE(shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "-o", "short"}).code == 0);
   fs::copy_file(shell / "short/rows/000003.json", shell / "two/rows/000003.json",
                 fs::copy_options::overwrite_existing);
   const Ending ending = merge();

@@ -12,13 +12,8 @@ using nlohmann::json;
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
 using signorini::cli_test::exists;
+using signorini::cli_test::lines;
 using signorini::cli_test::Shell;
-
-namespace {
-
-long lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
-
-}  // namespace
 
 TEST_SUITE_BEGIN("cli/run");
 

@@ -33,6 +33,9 @@ complain() { echo "names.sh: $*" >&2; exit 1; }
 "$program" check names.toml >../said 2>&1 || complain "check fails: $(cat ../said)"
 "$program" run names.toml -o out >../said 2>&1 || complain "run fails: $(cat ../said)"
 "$program" plot out >../said 2>&1 || complain "plot fails: $(cat ../said)"
+# Of more than 24 contacts the rest is drawn as the run says.
+(cd out/plots && for script in *.gp; do [[ -e "${script%.gp}.svg" ]] || gnuplot "./$script"; done) >../said 2>&1 ||
+  complain "gnuplot fails: $(cat ../said)"
 "$program" compare names.toml --engines exact,ida -o both >../said 2>&1 || complain "compare fails: $(cat ../said)"
 [[ -z "$(find "$folder" -iname '*owned' -not -path '*/plots/*')" && ! -e /tmp/owned ]] || complain "something was executed"
 [[ "$(ls -A "$folder")" == $'in\nsaid' ]] || complain "something was written elsewhere: $(ls -A "$folder")"

@@ -93,7 +93,7 @@ double ExactEngine::first_step() const {
     const ContactMotion& m = decision.after[c];
     if (!model_.contacts[c].takes_impulses() || !decision.mode[c].is_open() || !(m.an < 0.0)) continue;
     // What leaves with g' = 0 flies by later derivatives: its g'' is rounding, and so is a flight made of it.
-    const GuardStart& closing = decision.guards[guards_per_contact * c];
+    const GuardStart& closing = decision.guards[guard_slot(c, 0)];
     if (closing.leading < 0 || closing.leading > 1) continue;
     const double height = std::max(m.gap, 0.0);
     shortest = std::min(shortest, (m.vn + std::sqrt(m.vn * m.vn - 2.0 * m.an * height)) / -m.an);

@@ -6,11 +6,7 @@
 #include "engine/exact/gauss_rule.hpp"
 
 namespace signorini {
-namespace {
-
-constexpr std::size_t nodes = SeriesWorks::nodes;
-
-}  // namespace
+namespace {}  // namespace
 
 SeriesWorks::SeriesWorks(const Model& model, const Structure& structure)
     : model_(model),

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/complementarity.hpp"
 #include "base/listed.hpp"
-#include "decide/complementarity.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
 #include "model/statics/least_share.hpp"
@@ -179,7 +179,7 @@ class Path {
       const Share shared = least_share(
           {stiffness_, map_, rows, unknowns, conditions, *z * size, forces.cwiseAbs().maxCoeff()}, rates);
       if (!shared.undetermined.empty()) doubt(shared);
-      take_states(unknowns, shared.z);
+      take_states(unknowns, shared.moves);
     }
     u_rate_ = std::move(rates);
     take_rates(forces);
@@ -208,7 +208,7 @@ class Path {
     return fmt::format("{} {}{}", count == 1 ? "contact" : "contacts", names, count > 4 ? " and more" : "");
   }
 
-  void take_states(const std::vector<Unknown>& unknowns, const Eigen::VectorXd& z) {
+  void take_states(const std::vector<Unknown>& unknowns, const std::vector<bool>& moves) {
     std::vector<State> next;
     for (const Standing& s : standing_)
       next.push_back(slip_sign(s.state) != 0 && s.tangent >= 0 ? State::stick : s.state);
@@ -216,7 +216,7 @@ class Path {
       if (unknown.kind == Unknown::Kind::opening)
         next[unknown.contact] = rubs(unknown.contact) ? State::stick : State::closed;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
-      if (!(z[static_cast<Eigen::Index>(j)] > 0.0)) continue;
+      if (!moves[j]) continue;
       State& state = next[unknowns[j].contact];
       if (unknowns[j].kind == Unknown::Kind::opening)
         state = State::open;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/complementarity.hpp"
 #include "base/eigen_dense.hpp"
-#include "decide/complementarity.hpp"
 
 namespace signorini {
 

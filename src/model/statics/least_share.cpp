@@ -53,7 +53,8 @@ Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& l
 }  // namespace
 
 Share least_share(const SharedOut& given, Vector& rates) {
-  Share share{given.z, {}, {}};
+  Share share;
+  for (const double z : given.z) share.moves.push_back(z > 0.0);
   const double zero = same_rate * std::max(given.greatest_force, given.z.cwiseAbs().maxCoeff());
   std::vector<bool> may;
   for (std::size_t j = 0; j < given.unknowns.size(); ++j)
@@ -86,8 +87,7 @@ Share least_share(const SharedOut& given, Vector& rates) {
     const Unknown& unknown = given.unknowns[j];
     for (std::size_t i = 0; i < loose.size() && may[j]; ++i)
       if (loose[i].row == static_cast<std::size_t>(unknown.row))
-        share.z[static_cast<Eigen::Index>(j)] = std::max(
-            0.0, unknown.sign * r[static_cast<Eigen::Index>(i)] * given.rows[loose[i].row].stiffness);
+        share.moves[j] = unknown.sign * r[static_cast<Eigen::Index>(i)] > 0.0;
   }
   return share;
 }

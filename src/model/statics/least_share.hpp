@@ -29,7 +29,7 @@ struct SharedOut {
 };
 
 struct Share {
-  Eigen::VectorXd z;
+  std::vector<bool> moves;  ///< one an unknown
   /// Contacts at their limits whose slips the data leave open, in the order of their rows; empty: none.
   std::vector<std::size_t> undetermined;
   Vector motion;  ///< that nothing resists; n

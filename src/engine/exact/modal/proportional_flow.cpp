@@ -1,5 +1,7 @@
 #include "engine/exact/modal/proportional_flow.hpp"
 
+#include "contact/motion.hpp"
+
 #include <algorithm>
 
 namespace signorini {
@@ -68,7 +70,7 @@ void ProportionalFlow::forces(const ModalPoint& /*at*/, Point& point) const {
     const Contact& contact = model_.contacts[c];
     const double gap = contact.gap_at(point.u);
     const double ut =
-        contact.tangent.dot(point.u) - segment_->forcing->surface(c, segment_->decision->jet.t, 0);
+        along_surface(contact, point.u, segment_->forcing->surface(c, segment_->decision->jet.t, 0));
     const auto row = static_cast<Eigen::Index>(normal_slot(c));
     point.forces[row] = law.N(gap);
     point.forces[row + 1] = law.T(gap, ut);

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "decide/complementarity.hpp"
+#include "base/complementarity.hpp"
 #include "decide/coulomb_problem.hpp"
 
 using namespace signorini;
@@ -96,7 +96,7 @@ void check_conditions(const CoulombProblem& p, const CoulombSolution& s) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("unit/decide/complementarity");
+TEST_SUITE_BEGIN("unit/base/complementarity");
 
 TEST_CASE("Lemke solves thousands of problems with P-matrices, each with exactly one solution") {
   std::mt19937_64 random(1);

@@ -1,4 +1,4 @@
-#include "decide/complementarity.hpp"
+#include "base/complementarity.hpp"
 
 #include <algorithm>
 #include <cmath>

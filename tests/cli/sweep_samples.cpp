@@ -1,0 +1,254 @@
+// Answers as columns, samples and their quantiles.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sweep_rows.hpp"
+
+using nlohmann::json;
+using signorini::cli_test::belt;
+using signorini::cli_test::Ending;
+using signorini::cli_test::exists;
+using signorini::cli_test::has;
+using signorini::cli_test::on_path;
+using signorini::cli_test::rows;
+using signorini::cli_test::Shell;
+using signorini::cli_test::sliding_block;
+using signorini::cli_test::vary;
+
+TEST_SUITE_BEGIN("cli/sweep_samples");
+
+TEST_CASE("cli sweep: answers are columns; keys vary in step") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const Ending ending = shell.run({"sweep",
+                                   "block.toml",
+                                   "--vary",
+                                   "run.initial.block.vx=1,2,3",
+                                   "--vary",
+                                   "masses.1.mass=2,4,6",
+                                   "--together",
+                                   "--response",
+                                   "residual:floor",
+                                   "--response",
+                                   "max:x",
+                                   "--response",
+                                   "tmax:x",
+                                   "--response",
+                                   "end:v",
+                                   "--response",
+                                   "abs:v",
+                                   "--response",
+                                   "count:stick",
+                                   "--response",
+                                   "count:slip@floor",
+                                   "--json"});
+  CHECK(ending.err.empty());
+  REQUIRE(ending.code == 0);
+  const json report = json::parse(ending.out);
+  REQUIRE(report["rows"].size() == 3);
+  CHECK(report["responses"][0] == json({{"name", "residual:floor"}, {"unit", "m"}}));
+  CHECK(report["responses"][2]["unit"] == "s");
+  CHECK(report["responses"][5]["unit"] == "");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double v = 1.0 + static_cast<double>(i), m = 2.0 * v, way = m * v * v / 10.0;
+    const json& answers = report["rows"][i]["responses"];
+    CAPTURE(i);
+    CHECK(answers[0].get<double>() == doctest::Approx(way).epsilon(1e-12));
+    CHECK(answers[1].get<double>() == doctest::Approx(way).epsilon(1e-12));
+    CHECK(std::abs(answers[2].get<double>() - m * v / 5.0) < 1e-7);
+    CHECK(answers[3].get<double>() == 0.0);
+    CHECK(answers[4].get<double>() == doctest::Approx(v));
+    CHECK(answers[5].get<double>() == 1.0);
+    CHECK(answers[6].get<double>() == 0.0);
+  }
+  CHECK(has(shell.read("block-sweep/sweep.csv"), ",residual:floor,max:x,tmax:x,end:v,abs:v,count:stick,"));
+  CHECK(exists(shell, "block-sweep/plots/responses.gp"));
+  const Ending paper = shell.run({"sweep", "block.toml", "--vary", "masses.1.mass=2,4", "--response", "max:x",
+                                  "-o", "paper", "--table", "latex", "--no-plots"});
+  CHECK(paper.code == 0);
+  CHECK(paper.out ==
+        "\\begin{tabular}{rlrr}\n\\hline\nmasses.1.mass & outcome & events & max:x [m] \\\\\n\\hline\n"
+        "2 & done & 1 & 0.2 \\\\\n4 & done & 1 & 0.4 \\\\\n\\hline\n\\end{tabular}\n");
+  // The sweep is its queries, too.
+  const Ending other = shell.run({"sweep", "block.toml", "--vary", "run.initial.block.vx=1,2,3", "--vary",
+                                  "masses.1.mass=2,4,6", "--together", "--response", "max:x"});
+  CHECK(other.code == 6);
+  CHECK(has(other.err, "--response was residual:floor max:x"));
+}
+
+TEST_CASE("cli sweep: quantiles of samples, against the closed form, whoever computes them") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto sweep = [&](const std::string& directory, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"sweep",      "block.toml",
+                                     "--sample",   "run.initial.block.vx=uniform(1,3)",
+                                     "--sample",   "contacts.floor.friction=normal(0.5,0.05)",
+                                     "--samples",  "200",
+                                     "--seed",     "5",
+                                     "--response", "residual:floor",
+                                     "--response", "max:v",
+                                     "--quiet",    "-o",
+                                     directory};
+    command.insert(command.end(), more.begin(), more.end());
+    return shell.run(command).code;
+  };
+  REQUIRE(sweep("one", {"--jobs", "1"}) == 0);
+  REQUIRE(sweep("two", {"--jobs", "2", "--no-plots"}) == 0);
+  for (const char* share : {"1/3", "2/3", "3/3"})
+    REQUIRE(sweep(std::string("part") + share[0], {"--share", share, "--no-plots"}) == 0);
+  REQUIRE(shell.run({"sweep", "--merge", "part1", "part2", "part3", "-o", "joined", "--quiet", "--no-plots"})
+              .code == 0);
+  for (const char* other : {"two", "joined"}) {
+    CHECK(rows(shell, other) == rows(shell, "one"));
+    for (const char* table : {"/quantiles.csv", "/exceedance.csv"})
+      CHECK(shell.read(std::string(other) + table) == shell.read(std::string("one") + table));
+  }
+  CHECK(exists(shell, "one/plots/exceedance.gp"));
+  if (on_path("gnuplot")) CHECK(shell.read("one/plots/exceedance.png").size() > 2000);
+  for (const json& row : rows(shell, "one")) {
+    const double v = std::stod(row["values"][0].get<std::string>()),
+                 f = std::stod(row["values"][1].get<std::string>());
+    CHECK(row["responses"][0].get<double>() == doctest::Approx(v * v / (10.0 * f)).epsilon(1e-11));
+  }
+  // max:v is uniform on [1, 3]: the quantile of p is 1 + 2 p.
+  std::istringstream table(shell.read("one/quantiles.csv"));
+  std::string row;
+  int checked = 0;
+  std::getline(table, row);
+  CHECK(row == "quantity,unit,n,missing,probability,value,low,high");
+  while (std::getline(table, row)) {
+    std::vector<std::string> cells(1);
+    for (const char c : row)
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    if (cells[0] != "max:v") continue;
+    REQUIRE(cells.size() == 8);
+    CHECK(cells[2] == "200");
+    const double truth = 1.0 + 2.0 * std::stod(cells[4]);
+    if (!cells[6].empty()) CHECK(std::stod(cells[6]) <= truth);
+    if (!cells[7].empty()) CHECK(std::stod(cells[7]) >= truth);
+    CHECK(std::abs(std::stod(cells[5]) - truth) < 0.3);
+    ++checked;
+  }
+  CHECK(checked == 9);
+}
+
+TEST_CASE("cli sweep: a killed sweep goes on with the same samples; a row that crashes costs itself") {
+  const Shell shell;
+  shell.write("belt.toml", belt(2000));
+  const std::vector<std::string> command = {"sweep",      "belt.toml",
+                                            "--sample",   "contacts.belt.friction.static=uniform(1.2,1.8)",
+                                            "--samples",  "6",
+                                            "--response", "residual:belt",
+                                            "--jobs",     "2",
+                                            "--no-plots", "--quiet",
+                                            "--set",      "run.rtol=1e-11"};
+  const auto child_of = [](pid_t process) {
+    std::ifstream children("/proc/" + std::to_string(process) + "/task/" + std::to_string(process) +
+                           "/children");
+    pid_t first = 0;
+    children >> first;
+    return first;
+  };
+  const auto started = [&](const char* file) {
+    const pid_t child = shell.start(command);
+    for (int i = 0; i < 600 && !exists(shell, file); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return child;
+  };
+  const pid_t killed = started("belt-sweep/rows/000001.json");
+  kill(killed, SIGKILL);
+  (void)shell.wait(killed);
+  const pid_t hurt = started("belt-sweep/rows/000003.json");
+  if (const pid_t worker = child_of(hurt); worker > 0) kill(worker, SIGKILL);
+  CHECK(shell.wait(hurt).code == 0);
+  const json first = rows(shell, "belt-sweep");
+  REQUIRE(first.size() == 6);
+  const auto crashed =
+      std::count_if(first.begin(), first.end(), [](const json& row) { return row["outcome"] == "crashed"; });
+  CHECK(crashed <= 1);
+  if (crashed == 1) {
+    const auto row =
+        *std::find_if(first.begin(), first.end(), [](const json& r) { return r["outcome"] == "crashed"; });
+    CHECK(has(row["reason"].get<std::string>(), "signal 9"));
+  }
+  REQUIRE(shell.run(command).code == 0);
+  std::vector<std::string> whole = command;
+  whole.insert(whole.end(), {"-o", "whole"});
+  REQUIRE(shell.run(whole).code == 0);
+  CHECK(rows(shell, "belt-sweep") == rows(shell, "whole"));
+  CHECK(shell.read("belt-sweep/quantiles.csv") == shell.read("whole/quantiles.csv"));
+}
+
+TEST_CASE("cli sweep: what is wrong with queries and samples is told before anything is written") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto refused = [&](std::vector<std::string> more, const std::string& why) {
+    more.insert(more.begin(), {"sweep", "block.toml"});
+    const Ending ending = shell.run(more);
+    CAPTURE(why);
+    CHECK(ending.code == 2);
+    CHECK_MESSAGE(has(ending.err, why), ending.err);
+    CHECK(shell.list().size() == 1);
+  };
+  const std::string vary_mass = "masses.1.mass=1,2";
+  refused({"--vary", vary_mass, "--response", "maximum:x"}, "expected one of max:, min:");
+  refused({"--vary", vary_mass, "--response", "max:y"}, "unknown output \"y\"");
+  refused({"--vary", vary_mass, "--response", "residual:flor"}, "did you mean \"floor\"");
+  refused({"--vary", vary_mass, "--response", "count:stik"}, "unknown event \"stik\"");
+  refused({"--vary", vary_mass, "--response", "count:stick@x"}, "unknown contact \"x\"");
+  refused({"--vary", vary_mass, "--response", "impulse:floor@0"}, "the number of a landing, from 1");
+  refused({"--vary", vary_mass, "--response", "max:x", "--response", "max:x"}, "asked for twice");
+  refused({"--vary", vary_mass, "--together"}, "expected two --vary or more");
+  refused({"--vary", vary_mass, "--vary", "run.rtol=1e-6,1e-7,1e-8", "--together"}, "expected as many");
+  refused({"--vary", vary_mass, "--samples", "5"}, "has no meaning without --sample");
+  refused({"--vary", vary_mass, "--seed", "5"}, "has no meaning without --sample");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)"}, "expected --response");
+  refused({"--sample", "masses.1.mass=normal(2,0)", "--response", "max:x"}, "standard deviation > 0");
+  refused({"--sample", "masses.1.mas=normal(2,0.1)", "--response", "max:x"}, "masses.1.mas");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--sequence", "halton"},
+          "expected random or sobol");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--samples", "0"},
+          "expected 1 to 1000000");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--vary", vary_mass, "--response", "max:x"},
+          "varied already");
+  refused({"--sample", "masses.1.mass=normal(-5,0.1)", "--response", "max:x"}, "--sample masses.1.mass=");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--samples", ""},
+          "expected a number");
+}
+
+TEST_CASE(
+    "cli sweep: another state to go on from is another sweep; a row beyond the last is none of its own") {
+  const Shell shell;
+  std::string scene = sliding_block;
+  shell.write("first.toml", scene);
+  const std::string initial = "initial = { block = { vx = 1.0 } }";
+  scene.replace(scene.find(initial), initial.size(), "initial = { run = \"before\" }");
+  shell.write("then.toml", scene);
+  const auto before = [&](const char* t_end) {
+    return shell.run({"run", "first.toml", "-o", "before", "--force", "--no-plots", "--set",
+                      std::string("run.t_end=") + t_end});
+  };
+  const std::vector<std::string> sweep{"sweep",      "then.toml", "--vary", "contacts.floor.friction=0.2,0.3",
+                                       "--no-plots", "--quiet",   "-o",     "swept"};
+  REQUIRE(before("0.1").code == 0);
+  REQUIRE(shell.run(sweep).code == 0);
+  CHECK(shell.run(sweep).code == 0);
+  REQUIRE(before("0.05").code == 0);
+  const Ending other = shell.run(sweep);
+  CHECK(other.code == 6);
+  CHECK_MESSAGE(has(other.err, "has another content now"), other.err);
+  REQUIRE(before("0.1").code == 0);
+  shell.write("swept/rows/000021.json", shell.read("swept/rows/000001.json"));
+  const Ending beyond = shell.run(sweep);
+  CHECK(beyond.code == 6);
+  CHECK_MESSAGE(has(beyond.err, "000021.json: is no row of this sweep, which has 2"), beyond.err);
+}
+
+TEST_SUITE_END();

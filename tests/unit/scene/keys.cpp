@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "signorini/output.hpp"
 #include "signorini/scene.hpp"
 
 using namespace signorini;
@@ -30,6 +31,15 @@ TEST_SUITE("unit/scene/keys") {
       CHECK_FALSE(describe_type(key).empty());
       CHECK(find_key(key.table, key.name) == &key);
       CHECK((key.type == KeyType::choice) == !key.choices.empty());
+    }
+  }
+
+  TEST_CASE("keys: every constant of friction has one, with its unit") {
+    for (const FrictionConstant& constant : friction_constants) {
+      CAPTURE(constant.key);
+      const Key* key = find_key("contacts[].friction", constant.key);
+      REQUIRE(key);
+      CHECK(key->unit == unit_text(constant.unit, {"force", "mass", "length", "time"}));
     }
   }
 

@@ -101,9 +101,11 @@ struct SensitivityOptions {
 };
 
 /// How many stretches between two events were followed in modes, and along series; those whose engine makes no
-/// series (`ida`, `newmark`) once more, from its state after one event to its time of the next.
+/// series (`ida`, `newmark`) once more, by a motion of their own that takes from the engine which guards fell.
 struct Stretches {
   long modes = 0, series = 0, followed = 0;
+  long taken = 0;           ///< instants at which it went on from the engine's own state
+  double correction = 0.0;  ///< greatest difference of an event's time from the engine's
 };
 
 struct Sensitivities {

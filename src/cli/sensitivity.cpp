@@ -135,6 +135,8 @@ std::string method_of(const Sensitivities& s) {
   const Stretches& n = s.stretches;
   text += fmt::format("; derivatives of {} stretches in modes, of {} along series", n.modes, n.series);
   if (n.followed > 0) text += fmt::format("; {} followed from event to event", n.followed);
+  if (n.correction > 0.0) text += fmt::format(", {:.2g} from the engine's times at most", n.correction);
+  if (n.taken > 0) text += fmt::format(", {} times on from the engine's state", n.taken);
   return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
 }
 

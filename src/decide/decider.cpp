@@ -43,6 +43,16 @@ std::string what_makes_unique(const Model& model, const std::vector<std::size_t>
 
 }  // namespace
 
+std::vector<Fired> resting(const Decision& decision) {
+  std::vector<Fired> result;
+  for (std::size_t i = 0; i < decision.guards.size(); ++i) {
+    const GuardStart& guard = decision.guards[i];
+    const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+    if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
+  }
+  return result;
+}
+
 struct Decider::Course {
   Instant instant;
   const Forcing& after;

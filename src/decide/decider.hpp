@@ -18,6 +18,9 @@
 
 namespace signorini {
 
+/// Friction limits that are zero with all their derivatives, from here to where they are seen to fall.
+[[nodiscard]] std::vector<Fired> resting(const Decision& decision);
+
 class Decider {
  public:
   /// capture_velocity: of rigid contacts that have none of their own.

@@ -4,6 +4,8 @@
 //   -> doubts -> reduction, or undamped massless motions apart -> shear elements -> outputs
 //
 // All of it in the machine's units, and then in the scene's: so a change of units changes no bit of it.
+#include "model/build.hpp"
+
 #include <fmt/core.h>
 
 #include <tuple>
@@ -27,7 +29,6 @@
 #include "model/shear.hpp"
 #include "model/statics/statics.hpp"
 #include "model/undamped.hpp"
-#include "signorini/model.hpp"
 
 namespace signorini {
 namespace {
@@ -104,7 +105,7 @@ void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& mo
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
-Model assembled(const Scene& scene, const Factors& unit) {
+Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
   map.shown_length = unit.length;
   const SourcePlace place = scene.matrices ? scene.matrices->mass.place : SourcePlace{scene.file, 0, 0};
@@ -137,7 +138,8 @@ Model assembled(const Scene& scene, const Factors& unit) {
     model.scales = {s[0], s[1], s[2], s[3], s[4]};
   }
   check_rigid_contacts(scene, model);
-  for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
+  if (doubted)
+    for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));
   if (scene.reduction && scene.reduction->cutoff_omega > 0.0) {
     reduce(scene, assembly.dampers, model);
     check_rigid_contacts(scene, model);  // their initial gaps, closed to the last bit
@@ -154,12 +156,10 @@ Model assembled(const Scene& scene, const Factors& unit) {
   return model;
 }
 
-}  // namespace
-
-Model build_model(const Scene& scene) {
+Model built(const Scene& scene, bool doubted) {
   const Factors machine = machine_units(scene);
   try {
-    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine), machine);
+    Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, doubted), machine);
     model.machine = machine;
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)  // it never was in the machine's units
       model.contacts[k].own = scene.contacts[k].own;
@@ -169,5 +169,10 @@ Model build_model(const Scene& scene) {
     throw;
   }
 }
+
+}  // namespace
+
+Model build_model(const Scene& scene) { return built(scene, true); }
+Model build_undoubted(const Scene& scene) { return built(scene, false); }
 
 }  // namespace signorini

@@ -33,17 +33,6 @@ namespace {
 constexpr double shortest_stretch = 1e-100;
 constexpr int most_gains = 5;  // warnings about impacts that gain energy
 
-/// Friction limits that are zero with all their derivatives, from here to where they are seen to fall.
-std::vector<Fired> resting(const Decision& decision) {
-  std::vector<Fired> result;
-  for (std::size_t i = 0; i < decision.guards.size(); ++i) {
-    const GuardStart& guard = decision.guards[i];
-    const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
-    if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
-  }
-  return result;
-}
-
 /// Computes in the units of its model (Model::unit); the recorder takes them, the report has those of the
 /// scene.
 class Loop {

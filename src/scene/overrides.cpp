@@ -114,6 +114,13 @@ class Change {
     fail("the value is not TOML, expected a number, a word, \"text\", [...] or { ... }");
   }
 
+  /// What a part of a key that is left out is a part of: numbers as they are by default, or a table.
+  std::string left_out(Segments rest) const {
+    const Key* key = rest.size() == segments_.size() ? find_key("", rest[0]) : nullptr;
+    const bool numbers = key != nullptr && key->fallback.starts_with('[');
+    return numbers ? std::string(key->fallback) : "{}";
+  }
+
   void into_table(toml::table& table, Segments rest) {
     const toml::key key(rest[0], place_);
     if (rest.size() == 1) {
@@ -129,7 +136,7 @@ class Change {
       return;
     }
     if (!table.contains(rest[0])) {
-      toml::table nested = toml::parse("value = {}", text_of(change_));
+      toml::table nested = toml::parse("value = " + left_out(rest), text_of(change_));
       table.insert_or_assign(key, std::move(*nested.get("value")));
     }
     toml::node* next = table.get(rest[0]);

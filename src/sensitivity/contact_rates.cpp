@@ -1,6 +1,21 @@
 #include "sensitivity/contact_rates.hpp"
 
+#include <set>
+
 namespace signorini {
+
+std::vector<Eigen::Index> contact_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
+  std::set<Eigen::Index> dofs;
+  const auto add = [&](const Combination& form) {
+    for (const auto& term : form.terms) dofs.insert(term.first);
+  };
+  for (const Contact& contact : model.contacts)
+    for (const Combination* form : {&contact.normal, &contact.tangent, &contact.body_tangent()}) add(*form);
+  for (const ModelDerivative* d : rates)
+    for (const ContactRates& c : d->contacts)
+      for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) add(*form);
+  return {dofs.begin(), dofs.end()};
+}
 
 DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t c, double x) {
   DrivenRates d;

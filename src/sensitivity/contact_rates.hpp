@@ -18,6 +18,10 @@ struct DrivenRates {
 [[nodiscard]] DrivenRates driven_rates(const ForcingRatesSeries& series, double scale, std::size_t contact,
                                        double x);
 
+/// Degrees of freedom that contacts, or their derivatives by any of the parameters, show.
+[[nodiscard]] std::vector<Eigen::Index> contact_dofs(const Model& model,
+                                                     const std::vector<const ModelDerivative*>& rates);
+
 /// The motion itself.
 [[nodiscard]] ContactMotion motion_of(const Contact& contact, std::size_t k, const Forcing& forcing, double t,
                                       const SeriesPoint& point);

@@ -30,15 +30,8 @@ bool stands_still(const ForcingRatesSeries& f) {
 
 /// Degrees of freedom that columns and contacts show; all where they are amplitudes of shapes.
 std::vector<Eigen::Index> shown_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
-  std::set<Eigen::Index> dofs;
-  const auto add = [&](const Combination& form) {
-    for (const auto& term : form.terms) dofs.insert(term.first);
-  };
-  for (const Contact& contact : model.contacts)
-    for (const Combination* form : {&contact.normal, &contact.tangent, &contact.body_tangent()}) add(*form);
-  for (const ModelDerivative* d : rates)
-    for (const ContactRates& c : d->contacts)
-      for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent}) add(*form);
+  const std::vector<Eigen::Index> felt = contact_dofs(model, rates);
+  std::set<Eigen::Index> dofs(felt.begin(), felt.end());
   for (const Column& column : model.columns)
     if (column.dof >= 0) dofs.insert(column.dof);
   if (model.reduction || model.basis)
@@ -320,12 +313,7 @@ class ModalTangents::StretchOf final : public ModalTangents::Stretch {
       if (f.modes == nullptr) continue;
       turn(f.now, f.force, pairs, f.moved);
       const auto sum = [&](const Square<S>& b, const Square<S>& y, std::vector<S>& out) {
-        for (std::size_t k = 0; k < n; ++k) {
-          const S *x = b.data() + k * n, *w = y.data() + k * n;
-          S total(0.0);
-          for (std::size_t l = 0; l < n; ++l) total += x[l] * w[l];
-          out[k] = total;
-        }
+        for (std::size_t k = 0; k < n; ++k) out[k] = inner(b.data() + k * n, y.data() + k * n, n);
       };
       sum(f.modes->b, work_.driven, add);
       sum(f.modes->b, work_.driven_rate, add_rate);

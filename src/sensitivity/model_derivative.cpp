@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/rounding.hpp"
+#include "model/build.hpp"
 #include "model/rescale.hpp"
 #include "sensitivity/model_numbers.hpp"
 #include "sensitivity/parameter.hpp"
@@ -84,7 +85,8 @@ class Differences {
       if (std::any_of(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.point == point; }))
         continue;
       const Scene scene = read_({set_to(path_, value_ + point * step_)});
-      const Model model = rescaled(build_model(scene), inverse(model_.machine));
+      Model model = rescaled(build_undoubted(scene), inverse(model_.machine));
+      take_weight(model_, model);
       if (shape_of(model) != shape_ || !same_coordinates(model))
         throw SceneError({}, path_, "the structure of the model changes with it near its value");
       moved_.push_back({point, data_of(model), {}});
@@ -219,6 +221,15 @@ class Differences {
 };
 
 }  // namespace
+
+void take_weight(const Model& from, Model& model) {
+  const auto weighs = [](const Model& m) {
+    return !m.loads.empty() && m.loads.front().kind == LoadKind::weight;
+  };
+  if (!weighs(from) || weighs(model)) return;
+  model.loads.insert(model.loads.begin(), from.loads.front());
+  model.loads.front().direction = {};
+}
 
 ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path, double value,
                            double size) {

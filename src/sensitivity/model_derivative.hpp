@@ -50,6 +50,9 @@ struct ModelDerivative {
   bool one_sided = false;
 };
 
+/// A model without gravity gets the load of one with it, along nothing: a place for what gravity does.
+void take_weight(const Model& from, Model& model);
+
 /// model: build_model(read({})), in the machine's units. Errors: SceneError and UsageError where the key
 /// cannot be varied, or the data do not depend smoothly on it.
 [[nodiscard]] ModelDerivative derivative(const SceneReader& read, const Model& model, const std::string& path,

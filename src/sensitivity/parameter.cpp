@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/number.hpp"
+#include "scene/keys.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -14,6 +15,12 @@ namespace {
 
 [[noreturn]] void fail_at(const std::string& path, const std::string& message) {
   throw UsageError(fmt::format("--parameter {}: {}", path, message));
+}
+
+/// run.initial.NODE.ux: zero where it is left out.
+bool is_initial_value(const std::vector<std::string>& parts) {
+  return parts.size() == 4 && parts[0] == "run" && parts[1] == "initial" &&
+         find_key("run.initial.*", parts[3]) != nullptr;
 }
 
 void numbers_at(const toml::node& node, const std::vector<std::string>& rest, std::size_t next,
@@ -38,7 +45,15 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
   const std::string& name = rest[next];
   if (const auto* table = node.as_table()) {
     const toml::node* inner = table->get(name);
-    if (!inner) fail_at(path, fmt::format("there is no \"{}\" in the scene", name));
+    if (!inner && is_initial_value(rest)) {
+      found.insert(0.0);
+      return;
+    }
+    if (!inner)
+      fail_at(path,
+              fmt::format("there is no \"{}\" in the scene: what has no value by default is written there "
+                          "with the one to derive at",
+                          name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {
     const auto index = parse_integer(name);

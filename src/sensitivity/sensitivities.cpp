@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "contact/friction.hpp"
+#include "model/build.hpp"
 #include "model/rescale.hpp"
 #include "sensitivity/discrete_run.hpp"
 #include "sensitivity/parameter.hpp"
 #include "sensitivity/rate_record.hpp"
 #include "sensitivity/tangent_run.hpp"
+#include "signorini/error.hpp"
 
 namespace signorini {
 namespace {
@@ -30,6 +32,20 @@ void check_options(const RunSpec& run, const SensitivityOptions& options) {
   if (options.losses) throw UsageError("discrete derivatives: losses are followed along the motion only");
 }
 
+/// A place for the derivative by gravity, which makes no load where it is zero.
+void make_room_for_weight(const SceneReader& read, const Scene& scene, const std::vector<std::string>& paths,
+                          Model& model) {
+  if (scene.gravity != std::array{0.0, 0.0}) return;
+  for (const std::string& path : paths)
+    for (const double g : {-1.0, 1.0}) {
+      if (!path.starts_with("gravity.")) continue;
+      try {
+        take_weight(build_undoubted(read({set_to(path, g)})), model);
+      } catch (const Error&) {  // derivative() says it
+      }
+    }
+}
+
 /// A companion has no part in derivatives.
 RunSpec without_companion(RunSpec run) {
   run.certify = Certify::no;
@@ -49,7 +65,8 @@ SceneReader reader_of(std::string path, std::vector<Override> always) {
 Sensitivities sensitivities(const SceneReader& read, const std::vector<std::string>& paths,
                             Recorder* recorder, const SensitivityOptions& options) {
   const Scene scene = read({});
-  const Model model = build_model(scene);
+  Model model = build_model(scene);
+  make_room_for_weight(read, scene, paths, model);
   const RunSpec run = without_companion(scene.run);
   check_options(run, options);
   const Factors to_machine{1.0 / model.machine.force, 1.0 / model.machine.length, 1.0 / model.machine.time};
@@ -89,6 +106,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     TangentRun tangents(computed, inside, derivatives, sizes, record, options.losses);
     follow(tangents);
     result.stretches = tangents.stretches();
+    result.stretches.correction *= computed.unit.time;
   }
   return result;
 }

@@ -4,32 +4,14 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "engine/exact/gauss_rule.hpp"
 #include "run/audit.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr int most_halvings = 30;
-constexpr int fewest_tangent_levels = 12;
-constexpr double bolder = 1.5;             // than the last part that converged
 constexpr Eigen::Index fewest_modal = 16;  // as run/choose_flow.hpp: below, the series is as fast
 constexpr int most_turn_steps = 6;
-constexpr int turn_places = 24;  // of a step of six radians: a quarter each
-// A product of two motions turns twice as far as they do: of Gauss's ten places a step of six radians takes two
-// sets, which leave 6^21 (10!)^4 / (21 (20!)^3) = 1e-14 of it.
-constexpr std::size_t work_parts = 2;
 constexpr std::size_t forcing_terms = 6;  // of a constant all but the first are zero
-
-Vector force_bends(const Series& series, std::size_t degree, double x) {
-  Vector sum = Vector::Zero(series.forces.rows());
-  for (std::size_t k = degree; k-- > 0;) {
-    if (k + 2 > degree) continue;
-    const double factor = static_cast<double>((k + 1) * (k + 2)) / (series.scale * series.scale);
-    sum = sum * x + factor * series.forces.col(static_cast<Eigen::Index>(k + 2));
-  }
-  return sum;
-}
 
 /// About an instant, of scale 1, from derivatives.
 Series series_of(const Jet& jet, const Forcing& forcing) {
@@ -48,16 +30,13 @@ Series series_of(const Jet& jet, const Forcing& forcing) {
   return s;
 }
 
-}  // namespace
-
-/// Its system with friction at the slip rates at the beginning of a series.
-ModeSystemPtr TangentRun::system_at(const ModeSystem& system, const Series& series) {
-  std::vector<double> coefficients;
-  for (const std::size_t c : system.factorised().by_rate)
-    coefficients.push_back(
-        FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state), series).coefficient());
-  return systems_.at_friction(system, coefficients);
+std::vector<const ModelDerivative*> pointers_to(const std::vector<ModelDerivative>& derivatives) {
+  std::vector<const ModelDerivative*> all;
+  for (const ModelDerivative& d : derivatives) all.push_back(&d);
+  return all;
 }
+
+}  // namespace
 
 TangentRun::TangentRun(const Model& model, const RunSpec& run,
                        const std::vector<ModelDerivative>& derivatives, const std::vector<double>& sizes,
@@ -67,12 +46,13 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
       systems_(model, structure_),
       listener_(listener),
       grid_(run.grid()),
-      t_end_(run.t_end),
-      losses_(losses) {
+      data_(pointers_to(derivatives)),
+      losses_(losses),
+      series_(model, systems_, data_, losses),
+      followed_(model, structure_, systems_, run) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
-    data_.push_back(&derivatives[p]);
     if (!losses) continue;
     states_.back().works.emplace(model, derivatives[p]);
     states_.back().losses.emplace(model, derivatives[p], moves_at_once(model));
@@ -111,35 +91,35 @@ void TangentRun::begin(const ObservedInstant& start) {
         state.reason = "what begins at t = 0 begins later for values on one side only";
       }
   }
+  followed_.begin(start.after);
   pass(start);
 }
 
 /// The stretch that begins here, in modes, if they can follow it.
 bool TangentRun::starts_in_modes(const ObservedStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
-  ModalSystem* modes = step.modes;
-  if (modes == nullptr) {
-    if (!modal_engine_) modal_engine_ = std::make_unique<ModalEngine>(model_, structure_, systems_, t_end_);
-    modes = modal_engine_->modes();
-    if (modes == nullptr) return false;
-  }
+  ModalSystem* modes = step.modes != nullptr ? step.modes : followed_.modes();
+  if (modes == nullptr) return false;
+  const Decision& from = foreign_ ? followed_.stretch() : step.decision;
   std::vector<TangentSource> sources(states_.size());
   for (std::size_t p = 0; p < states_.size(); ++p) {
     if (!states_[p].alive) continue;
     sources[p].start = &states_[p].now.start;
-    states_[p].forcing->expand(step.step.begin, 1.0, forcing_terms, sources[p].forcing);
+    states_[p].forcing->expand(from.jet.t, 1.0, forcing_terms, sources[p].forcing);
   }
-  return modal_->start(*modes, step.decision, step.forcing, std::move(sources));
+  return modal_->start(*modes, from, step.forcing, std::move(sources));
 }
 
 TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
-  const bool foreign = step.modes == nullptr && step.expansion.series == nullptr;
+  foreign_ = step.modes == nullptr && step.expansion.series == nullptr;
+  if (foreign_) followed_.start(step.forcing);
   const bool modes = starts_in_modes(step);
-  if (modes && !foreign) return Way::modes;
+  if (modes && !foreign_) return Way::modes;
   if (!modes && step.expansion.series != nullptr) return Way::series;
-  decision_ = step.decision;
-  for (GuardStart& guard : decision_.guards) guard = {};
-  forcing_.emplace(step.forcing);
+  if (!foreign_) {
+    followed_.begin(step.decision);
+    followed_.start(step.forcing);
+  }
   return modes ? Way::own_modes : Way::own_series;
 }
 
@@ -147,7 +127,7 @@ void TangentRun::step(const ObservedStep& step) {
   if (way_ == Way::unknown) {
     way_ = way_of(step);
     ++(way_ == Way::modes || way_ == Way::own_modes ? stretches_.modes : stretches_.series);
-    if (way_ == Way::own_series || way_ == Way::own_modes) ++stretches_.followed;
+    if (is_followed()) ++stretches_.followed;
   }
   if (way_ == Way::series || way_ == Way::modes) observe(step);
 }
@@ -161,11 +141,9 @@ void TangentRun::observe(const ObservedStep& step) {
 
 /// The stretch that has ended at t once more.
 void TangentRun::follow(double t) {
-  if (way_ != Way::own_series && way_ != Way::own_modes) return;
-  if (way_ == Way::own_series && !series_engine_)
-    series_engine_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
-  Stepper& engine = way_ == Way::own_series ? static_cast<Stepper&>(*series_engine_) : *modal_engine_;
-  engine.start({t, &decision_, &*forcing_});
+  if (!is_followed() || t <= followed_.t()) return;
+  Stepper& engine = followed_.engine(way_ == Way::own_modes);
+  engine.start({t, &followed_.stretch(), &followed_.forcing()});
   for (;;) {
     const Step step = engine.advance();
     if (step.kind == Step::Kind::failed) {
@@ -176,7 +154,8 @@ void TangentRun::follow(double t) {
         }
       return;
     }
-    observe({step, engine.expansion(), decision_, *forcing_, engine.turning_points(), engine.modes()});
+    observe({step, engine.expansion(), followed_.stretch(), followed_.forcing(), engine.turning_points(),
+             engine.modes()});
     if (step.end >= t) return;
   }
 }
@@ -208,12 +187,12 @@ SeriesPoint TangentRun::just_before(const ObservedInstant& instant) {
   return point_at(series.u, series.forces, 1.0, 2, 0.0);
 }
 
-std::vector<TangentRun::Output> TangentRun::outputs(const ObservedStep& step) {
-  std::vector<Output> list;
+std::vector<WantedPlace> TangentRun::wanted(const ObservedStep& step) {
+  std::vector<WantedPlace> list;
   for (; next_ < grid_.size() && grid_[next_] < step.step.end; ++next_)
     list.push_back({grid_[next_], 0.0, true, false});
   for (const double t : step.turns) list.push_back({t, 0.0, false, true});
-  std::sort(list.begin(), list.end(), [](const Output& a, const Output& b) { return a.t < b.t; });
+  std::sort(list.begin(), list.end(), [](const WantedPlace& a, const WantedPlace& b) { return a.t < b.t; });
   return list;
 }
 
@@ -251,7 +230,7 @@ std::vector<double> TangentRun::turns_in_modes(const ObservedStep& step) const {
 
 void TangentRun::observe_modes(const ObservedStep& step) {
   const std::vector<double> turns = turns_in_modes(step);
-  for (const Output& output : outputs({step.step, step.expansion, step.decision, step.forcing, turns})) {
+  for (const WantedPlace& output : wanted({step.step, step.expansion, step.decision, step.forcing, turns})) {
     TangentsAt at = modal_->at(output.t, false);
     TangentSample sample{output.t,
                          step.forcing,
@@ -269,115 +248,6 @@ void TangentRun::observe_modes(const ObservedStep& step) {
   }
 }
 
-/// Where a contact presses hardest for a while: N' falls through zero and rises.
-std::vector<double> TangentRun::pressing_turns(const Model& model, const ObservedStep& step) {
-  const Expansion& e = step.expansion;
-  std::vector<double> turns;
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    if (!model.contacts[c].has_gap() || step.decision.mode[c].is_open()) continue;
-    const auto row = static_cast<Eigen::Index>(normal_slot(c));
-    const auto slope = [&](double x) {
-      double sum = 0.0;
-      for (std::size_t k = e.degree; k > 0; --k)
-        sum = sum * x + static_cast<double>(k) * e.series->forces(row, static_cast<Eigen::Index>(k));
-      return sum;
-    };
-    for (int i = 0; i < turn_places; ++i) {
-      double lo = e.x * i / turn_places, hi = e.x * (i + 1) / turn_places;
-      if (!(slope(lo) < 0.0 && slope(hi) >= 0.0)) continue;
-      for (double x = 0.5 * (lo + hi); x > lo && x < hi; x = 0.5 * (lo + hi)) (slope(x) < 0.0 ? lo : hi) = x;
-      turns.push_back(e.series->t + e.series->scale * hi);
-    }
-  }
-  return turns;
-}
-
-/// Works over [from, to] of the step; the tangent's own series begins at `begin`.
-void TangentRun::integrate(TangentState& state, const ObservedStep& step, double begin, double from,
-                           double to) const {
-  const Expansion& e = step.expansion;
-  const GaussRule& rule = gauss_rule();
-  const ForcingRatesSeries& forcing = state.series.forcing();
-  const double h = (to - from) / work_parts;
-  if (!(h > 0.0)) return;
-  TangentPlace place{0.0, step.forcing, step.decision.mode, {}, {}, {}, Vector::Zero(model_.size())};
-  for (std::size_t i = 0; i < work_parts * GaussRule::nodes; ++i) {
-    const std::size_t node = i % GaussRule::nodes;
-    const double x = from + h * (static_cast<double>(i / GaussRule::nodes) + rule.x[node]);
-    place.t = e.series->t + e.series->scale * x;
-    place.motion = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, x);
-    place.tangent = state.series.at(x - begin);
-    place.driven.clear();
-    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-      place.driven.push_back(driven_rates(forcing, e.series->scale, c, x - begin));
-    if (forcing.loaded) {
-      place.load.setZero();
-      for (Eigen::Index k = forcing.load.cols(); k-- > 0;)
-        place.load = place.load * (x - begin) + forcing.load.col(k);
-    }
-    state.works->add(place, h * e.series->scale * rule.w[node]);
-  }
-}
-
-/// One tangent to the end of the step, part by part.
-void TangentRun::advance(TangentState& state, const ObservedStep& step, const std::vector<Output>& wanted,
-                         std::vector<TangentSample>& samples, std::size_t p) {
-  const Expansion& e = step.expansion;
-  const ModeSystem* system = e.system != nullptr ? e.system : step.decision.system.get();
-  ModeSystemPtr own;
-  const int levels = std::max(fewest_tangent_levels, static_cast<int>(step.forcing.greatest_degree()) + 2);
-  Series moved;
-  std::size_t next = 0;
-  double from = 0.0;
-  int halvings = 0;
-  while (from < e.x || from == 0.0) {
-    const double rest = e.x - from;
-    double length = rest;
-    if (state.reach > 0.0) length = std::min(rest, bolder * state.reach / e.series->scale);
-    if (length < rest && length > 0.6 * rest) length = 0.5 * rest;
-    if (from > 0.0) recentre(*e.series, step.forcing, from, 1.0, moved);
-    const Series& motion = from > 0.0 ? moved : *e.series;
-    if (from > 0.0 && !system->factorised().by_rate.empty() && (own = system_at(*system, moved)))
-      system = own.get();
-    while (length > 0.0 &&
-           !state.series.expand(*system, motion, *state.forcing, state.now.start, length, levels)) {
-      if (++halvings > most_halvings) {
-        state.alive = false;
-        state.until = motion.t;
-        state.reason = "its series does not converge";
-        return;
-      }
-      length *= 0.5;
-      state.reach = length * e.series->scale;
-    }
-    if (length == 0.0)
-      state.series.expand_to(*system, motion, *state.forcing, state.now.start, motion.levels);
-    else
-      state.reach = std::max(state.reach, length * e.series->scale);
-    const double to = length == rest ? e.x : from + length;
-    double done = from;  // up to where works are known
-    for (; next < wanted.size() && wanted[next].x <= to; ++next) {
-      const double x = wanted[next].x - from;
-      samples[next].tangents[p] = state.series.at(x);
-      for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-        samples[next].driven[p].push_back(driven_rates(state.series.forcing(), e.series->scale, c, x));
-      samples[next].anchors[p] = state.now.start.anchors;
-      if (!losses_) continue;
-      integrate(state, step, from, std::exchange(done, wanted[next].x), wanted[next].x);
-      samples[next].works[p] = state.works->now();
-    }
-    if (losses_) integrate(state, step, from, done, to);
-    state.now.point = state.series.at(length);
-    state.now.driven.clear();
-    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
-      state.now.driven.push_back(driven_rates(state.series.forcing(), e.series->scale, c, length));
-    state.now.start.u = state.now.point.u;
-    state.now.start.v = state.now.point.v;
-    if (to >= e.x) break;
-    from = to;
-  }
-}
-
 void TangentRun::observe_series(const ObservedStep& step) {
   const Expansion& e = step.expansion;
   std::vector<double> turns = step.turns;
@@ -385,10 +255,11 @@ void TangentRun::observe_series(const ObservedStep& step) {
     const std::vector<double> more = pressing_turns(model_, step);
     turns.insert(turns.end(), more.begin(), more.end());
   }
-  std::vector<Output> wanted = outputs({step.step, step.expansion, step.decision, step.forcing, turns});
-  for (Output& output : wanted) output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
+  std::vector<WantedPlace> places = wanted({step.step, step.expansion, step.decision, step.forcing, turns});
+  for (WantedPlace& output : places)
+    output.x = std::clamp((output.t - e.series->t) / e.series->scale, 0.0, e.x);
   std::vector<TangentSample> samples;
-  for (const Output& output : wanted) {
+  for (const WantedPlace& output : places) {
     samples.push_back({output.t, step.forcing, step.decision.mode,
                        point_at(e.series->u, e.series->forces, e.series->scale, e.degree, output.x),
                        output.turn ? force_bends(*e.series, e.degree, output.x) : Vector(),
@@ -398,17 +269,42 @@ void TangentRun::observe_series(const ObservedStep& step) {
                        std::vector<WorkRates>(losses_ ? states_.size() : 0)});
   }
   for (std::size_t p = 0; p < states_.size(); ++p)
-    if (states_[p].alive) advance(states_[p], step, wanted, samples, p);
+    if (states_[p].alive) series_.advance(states_[p], step, places, samples, p);
   for (std::size_t i = 0; i < samples.size(); ++i)
-    listener_.sample(samples[i], wanted[i].row, wanted[i].turn);
+    listener_.sample(samples[i], places[i].row, places[i].turn);
   end_ = point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
 }
 
 void TangentRun::instant(const ObservedInstant& instant) {
-  arrive(instant.t);
-  if (way_ == Way::own_series || way_ == Way::own_modes) end_ = just_before(instant);
-  pass(instant);
+  if (foreign_) {
+    follow_instant(instant);
+  } else {
+    arrive(instant.t);
+    if (is_followed()) end_ = just_before(instant);
+    pass(instant);
+  }
   way_ = Way::unknown;
+}
+
+/// Of an engine that makes no series: where and as the motion that is followed has it.
+void TangentRun::follow_instant(const ObservedInstant& instant) {
+  std::optional<double> t;
+  if (is_followed())
+    t = followed_.time_of(instant, [&](double at) {
+      return way_ == Way::own_modes ? modal_->motion(at).motion : followed_.at(at);
+    });
+  const bool moves = is_followed() && t.value_or(instant.t) > followed_.t();
+  if (moves) arrive(t.value_or(instant.t));
+  const ObservedInstant seen = moves && t ? followed_.pass(instant, *t, end_) : followed_.take(instant);
+  if (moves) end_ = just_before(seen);
+  pass(seen);
+}
+
+Stretches TangentRun::stretches() const {
+  Stretches all = stretches_;
+  all.taken = followed_.taken();
+  all.correction = followed_.correction();
+  return all;
 }
 
 void TangentRun::end(double t) { follow(t); }

@@ -47,6 +47,42 @@ SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, do
   return p;
 }
 
+std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
+                                   std::size_t degree, const std::vector<double>& x,
+                                   const std::vector<Eigen::Index>& dofs) {
+  const auto terms = static_cast<Eigen::Index>(degree + 1), places = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd powers(terms, places), first(terms, places), second(terms, places);
+  for (Eigen::Index i = 0; i < places; ++i) {
+    double power = 1.0;
+    for (Eigen::Index k = 0; k < terms; ++k, power *= x[static_cast<std::size_t>(i)]) {
+      powers(k, i) = power;
+      first(k, i) = power * static_cast<double>(k + 1) / scale;
+      second(k, i) = first(k, i) * static_cast<double>(k + 2) / scale;
+    }
+  }
+  Eigen::MatrixXd some(static_cast<Eigen::Index>(dofs.size()), terms + 2);
+  for (std::size_t j = 0; j < dofs.size(); ++j)
+    some.row(static_cast<Eigen::Index>(j)) = u.row(dofs[j]).head(terms + 2);
+  const Eigen::MatrixXd us = some.leftCols(terms) * powers, as = some.rightCols(terms) * second;
+  const Eigen::MatrixXd v = u.middleCols(1, terms) * first, F = forces.leftCols(terms) * powers,
+                        rates = forces.middleCols(1, terms - 1) * first.topRows(terms - 1);
+  std::vector<SeriesPoint> points;
+  points.reserve(x.size());
+  for (Eigen::Index i = 0; i < places; ++i) {
+    SeriesPoint& p = points.emplace_back();
+    p.u.setZero(u.rows());
+    p.a.setZero(u.rows());
+    for (std::size_t j = 0; j < dofs.size(); ++j) {
+      p.u[dofs[j]] = us(static_cast<Eigen::Index>(j), i);
+      p.a[dofs[j]] = as(static_cast<Eigen::Index>(j), i);
+    }
+    p.v = v.col(i);
+    p.forces = F.col(i);
+    p.force_rates = rates.col(i);
+  }
+  return points;
+}
+
 void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out) {
   // coefficient j of the new series: part^j sum_k binomial(k, j) x^(k - j) c_k
   const Eigen::Index columns = series.u.cols(), known = series.levels + 1;  // of forces; beyond is anything
@@ -272,6 +308,11 @@ void TangentSeries::level(int k) {
 
 SeriesPoint TangentSeries::at(double x) const {
   return point_at(u_, forces_, scale_, static_cast<std::size_t>(std::max(levels_ - late(), 0)), x);
+}
+
+std::vector<SeriesPoint> TangentSeries::at(const std::vector<double>& x,
+                                           const std::vector<Eigen::Index>& dofs) const {
+  return points_at(u_, forces_, scale_, static_cast<std::size_t>(std::max(levels_ - late(), 0)), x, dofs);
 }
 
 }  // namespace signorini

@@ -31,6 +31,11 @@ struct SeriesPoint {
 };
 [[nodiscard]] SeriesPoint point_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces, double scale,
                                    std::size_t degree, double x);
+/// The same at several places, where of u and a only these degrees of freedom are asked for: the others are zero.
+[[nodiscard]] std::vector<SeriesPoint> points_at(const Eigen::MatrixXd& u, const Eigen::MatrixXd& forces,
+                                                 double scale, std::size_t degree,
+                                                 const std::vector<double>& x,
+                                                 const std::vector<Eigen::Index>& dofs);
 
 /// A series about t + scale x of half-width `part` of it, from one about t; the forcing expanded anew.
 void recentre(const Series& series, const Forcing& forcing, double x, double part, Series& out);
@@ -54,6 +59,9 @@ class TangentSeries {
                  const Tangent& start, int levels);
 
   [[nodiscard]] SeriesPoint at(double x) const;
+  /// points_at()
+  [[nodiscard]] std::vector<SeriesPoint> at(const std::vector<double>& x,
+                                            const std::vector<Eigen::Index>& dofs) const;
   [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }

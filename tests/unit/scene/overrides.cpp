@@ -24,6 +24,15 @@ void check_refused(const Override& change, const std::string& message) {
 
 TEST_SUITE_BEGIN("unit/scene/overrides");
 
+TEST_CASE("a part of gravity where the scene leaves it out: the other part is zero") {
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "run = { t_end = 1.0 }\nnodes = { b = [0.0, 1.0] }\nmasses = [{ node = \"b\", mass = 2.0 }]\n";
+  CHECK(parse_scene(text, "test.toml", {{"gravity.2", "-9.81"}}).gravity == std::array{0.0, -9.81});
+  CHECK_THROWS_WITH_AS((void)parse_scene(text, "test.toml", {{"gravity.3", "1"}}),
+                       doctest::Contains("there is no \"3\" among the 2 of gravity"), UsageError);
+}
+
 TEST_CASE("overrides reach every kind of place") {
   CHECK(with({{"run.rtol", "1e-10"}}).run.rtol == 1e-10);
   CHECK(with({{"run.t_end", "2"}}).run.t_end == 2.0);

@@ -1,0 +1,118 @@
+#include "sensitivity/followed_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/tolerance.hpp"
+#include "sensitivity/contact_rates.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int most_corrections = 8;  // of a time; three are enough but where a guard nearly grazes
+
+bool same_states(const Mode& a, const Mode& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ContactState& x, const ContactState& y) { return x.state == y.state; });
+}
+
+}  // namespace
+
+FollowedMotion::FollowedMotion(const Model& model, const Structure& structure, ModeSystems& systems,
+                               const RunSpec& run)
+    : model_(model),
+      structure_(structure),
+      systems_(systems),
+      t_end_(run.t_end),
+      decider_(systems, run.max_events_at_once, tolerance_of(model, run).capture_velocity()),
+      touches_(model.contacts.size()) {}
+
+void FollowedMotion::begin(const Decision& start) { now_ = start; }
+
+void FollowedMotion::start(const Forcing& forcing) {
+  stretch_ = now_;
+  for (GuardStart& guard : stretch_.guards) guard = {};
+  forcing_.emplace(forcing);
+}
+
+ModalSystem* FollowedMotion::modes() {
+  if (!modal_) modal_ = std::make_unique<ModalEngine>(model_, structure_, systems_, t_end_);
+  return modal_->modes();
+}
+
+Stepper& FollowedMotion::engine(bool in_modes) {
+  if (in_modes) return *modal_;
+  if (!series_) series_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
+  return *series_;
+}
+
+SeriesPoint FollowedMotion::at(double t) {
+  Stepper& engine = this->engine(false);
+  engine.start({t, &stretch_, &*forcing_});
+  for (;;) {
+    const Step step = engine.advance();
+    const Expansion e = engine.expansion();
+    if (step.kind == Step::Kind::failed || step.end >= t)
+      return point_at(e.series->u, e.series->forces, e.series->scale, e.degree, e.x);
+  }
+}
+
+std::optional<double> FollowedMotion::time_of(const ObservedInstant& instant, const MotionAt& at) const {
+  if (instant.breakpoint) return instant.t;
+  if (instant.fired.empty()) {  // the end, or states that the engine found itself
+    if (same_states(instant.mode_before, instant.after.mode)) return instant.t;
+    return std::nullopt;
+  }
+  const Fired& fell = instant.fired.front();
+  const auto forms = guards(model_.contacts[fell.contact], now_.mode[fell.contact]);
+  const auto guard =
+      std::find_if(forms.begin(), forms.end(), [&](const GuardForm& g) { return g.kind == fell.guard; });
+  if (guard == forms.end()) return std::nullopt;
+  const double noise = instant.after.crossings[fell.contact].noise;
+  double t = instant.t, last = instant.t - now_.jet.t;
+  for (int i = 0; i < most_corrections; ++i) {
+    const SeriesPoint point = at(t);
+    const ContactMotion m = motion_of(model_.contacts[fell.contact], fell.contact, *forcing_, t, point);
+    const double rate = guard->form.rate(time_rate(fell.contact, m, point));
+    if (!(rate < 0.0)) return std::nullopt;
+    const double off = -guard->form.value(m) / rate;
+    if (!(t + off > now_.jet.t)) return std::nullopt;
+    // sharper than instants are told apart, or than the guard's rounding
+    if (std::abs(off) <= std::max(instant.resolution, -4.0 * noise / rate)) return t + off;
+    if (!(std::abs(off) < std::abs(last))) return std::nullopt;
+    t += off;
+    last = off;
+  }
+  return std::nullopt;
+}
+
+ObservedInstant FollowedMotion::take(const ObservedInstant& instant) {
+  ++taken_;
+  now_ = instant.after;
+  touches_.instant(instant.t, instant.mode_before, instant.after);
+  return instant;
+}
+
+ObservedInstant FollowedMotion::pass(const ObservedInstant& instant, double t, const SeriesPoint& before) {
+  Instant at;
+  at.t = t;
+  at.resolution = instant.resolution;
+  at.u = before.u;
+  at.v = before.v;
+  at.mode = now_.mode;
+  at.fired = instant.fired;
+  at.rested = resting(now_);
+  at.touched = touches_.times();
+  at.jump = instant.breakpoint;
+  Decision next = decider_.decide(std::move(at), instant.forcing_before, instant.forcing_after);
+  if (!next.consistent || !same_states(next.mode, instant.after.mode)) return take(instant);
+  mode_before_ = now_.mode;
+  v_before_ = before.v;
+  touches_.instant(t, mode_before_, next);
+  now_ = std::move(next);
+  correction_ = std::max(correction_, std::abs(t - instant.t));
+  return {t,    instant.resolution,     instant.fired,         instant.breakpoint, mode_before_,
+          now_, instant.forcing_before, instant.forcing_after, v_before_,          instant.load_jumps};
+}
+
+}  // namespace signorini

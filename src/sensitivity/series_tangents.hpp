@@ -1,0 +1,45 @@
+// series_tangents.hpp: one tangent along the series of a step, part by part, and its works.
+//
+//   [0, x_end]  =  parts, each as long as the tangent's own series converges, halved where it does not
+//   W_p        +=  sum over Gauss's places of factor (power)_p               (work_rates.hpp)
+//
+// Works over a part of a step take Gauss's ten places for each half of a step.
+#pragma once
+
+#include "run/observer.hpp"
+#include "sensitivity/tangent_state.hpp"
+
+namespace signorini {
+
+/// A place of a step, in its series.
+struct WantedPlace {
+  double t = 0.0, x = 0.0;
+  bool row = false, turn = false;
+};
+
+/// Second derivatives of the contact forces at x.
+[[nodiscard]] Vector force_bends(const Series& series, std::size_t degree, double x);
+/// Where a contact presses hardest for a while: N' falls through zero and rises.
+[[nodiscard]] std::vector<double> pressing_turns(const Model& model, const ObservedStep& step);
+
+class SeriesTangents {
+ public:
+  /// model, systems: must outlive it.
+  SeriesTangents(const Model& model, ModeSystems& systems, const std::vector<const ModelDerivative*>& data,
+                 bool losses);
+
+  /// To the end of the step; into samples, one for each place that is wanted, what the parameter has there.
+  void advance(TangentState& state, const ObservedStep& step, const std::vector<WantedPlace>& wanted,
+               std::vector<TangentSample>& samples, std::size_t parameter) const;
+
+ private:
+  [[nodiscard]] ModeSystemPtr system_at(const ModeSystem& system, const Series& series) const;
+  void integrate(TangentState& state, const ObservedStep& step, double begin, double from, double to) const;
+
+  const Model& model_;
+  ModeSystems& systems_;
+  std::vector<Eigen::Index> touched_;  // degrees of freedom that contacts, or their derivatives, show
+  bool losses_;
+};
+
+}  // namespace signorini

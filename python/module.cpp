@@ -3,7 +3,8 @@
 //   check(text, file, settings)                 -> JSON of `signorini check`
 //   run(text, file, settings, directory)        -> tables as arrays, summary.json as text
 //   compare(reference, other)                   -> differences of two directories of runs
-//   sensitivity(text, file, paths, settings)    -> derivatives of events, columns and figures by keys
+//   sensitivity(text, file, paths, settings, losses, discrete)
+//                                               -> derivatives of events, columns and figures by keys
 //
 // settings: [(path, value as TOML)]. The interpreter is free while a run is computed; it is asked now and then whether somebody
 // wants to interrupt. Errors of the library are signorini.Error, with the exit code of the program.
@@ -237,6 +238,30 @@ py::dict run(const std::string& text, const std::string& file, const Settings& s
   return result;
 }
 
+/// Derivatives of landings by one parameter.
+py::dict landing_rates(const Sensitivities& s, std::size_t p) {
+  py::dict table;
+  for (const auto& [name, rate] :
+       {std::pair{"dstart_dp", &LandingRates::start}, std::pair{"dend_dp", &LandingRates::end},
+        std::pair{"dimpulse_dp", &LandingRates::impulse},
+        std::pair{"dpeak_force_dp", &LandingRates::peak_force}})
+    table[name] = column(s.landings, [&, rate = rate](const MovingLanding& l) { return l.rates[p].*rate; });
+  return table;
+}
+
+/// Stays of contacts on their ground.
+py::dict landings_of(const Sensitivities& s) {
+  py::dict table;
+  py::list contacts;
+  for (const MovingLanding& l : s.landings) contacts.append(s.contacts[static_cast<std::size_t>(l.contact)]);
+  table["contact"] = contacts;
+  for (const auto& [name, value] :
+       {std::pair{"start", &Landing::start}, std::pair{"end", &Landing::end},
+        std::pair{"impulse", &Landing::impulse}, std::pair{"peak_force", &Landing::peak_force}})
+    table[name] = column(s.landings, [&, value = value](const MovingLanding& l) { return l.value.*value; });
+  return table;
+}
+
 /// Derivatives of events and columns by one parameter.
 py::dict rates_by(const Sensitivities& s, std::size_t p) {
   py::dict events, columns, figures, entry;
@@ -257,7 +282,7 @@ py::dict rates_by(const Sensitivities& s, std::size_t p) {
 }
 
 py::dict sensitivity(const std::string& text, const std::string& file, const std::vector<std::string>& paths,
-                     const Settings& settings) {
+                     const Settings& settings, bool losses, bool discrete) {
   const SceneReader read = [&](const std::vector<Override>& changes) {
     std::vector<Override> all = overrides(settings);
     all.insert(all.end(), changes.begin(), changes.end());
@@ -267,18 +292,22 @@ py::dict sensitivity(const std::string& text, const std::string& file, const std
   std::optional<Sensitivities> s;
   {
     const py::gil_scoped_release free;
-    s = sensitivities(read, paths, &kept);
+    s = sensitivities(read, paths, &kept, {losses, discrete});
   }
   if (kept.interrupted()) throw py::error_already_set();
   py::dict result, parameters, values;
-  for (std::size_t p = 0; p < s->parameters.size(); ++p)
-    parameters[s->parameters[p].path.c_str()] = rates_by(*s, p);
+  for (std::size_t p = 0; p < s->parameters.size(); ++p) {
+    py::dict rates = rates_by(*s, p);
+    if (losses) rates["landings"] = landing_rates(*s, p);
+    parameters[s->parameters[p].path.c_str()] = rates;
+  }
   for (std::size_t k = 0; k < s->columns.size(); ++k)
     values[s->columns[k].c_str()] = column(s->values, [&](const auto& row) { return row[k]; });
   result["events"] = event_table(s->contacts, s->events);
   result["t"] = array(s->times);
   result["columns"] = values;
   result["parameters"] = parameters;
+  if (losses) result["landings"] = landings_of(*s);
   return result;
 }
 

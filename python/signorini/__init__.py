@@ -155,18 +155,21 @@ def sweep(scene, vary, settings=None, *, workers=None) -> list[tuple[dict, Resul
         return list(zip(points, pool.map(one, points)))
 
 
-def sensitivity(scene, parameters, settings=None) -> dict:
-    """Derivatives of a run by keys of its scene, along engine exact (docs/command-line.md). parameters: a path, or several.
+def sensitivity(scene, parameters, settings=None, *, losses=False, discrete=False) -> dict:
+    """Derivatives of a run by keys of its scene, along its engine (docs/command-line.md). parameters: a path, or several.
+    losses: energies, works, losses and landings, too. discrete: with engine newmark, of its steps.
 
     events, t, columns         the run's own: tables of arrays
     parameters[path]           value, until, reason, and by this parameter
         events                 dt_dp, dN_dp, ...: an array a column, a value an event
         columns                derivatives of columns at the times t
-        figures                {(contact, "peak N"): (value, derivative)}
+        figures                {(contact, "peak N"): (value, derivative)}; with losses ("", "lost by damping"), ...
+        landings               with losses: dstart_dp, dend_dp, dimpulse_dp, dpeak_force_dp
+    landings                   with losses: contact, start, end, impulse, peak_force: a list or array each
     """
     text, file = _text(scene)
     paths = [parameters] if isinstance(parameters, str) else list(parameters)
-    result = _signorini.sensitivity(text, file, paths, _settings(settings))
+    result = _signorini.sensitivity(text, file, paths, _settings(settings), losses, discrete)
     result["events"] = {name: numpy.asarray(values) for name, values in result["events"].items()}
     return result
 

@@ -200,7 +200,7 @@ void add_sensitivity(Program& program) {
                     "earlier sensitivities", "-sensitivity", "sensitivity.json");
   command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
   command->add_flag("--losses", options->losses,
-                    "energies, works, losses and landings, too; about a run more for each key");
+                    "energies, works, losses and landings, too; for two or three runs in series more");
   command->add_flag("--discrete", options->discrete,
                     "with engine newmark: derivatives of its steps, not of the motion that they approximate");
   command

@@ -113,6 +113,7 @@ ContactMotion DiscreteRun::along(std::size_t p, std::size_t c, const Forcing& fo
   m.vt -= moved.t * forcing.surface(c, at.t, 2);
   m.at -= moved.t * forcing.surface(c, at.t, 3);
   m.pressing += moved.t * forcing.pressing(c, at.t, 1);
+  m.pressing_rate += moved.t * forcing.pressing(c, at.t, 2);
   return m;
 }
 

@@ -27,6 +27,9 @@ struct TangentsAt {
   std::vector<SeriesPoint> tangents;  ///< one a parameter; empty vectors: it is not followed
 };
 
+class ModalStretch;
+struct ModalStore;
+
 class ModalTangents {
  public:
   /// Both must outlive it; of models that modes can follow (proportional_refusal). usual: how far apart most times
@@ -47,17 +50,12 @@ class ModalTangents {
   [[nodiscard]] TangentsAt motion(double t) const;
 
  private:
-  class Stretch;
-  template <class S>
-  class StretchOf;
-  struct Store;
-
   const Model& model_;
   std::vector<const ModelDerivative*> derivatives_;
   std::vector<Eigen::Index> shown_;
   double usual_;
-  std::unique_ptr<Store> store_;
-  std::unique_ptr<Stretch> stretch_;
+  std::unique_ptr<ModalStore> store_;
+  std::unique_ptr<ModalStretch> stretch_;
 };
 
 }  // namespace signorini

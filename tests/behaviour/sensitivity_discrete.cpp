@@ -104,6 +104,19 @@ TEST_CASE("steps of newmark: derivatives of the discrete algorithm against diffe
     check_steps(stepped(block("friction = 0.3", "rectangle\", start = 0.1, end = 0.5"), "0.013"), path, 1e-7);
 }
 
+TEST_CASE("steps of newmark under a slider that is pressed more and less") {
+  const SceneReader pressed = stepped(
+      matrix_scene("t_end = 12.0\noutput_dt = 1.3\ninitial = { u = [1.0], v = [0.0] }",
+                   "mass = [[1.0]]\nstiffness = [[4.0]]",
+                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nfriction = { static = 0.5, kinetic = 0.4 }\n"
+                   "tangential_stiffness = 30.0\n"
+                   "normal_force = { type = \"harmonic\", amplitude = 0.3, omega = 3.0, offset = 1.0 }"),
+      "0.03");
+  for (const char* path : {"contacts.c.friction.kinetic", "contacts.c.normal_force.omega",
+                           "contacts.c.normal_force.amplitude", "matrices.stiffness.1.1"})
+    check_steps(pressed, path, 1e-7);
+}
+
 TEST_CASE("steps of newmark on a belt and through impacts") {
   const SceneReader belt = stepped(
       matrix_scene("t_end = 20.0\noutput_dt = 3.1\ninitial = { u = [0.0], v = [0.0] }",

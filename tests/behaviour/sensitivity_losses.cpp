@@ -232,6 +232,23 @@ TEST_CASE("works where parts without mass follow a load that jumps, and where th
     check_losses(scene("{ static = 0.4, kinetic = 0.3 }", "d0"), path, 1e-8);
 }
 
+TEST_CASE("two parts without mass whose friction drops at one instant: what is lost is lost once") {
+  const std::string slider =
+      "law = \"slider\"\nnormal_force = 1.0\ntangential_stiffness = 300.0\n"
+      "friction = { static = 0.4, kinetic = 0.3 }\n";
+  const SceneReader twice = losses_reader(matrix_scene(
+      "t_end = 1.2\noutput_dt = 0.17\ninitial = { u = [0.1, 0.1, 0.1], v = [0.0, 0.0, 0.0] }",
+      "mass = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\n"
+      "stiffness = [[90.0, -40.0, -40.0], [-40.0, 40.0, 0.0], [-40.0, 0.0, 40.0]]",
+      slider + "tangent = { d1 = 1.0 }\n[[contacts]]\nname = \"b\"\n" + slider + "tangent = { d2 = 1.0 }",
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.8\nhistory = { type = \"rectangle\", start = 0.1, "
+      "end = "
+      "0.5 }\n"));
+  for (const char* path :
+       {"contacts.*.friction.static", "contacts.*.tangential_stiffness", "loads.1.amplitude"})
+    check_losses(twice, path, 1e-8);
+}
+
 TEST_CASE("works of a belt, and of impacts with friction") {
   const SceneReader belt = losses_reader(
       matrix_scene("t_end = 20.0\noutput_dt = 3.0\ninitial = { u = [0.0], v = [0.0] }",

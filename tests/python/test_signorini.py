@@ -141,6 +141,17 @@ class Others(unittest.TestCase):
         self.assertAlmostEqual(rates["columns"]["block.ux"][-1], -0.45 / 0.3**2, places=6)
         self.assertEqual(rates["value"], 0.3)
 
+    def test_losses_by_hand(self):
+        # 10 f x = 4.5 - 7.5 f is lost
+        by = signorini.sensitivity(push, "contacts.plate.friction", losses=True)
+        lost, rate = by["parameters"]["contacts.plate.friction"]["figures"]["plate", "lost by friction"]
+        self.assertAlmostEqual(lost, 4.5 - 7.5 * 0.3, places=6)
+        self.assertAlmostEqual(rate, -7.5, places=6)
+        self.assertEqual(list(by["landings"]["contact"]), [])
+        with self.assertRaises(signorini.Error) as refused:
+            signorini.sensitivity(push, "contacts.plate.friction", {"run.engine": "ida"}, discrete=True)
+        self.assertEqual(refused.exception.code, 2)
+
     def test_schema(self):
         self.assertIn("contacts", signorini.schema()["properties"])
 

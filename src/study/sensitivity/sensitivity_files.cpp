@@ -147,9 +147,11 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
     json["settings"]["flow"] = method.flow;
     json["settings"]["flow_reason"] = method.flow_reason;
   }
-  json["stretches"] = {
-      {"modes", s.stretches.modes}, {"series", s.stretches.series}, {"followed", s.stretches.followed},
-      {"taken", s.stretches.taken}, {"correction", s.stretches.correction}};
+  json["stretches"] = {{"modes", s.stretches.modes},
+                       {"series", s.stretches.series},
+                       {"followed", s.stretches.followed},
+                       {"taken", s.stretches.taken},
+                       {"correction", s.stretches.correction}};
   json["wall_time"] = s.report.wall_time;
   json["parameters"] = Json::array();
   const std::vector<Swap> swaps = least_swaps(s);

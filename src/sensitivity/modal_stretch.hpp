@@ -1,0 +1,394 @@
+// modal_stretch.hpp: one stretch of modal_tangents.hpp, in the modes of its state.
+//
+//   S double: all modes are real;   S Complex: some come in conjugate pairs
+#pragma once
+
+#include <algorithm>
+
+#include "base/rounding.hpp"
+#include "sensitivity/listed_modes.hpp"
+#include "sensitivity/modal_store.hpp"
+#include "sensitivity/modal_tangents.hpp"
+
+namespace signorini {
+
+/// alpha t of a part at most: as engine/exact/modal/oscillators.hpp asks.
+inline constexpr double longest_decay_of_part = 4.0;
+/// Of a mode's place, its p/l that is taken out of the motion: three digits.
+inline constexpr double most_still = 4096.0;
+class ModalStretch {
+ public:
+  virtual ~ModalStretch() = default;
+  virtual TangentsAt at(double t, bool whole) = 0;
+  [[nodiscard]] virtual TangentsAt motion(double t) const = 0;
+};
+
+template <class S>
+class ModalStretchOf final : public ModalStretch {
+ public:
+  ModalStretchOf(const Model& model, const std::vector<const ModelDerivative*>& derivatives,
+                 ModalStore& store, ModalSystem& modes, std::shared_ptr<const StateModes> state,
+                 const Decision& decision, const Forcing& forcing, std::vector<TangentSource> sources,
+                 const std::vector<Eigen::Index>& shown, double usual)
+      : model_(model),
+        derivatives_(derivatives),
+        store_(store),
+        modes_(modes),
+        state_(std::move(state)),
+        spectrum_(state_->spectrum),
+        mode_(decision.mode),
+        forcing_(forcing),
+        t_(decision.jet.t),
+        begin_(decision.jet.t),
+        sources_(std::move(sources)),
+        oscillators_(spectrum_, modes.alpha()),
+        shown_(shown),
+        usual_(usual),
+        work_(store.work(S(0.0))) {
+    Amplitudes values = spectrum_.zero();
+    values.real = oscillators_.real();
+    values.pair = oscillators_.pairs();
+    list_modes(values, l_);
+    rows_ = values.real.size() + values.pair.size();
+    put(decision.u, decision.v, now_);
+    set_forces();
+    choose_still();
+    known_ = &states();
+    for (std::size_t p = 0; p < sources_.size(); ++p) {
+      Followed& f = followed_.emplace_back();
+      if (sources_[p].start == nullptr) continue;
+      put(sources_[p].start->u, sources_[p].start->v, f.now);
+      f.modes = &known_->parameters[p];
+      dragged_ = dragged_ || !f.modes->g.empty();
+      set_constant(p, f);
+    }
+  }
+
+  TangentsAt at(double t, bool whole) override {
+    const double longest = longest_decay_of_part / modes_.alpha();
+    while (t - t_ > longest) advance(longest);
+    if (t > t_) advance(t - t_);
+    t_ = t;
+    return told(whole);
+  }
+
+  TangentsAt motion(double t) const override {
+    const double longest = longest_decay_of_part / modes_.alpha();
+    ModalPoint at = now_, next;
+    double from = t_;
+    while (t > from) {
+      const double time = std::min(t - from, longest);
+      oscillators_.advance(at, force_, time, next);
+      std::swap(at, next);
+      from = time < longest ? t : from + time;
+    }
+    TangentsAt result;
+    const Amplitudes bend = oscillators_.second(at, force_);
+    show(at, &bend, result.motion);
+    tell_forces(result);
+    return result;
+  }
+
+ private:
+  struct Followed {
+    ModalPoint now, moved;
+    Amplitudes force;  // constant
+    const ParameterModes<S>* modes = nullptr;
+  };
+
+  void put(const Vector& u, const Vector& v, ModalPoint& out) const {
+    spectrum_.to_modes(modes_.basis().amplitudes(u), out.z);
+    spectrum_.to_modes(modes_.basis().amplitudes(v), out.rate);
+  }
+  void set_forces() {
+    force_ = constant_forces(model_, *state_, mode_, forcing_, begin_);
+    p_ = modes_of<S>(force_);
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+      laws_.push_back(force_law(model_.contacts[c], mode_[c], forcing_.pressing(c, begin_, 0)));
+  }
+
+  /// p/l of a mode is a part of its motion that stands still, unless it is far away.
+  void choose_still() {
+    const std::vector<S> z = modes_of<S>(now_.z);
+    still_.assign(l_.size(), S(0.0));
+    soft_.assign(l_.size(), S(0.0));
+    for (std::size_t k = 0; k < l_.size(); ++k) {
+      const double size = size_of(p_[k]);
+      if (size == 0.0) continue;
+      if (size <= most_still * size_of(l_[k]) * size_of(z[k]))
+        still_[k] = p_[k] * inverse(l_[k]);
+      else
+        soft_[k] = p_[k];
+    }
+  }
+
+  [[nodiscard]] StateStore<S>& states() {
+    const std::vector<State> key = states_of(mode_);
+    if (StateStore<S>* known = store_.find(key, S(0.0))) return *known;
+    StateRatesOf<S> of({model_, modes_, *state_, mode_, forcing_, begin_}, l_);
+    StateStore<S> made;
+    made.shown = of.shown(shown_);
+    for (std::size_t p = 0; p < sources_.size(); ++p) {
+      ParameterModes<S>& m = made.parameters.emplace_back();
+      if (sources_[p].start == nullptr) continue;
+      m = of.by(store_.open[p], derivatives_[p]->contacts, sources_[p]);
+      store_.bytes += (m.b.size() + m.g.size()) * sizeof(S);
+    }
+    if (store_.bytes > most_bytes_of_states) {
+      store_.real.clear();
+      store_.pairs.clear();
+      store_.bytes = 0;
+    }
+    store_.bytes += 2 * l_.size() * l_.size() * sizeof(S);  // of the usual time
+    return store_.keep(key, std::move(made));
+  }
+
+  /// f: what does not depend on the motion.
+  void set_constant(std::size_t p, Followed& f) const {
+    const TangentSource& source = sources_[p];
+    Vector q = Vector::Zero(model_.size());
+    if (source.forcing.loaded) q += modes_.basis().shapes().transpose() * source.forcing.load.col(0);
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      const ContactRates& rates = derivatives_[p]->contacts[c];
+      const LawRates at = law_rates(contact, c, mode_[c], rates, forcing_, begin_, source);
+      const double N = at.law.N(at.gap), T = at.law.T(at.gap, -at.surface);
+      const double N_p = at.N_by(at.gap, at.gap_rate);
+      const double T_p = at.T_by(at.gap, at.gap_rate, -at.surface, -at.surface_rate);
+      if (N_p != 0.0) q -= N_p * modes_.basis().amplitudes_of(contact.normal);
+      if (T_p != 0.0) q -= T_p * modes_.basis().amplitudes_of(contact.tangent);
+      if (any_term(rates.normal)) q -= N * modes_.basis().amplitudes_of(rates.normal);
+      if (any_term(rates.tangent)) q -= T * modes_.basis().amplitudes_of(rates.tangent);
+    }
+    if (const Eigen::MatrixXd& mass = store_.open[p].mass; mass.size() > 0) {
+      Vector pulled;
+      spectrum_.from_modes({&force_}, {&pulled});
+      q -= mass * pulled;
+    }
+    spectrum_.to_modes(q, f.force);
+    std::vector<S> standing(l_.size(), S(0.0));
+    add_product(f.modes->b, still_, -1.0, standing);
+    add_modes(standing, f.force);
+  }
+
+  void advance(double time) {
+    const bool usual = std::abs(time - usual_) <= 4.0 * rounding::eps * (t_ + time);
+    OscillatorPairs<S>& pairs = usual ? known_->usual : work_.pairs;
+    if (!usual || pairs.size() == 0) pairs.fill(l_, modes_.alpha(), time);
+    move(pairs);
+    std::swap(now_, moved_);
+    for (Followed& f : followed_) std::swap(f.now, f.moved);
+    t_ += time;
+  }
+
+  /// y_l[k, l] of the motion without what stands still, and the same of its rate; with their own rates.
+  void fill_driven(OscillatorPairs<S>& pairs) {
+    const std::size_t n = l_.size();
+    std::vector<S> z = modes_of<S>(now_.z), r = modes_of<S>(now_.rate), a(n, S(0.0));
+    const double alpha = modes_.alpha();
+    for (std::size_t k = 0; k < n; ++k) {
+      a[k] = p_[k] - r[k] * alpha - z[k] * l_[k];
+      z[k] -= still_[k];
+    }
+    work_.driven.resize(n * n);
+    work_.driven_rate.resize(n * n);
+    const auto drive = [&](const std::vector<S>& place, const std::vector<S>& rate, Square<S>& y,
+                           Square<S>& y_rate) {
+      y.resize(n * n);
+      y_rate.resize(n * n);
+      std::vector<S> tail(n);
+      for (std::size_t l = 0; l < n; ++l) tail[l] = pairs.s(l) * place[l];
+      for (std::size_t k = 0; k < rows_; ++k) {
+        const S *c = pairs.C_row(k), *s = pairs.S_row(k);
+        S *out = y.data() + k * n, *out_rate = y_rate.data() + k * n;
+        for (std::size_t l = 0; l < n; ++l) {
+          out[l] = c[l] * place[l] + s[l] * rate[l];
+          out_rate[l] = (c[l] - s[l] * alpha) * rate[l] - (l_[k] * s[l] * place[l] + tail[l]);
+        }
+      }
+    };
+    drive(z, r, work_.driven, work_.driven_rate);
+    for (std::size_t l = 0; l < n; ++l) {
+      if (size_of(soft_[l]) == 0.0) continue;
+      const std::vector<S>& h = pairs.H_column(l);
+      for (std::size_t k = 0; k < rows_; ++k) {
+        work_.driven[k * n + l] += h[k] * soft_[l];
+        work_.driven_rate[k * n + l] += pairs.S_row(k)[l] * soft_[l];
+      }
+    }
+    if (dragged_) drive(r, a, work_.dragging, work_.dragging_rate);
+  }
+
+  /// Of one point, without what drives it besides constant forces.
+  void turn(const ModalPoint& from, const Amplitudes& force, const OscillatorPairs<S>& pairs,
+            ModalPoint& to) const {
+    const std::size_t reals = from.z.real.size(), count = from.z.pair.size();
+    const double alpha = modes_.alpha();
+    to.z.real.resize(reals);
+    to.rate.real.resize(reals);
+    to.z.pair.resize(count);
+    to.rate.pair.resize(count);
+    const auto one = [&](auto z, auto r, auto f, std::size_t k, auto& place, auto& rate) {
+      place = of_kind<decltype(z)>(z * pairs.c(k) + r * pairs.s(k) + f * pairs.h(k));
+      rate = of_kind<decltype(z)>(r * (pairs.c(k) - pairs.s(k) * alpha) - z * (l_[k] * pairs.s(k)) +
+                                  f * pairs.s(k));
+    };
+    for (std::size_t k = 0; k < reals; ++k)
+      one(from.z.real[k], from.rate.real[k], force.real[k], k, to.z.real[k], to.rate.real[k]);
+    if constexpr (std::is_same_v<S, Complex>)
+      for (std::size_t k = 0; k < count; ++k)
+        one(from.z.pair[k], from.rate.pair[k], force.pair[k], reals + k, to.z.pair[k], to.rate.pair[k]);
+  }
+
+  void move(OscillatorPairs<S>& pairs) {
+    turn(now_, force_, pairs, moved_);
+    fill_driven(pairs);
+    const std::size_t n = l_.size();
+    std::vector<S> add(n), add_rate(n);
+    for (Followed& f : followed_) {
+      if (f.modes == nullptr) continue;
+      turn(f.now, f.force, pairs, f.moved);
+      const auto sum = [&](const Square<S>& b, const Square<S>& y, std::vector<S>& out) {
+        for (std::size_t k = 0; k < rows_; ++k) out[k] = inner(b.data() + k * n, y.data() + k * n, n);
+      };
+      sum(f.modes->b, work_.driven, add);
+      sum(f.modes->b, work_.driven_rate, add_rate);
+      add_modes(add, f.moved.z);
+      add_modes(add_rate, f.moved.rate);
+      if (f.modes->g.empty()) continue;
+      sum(f.modes->g, work_.dragging, add);
+      sum(f.modes->g, work_.dragging_rate, add_rate);
+      add_modes(add, f.moved.z);
+      add_modes(add_rate, f.moved.rate);
+    }
+  }
+
+  void physical(const ModalPoint& at, const Amplitudes* second, SeriesPoint& out) const {
+    Vector q, rate, change;
+    std::vector<const Amplitudes*> from{&at.z, &at.rate};
+    std::vector<Vector*> to{&q, &rate}, in{&out.u, &out.v};
+    std::vector<const Vector*> modal{&q, &rate};
+    if (second != nullptr) {
+      from.push_back(second);
+      to.push_back(&change);
+      modal.push_back(&change);
+      in.push_back(&out.a);
+    } else {
+      out.a = Vector::Zero(model_.size());
+    }
+    spectrum_.from_modes(from, to);
+    modes_.basis().motions(modal, in);
+  }
+
+  /// Of the degrees of freedom that are shown.
+  void show(const ModalPoint& at, const Amplitudes* second, SeriesPoint& out) const {
+    const auto one = [&](const Amplitudes& from, Vector& to) {
+      const Vector values = known_->shown * flat_modes(from);
+      to = Vector::Zero(model_.size());
+      for (std::size_t i = 0; i < shown_.size(); ++i) to[shown_[i]] = values[static_cast<Eigen::Index>(i)];
+    };
+    one(at.z, out.u);
+    one(at.rate, out.v);
+    if (second != nullptr)
+      one(*second, out.a);
+    else
+      out.a = Vector::Zero(model_.size());
+  }
+
+  [[nodiscard]] Amplitudes second_of_tangent(const Followed& f) const {
+    Amplitudes a = oscillators_.second(f.now, f.force);
+    std::vector<S> z = modes_of<S>(now_.z), drive(z.size(), S(0.0));
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= still_[k];
+    add_product(f.modes->b, z, -1.0, drive);
+    if (!f.modes->g.empty()) add_product(f.modes->g, modes_of<S>(now_.rate), -1.0, drive);
+    add_modes(drive, a);
+    return a;
+  }
+
+  [[nodiscard]] TangentsAt told(bool whole) const {
+    TangentsAt result;
+    const Amplitudes bend = oscillators_.second(now_, force_);
+    whole ? physical(now_, &bend, result.motion) : show(now_, &bend, result.motion);
+    tell_forces(result);
+    for (std::size_t p = 0; p < followed_.size(); ++p) {
+      const Followed& f = followed_[p];
+      SeriesPoint& w = result.tangents.emplace_back();
+      if (f.modes == nullptr) continue;
+      if (whole) {
+        const Amplitudes a = second_of_tangent(f);
+        physical(f.now, &a, w);
+      } else {
+        show(f.now, nullptr, w);
+      }
+      tell_force_rates(p, result.motion, w);
+    }
+    return result;
+  }
+
+  void tell_forces(TangentsAt& at) const {
+    SeriesPoint& m = at.motion;
+    const auto rows = static_cast<Eigen::Index>(2 * model_.contacts.size());
+    m.forces.resize(rows);
+    m.force_rates.resize(rows);
+    at.force_bends.resize(rows);
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      const ForceLaw& law = laws_[c];
+      const auto n = static_cast<Eigen::Index>(normal_slot(c));
+      const double ut = contact.tangent.dot(m.u) - forcing_.surface(c, begin_, 0);
+      m.forces[n] = law.N(contact.gap_at(m.u));
+      m.forces[n + 1] = law.T(contact.gap_at(m.u), ut);
+      for (const auto& [of, out] : {std::pair{&m.v, &m.force_rates}, std::pair{&m.a, &at.force_bends}}) {
+        const double normal = contact.normal.dot(*of), tangent = contact.tangent.dot(*of);
+        (*out)[n] = law.N_rate(normal);
+        (*out)[n + 1] = law.T_rate(normal, tangent);
+      }
+    }
+  }
+
+  void tell_force_rates(std::size_t p, const SeriesPoint& m, SeriesPoint& w) const {
+    w.forces.resize(m.forces.size());
+    w.force_rates.resize(m.forces.size());
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      const ContactRates& rates = derivatives_[p]->contacts[c];
+      const LawRates at = law_rates(contact, c, mode_[c], rates, forcing_, begin_, sources_[p]);
+      const auto n = static_cast<Eigen::Index>(normal_slot(c));
+      const double gap = contact.gap_at(m.u), ut = contact.tangent.dot(m.u) - at.surface;
+      const double gap_p = contact.normal.dot(w.u) + rates.normal.dot(m.u) + at.gap_rate;
+      const double ut_p = contact.tangent.dot(w.u) + rates.tangent.dot(m.u) - at.surface_rate;
+      w.forces[n] = at.N_by(gap, gap_p);
+      w.forces[n + 1] = at.T_by(gap, gap_p, ut, ut_p);
+      const double vn = contact.normal.dot(m.v), vt = contact.tangent.dot(m.v);
+      const double vn_p = contact.normal.dot(w.v) + rates.normal.dot(m.v);
+      const double vt_p = contact.tangent.dot(w.v) + rates.tangent.dot(m.v);
+      w.force_rates[n] = at.N_rate_by(vn, vn_p);
+      w.force_rates[n + 1] = at.T_rate_by(vn, vn_p, vt, vt_p);
+    }
+  }
+
+  const Model& model_;
+  const std::vector<const ModelDerivative*>& derivatives_;
+  ModalStore& store_;
+  ModalSystem& modes_;
+  std::shared_ptr<const StateModes> state_;
+  const Spectrum& spectrum_;
+  const Mode mode_;
+  const Forcing forcing_;
+  double t_, begin_;
+  std::vector<TangentSource> sources_;
+  Oscillators oscillators_;
+  std::vector<S> l_, p_, still_, soft_;
+  std::size_t rows_;  // of modes but the conjugate ones, which follow from the others
+  std::vector<ForceLaw> laws_;
+  Amplitudes force_;
+  ModalPoint now_, moved_;
+  std::vector<Followed> followed_;
+  bool dragged_ = false;
+  const std::vector<Eigen::Index>& shown_;
+  double usual_;
+  StateStore<S>* known_ = nullptr;
+  Workshop<S>& work_;
+};
+
+}  // namespace signorini

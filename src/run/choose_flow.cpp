@@ -16,32 +16,54 @@ constexpr int most_unknowns = 4000;  // shapes and their inverse take 16 n^2 byt
 constexpr int fewest_unknowns =
     16;  // below, a state's modes cost more than the series (validation/exact); chosen
 
-constexpr int most_damped_unknowns = 500;  // a state's complex modes take 120 n^2 bytes and some 5 s there
+constexpr int fewest_damped_unknowns = 40;  // where complex modes begin to gain (validation/exact); chosen
+constexpr double worth = 2.0;               // the series is so much dearer than the states' modes at least
+constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and some 5 s there
 
 }  // namespace
 
 ModalKind modal_kind(const Model& model) {
   const std::string why = proportional_refusal(model);
-  if (model.size() > most_unknowns) return {false, "more unknowns than modes are kept of"};
-  if (why.empty()) return {};
-  if (std::string other = damped_refusal(model); !other.empty()) return {true, other};
-  return {true, model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
+  if (model.size() > most_unknowns) return {false, false, "more unknowns than modes are kept of"};
+  if (why.empty()) return {false, most_state_springs(model) > most_rank, ""};
+  if (std::string other = damped_refusal(model); !other.empty()) return {true, false, other};
+  return {true, most_state_terms(model) > most_damped_terms,
+          model.size() > most_damped_unknowns ? why + ", with so many unknowns" : ""};
 }
+
+namespace {
+
+/// Where modes can follow the scene.
+FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
+  if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
+  if (kind.crowded) return {false, "auto: more contacts than a state's modes are worth"};
+  if (!kind.damped) return {true, "auto: modes follow all of it"};
+  const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
+    return contact.takes_impulses() || contact.sticks_rigidly();
+  });
+  // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
+  if (rigid)
+    return {false, "auto: hits of rigid contacts move the whole mesh, which complex modes do not gain by"};
+  if (model.size() < fewest_damped_unknowns ||
+      worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
+    return {false, "auto: complex modes of the contacts' states would cost as much as the series"};
+  return {true, "auto: complex modes follow all of it"};
+}
+
+}  // namespace
 
 FlowChoice choose_flow(const Model& model, const RunSpec& run) {
   if (run.flow == Flow::taylor) return {false, "as given"};
-  const auto [damped, why] = modal_kind(model);
+  const ModalKind kind = modal_kind(model);
+  const std::string& why = kind.objection;
   if (run.flow == Flow::automatic) {
     if (!why.empty()) return {false, fmt::format("auto: modes cannot follow {}", why)};
-    if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
-    if (!damped) return {true, "auto: modes follow all of it"};
-    // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
-    return {false, "auto: complex modes are followed where they are asked for"};
+    return cheaper_flow(model, run, kind);
   }
   if (!why.empty())
     throw SceneError(run.place, "run.flow",
                      fmt::format("\"modal\" cannot follow this scene: {}; use \"taylor\"", why));
-  return {true, damped ? "as given: complex modes" : "as given"};
+  return {true, kind.damped ? "as given: complex modes" : "as given"};
 }
 
 }  // namespace signorini

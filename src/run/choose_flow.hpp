@@ -3,8 +3,10 @@
 //   taylor   power series of the equations: the cost follows the highest frequency of the mesh
 //   modal    modes of each contact state (engine/exact/modal): the cost follows the motion
 //
-// run.flow = "auto" takes modes where they can follow all of the scene and the mesh is fine enough to gain by
-// it: real modes from 16 unknowns on. Complex ones only where "modal" asks for them.
+// run.flow = "auto" takes modes where they can follow all of the scene and gain by it (docs/theory.md):
+//   real      from 16 unknowns on
+//   complex   from 40 on, without rigid constraints, where the states cost at most half of what the series does
+// and in no scene whose contacts may have more springs than a state's modes are worth.
 #pragma once
 
 #include <string>
@@ -20,7 +22,8 @@ struct FlowChoice {
 
 /// Which modes can follow a scene, and what of it none can.
 struct ModalKind {
-  bool damped = false;    ///< complex modes are needed
+  bool damped = false;   ///< complex modes are needed
+  bool crowded = false;  ///< states may have more springs than modes are made for, and are left to the series
   std::string objection;  ///< empty: they can
 };
 [[nodiscard]] ModalKind modal_kind(const Model& model);

@@ -58,7 +58,7 @@ Effort effort_of_exact(const EffortParts& parts) {
   Effort result = effort_of_series(parts.model, parts.run, parts.omega_max);
   result.by_series = result.seconds;
   const ModalKind kind = modal_kind(parts.model);
-  if (!kind.objection.empty()) return result;
+  if (kind.crowded || !kind.objection.empty()) return result;
   const double n = parts.model.size(), gain = std::max(1.0, gain_of_modes * n * n);
   const StepTime& step = kind.damped ? time_of_damped_proof : time_of_proof;
   const double modes =

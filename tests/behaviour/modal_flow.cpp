@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "run/choose_flow.hpp"
 #include "signorini/simulate.hpp"
 
 using namespace signorini;
@@ -291,9 +292,65 @@ TEST_CASE("flows: auto follows the pipeline in modes, and few unknowns or what m
   CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: few unknowns, for which the series is as fast");
   CHECK(flow_of({{"contacts.first.tangential_damping", "10.0"}}) ==
         "auto: modes cannot follow shear elements");
-  CHECK(flow_of({{"contacts.first.normal_damping", "10.0"}}) ==
-        "auto: complex modes are followed where they are asked for");
   CHECK(flow_of({{"run.flow", "taylor"}}) == "as given");
+}
+
+TEST_CASE(
+    "flows: auto takes complex modes where they gain, and leaves rigid hits and many springs to the series") {
+  const auto chosen = [](const std::string& model, std::vector<Override> changes) {
+    changes.push_back({"run.engine", "exact"});
+    const Scene scene = read_scene(std::string(SIGNORINI_MODELS "/") + model, changes);
+    return choose_flow(build_model(scene), scene.run).reason;
+  };
+  const std::string gains = "auto: complex modes follow all of it",
+                    dear = "auto: complex modes of the contacts' states would cost as much as the series";
+  CHECK(chosen("pipeline.toml", {{"contacts.first.normal_damping", "10.0"}}) == gains);
+  CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}}) == gains);
+  CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}, {"members.1.elements", "[2,6]"}}) == dear);
+  CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}, {"run.t_end", "0.1"}}) == dear);
+  CHECK(chosen("rigid-frame.toml", {{"members.1.elements", "[8,4,8]"}}) ==
+        "auto: hits of rigid contacts move the whole mesh, which complex modes do not gain by");
+  CHECK(chosen("piping.toml", {}) == "auto: more contacts than a state's modes are worth");
+}
+
+TEST_CASE(
+    "flows: states with more springs than modes are made for are left to the series, the others are not") {
+  std::string text = head + R"(
+[run]
+t_end = 0.15
+output_dt = 0.02
+initial = "static"
+[damping]
+alpha = 4.0
+[sections.pipe]
+EA = 9.0e6
+EI = 2.0e4
+mass_per_length = 0.4
+)";
+  std::string nodes = "[nodes]\n", list, contacts;
+  constexpr int supports = 7;  // with two springs each
+  for (int i = 0; i < supports; ++i) {
+    nodes += fmt::format("P{} = [{}.0, 0.0]\n", i, 3 * i);
+    list += fmt::format("{}\"P{}\"", i > 0 ? ", " : "", i);
+    contacts += fmt::format(
+        "[[contacts]]\nname = \"c{0}\"\nnode = \"P{0}\"\nnormal = [0, 1]\nlaw = \"compliant\"\n"
+        "normal_stiffness = 1e6\ntangential_stiffness = 1e6\nfriction = 0.3\n",
+        i);
+  }
+  text += nodes + "[[members]]\nnodes = [" + list + "]\nsection = \"pipe\"\nelements = 1\n" + contacts + R"(
+[[loads]]
+node = "P2"
+direction = [0.6, 0.8]
+amplitude = 60.0
+history = { type = "rectangle", start = 0.0, end = 0.05 }
+)";
+  const Result modes = with_flow(text, "modal");
+  CHECK(modes.report.counters.fallbacks > 0);
+  CHECK(modes.report.counters.contact_states > 10);
+  CHECK(modes.report.counters.fallbacks < modes.report.counters.restarts / 2);
+  CHECK(modes.events.size() > 100);
+  same_events(text,
+              1e-12);  // seen: 4e-14; the motion parts its neighbours by a factor of 1e3 in the next 0.15 s
 }
 
 namespace {

@@ -67,15 +67,16 @@ std::optional<Damping> damping_of(const Model& model) {
   return dampers_of(model, (*factors)[0], (*factors)[1]);
 }
 
-std::size_t terms_at_most(const Model& model) {
-  std::size_t count = 0;
+}  // namespace
+
+std::size_t most_state_terms(const Model& model) {
+  const auto damping = damping_of(model);
+  std::size_t count = damping ? damping->dampers.size() : 0;
   for (const Contact& contact : model.contacts)
     count +=
         (contact.has_gap() ? 1u : 0u) + (contact.tangential_stiffness || contact.sticks_rigidly() ? 1u : 0u);
   return count;
 }
-
-}  // namespace
 
 std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
@@ -90,8 +91,6 @@ std::string damped_refusal(const Model& model) {
   if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
   const auto damping = damping_of(model);
   if (!damping) return "damping that is neither Rayleigh's nor that of a few dampers";
-  if (terms_at_most(model) + damping->dampers.size() > most_damped_terms)
-    return "more contacts than a state's modes are worth";
   return {};
 }
 
@@ -194,6 +193,10 @@ DampedState DampedSystem::make(const Mode& mode) const {
   DampedState out;
   out.terms = dampers_;
   for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
+  if (out.terms.size() > most_damped_terms) {
+    out.modes.failure = "more springs, constraints and dampers than a state's modes are worth";
+    return out;
+  }
   out.modes = damped_modes(basis_.square(), decay_, out.terms);
   if (!out.modes.failure.empty()) return out;
   for (std::size_t c = 0; c < mode.size(); ++c) {

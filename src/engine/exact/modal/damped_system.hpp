@@ -22,6 +22,8 @@ namespace signorini {
 
 /// Why a scene cannot be followed in complex modes; empty: it can.
 [[nodiscard]] std::string damped_refusal(const Model& model);
+/// Springs, constraints and dampers of a state in which all contacts are closed and stick.
+[[nodiscard]] std::size_t most_state_terms(const Model& model);
 
 /// What complex modes show of one contact: forms times shapes, zero where a constraint holds them.
 struct ContactRows {

@@ -21,16 +21,13 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double pre
 std::string proportional_refusal(const Model& model) {
   if (!stands_still(model)) return "loads or surfaces that change other than in jumps";
   if (model.size() == 0) return "nothing moves";
-  std::size_t rank = 0;
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.shear) return "shear elements";
     if (contact.normal_damping != 0.0) return "dashpots of contacts";
     if (friction_varies(contact)) return "friction that depends on the slip rate";
-    rank += (contact.has_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
   }
-  if (rank > most_rank) return "more contacts than a state's modes are worth";
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";
   if (!is_symmetric(model.mass) || !is_symmetric(model.stiffness)) return "matrices that are not symmetric";
@@ -41,6 +38,13 @@ std::string proportional_refusal(const Model& model) {
   if (!(rest.norm() <= rounding::of_many * model.damping.norm()))
     return "damping that is not proportional to the mass";
   return {};
+}
+
+std::size_t most_state_springs(const Model& model) {
+  std::size_t count = 0;
+  for (const Contact& contact : model.contacts)
+    count += (contact.has_spring() ? 1u : 0u) + (contact.tangential_stiffness ? 1u : 0u);
+  return count;
 }
 
 Amplitudes constant_forces(const Model& model, const StateModes& state, const Mode& mode,

@@ -32,6 +32,8 @@ struct ForceLaw {
 
 /// Why a scene cannot be followed in modes without coupling; empty: it can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
+/// Springs of a state in which all contacts are closed and stick.
+[[nodiscard]] std::size_t most_state_springs(const Model& model);
 
 /// One combination of contact states.
 struct StateModes {

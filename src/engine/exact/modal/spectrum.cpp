@@ -39,6 +39,10 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
     : rank_(static_cast<std::size_t>(u.cols())), order_(poles.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
+  if (rank_ > most_rank) {
+    failure_ = "more springs of closed contacts than a state's modes are worth";
+    return;
+  }
   if (rank_ == 0) {  // the open modes themselves, which are orthonormal
     squares_.assign(poles.size(), 1.0);
     value_base_ = values_;

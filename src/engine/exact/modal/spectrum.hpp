@@ -67,7 +67,7 @@ inline constexpr std::size_t most_written = 1024;
 
 class Spectrum {
  public:
-  /// U, V: n x rank, rank <= most_rank. `symmetric`: V is U but for positive factors of its columns, so that
+  /// U, V: n x rank; fails where rank > most_rank. `symmetric`: V is U but for positive factors of its columns, so that
   /// all roots are real.
   Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, bool symmetric,
            std::size_t written_up_to = most_written);

@@ -84,7 +84,7 @@ calculix() {
 }
 
 installed() {
-  scripts/setup.sh debootstrap dpkg-dev
+  scripts/setup.sh debootstrap dpkg-dev file
   build_program all
   tests/install/package.sh build/release
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "behaviour/engines.hpp"
+#include "differential/transform.hpp"
 #include "signorini/simulate.hpp"
 #include "study/reduction/find_cutoff.hpp"
 
@@ -292,6 +293,76 @@ TEST_CASE(
     for (std::size_t i = 0; i < full.rows.size(); ++i)
       CHECK((full.rows[i].u - reduced.rows[i].u)(asked_for).cwiseAbs().maxCoeff() < tolerance * scale);
   }
+}
+
+namespace {
+
+/// The same trials, with frequencies in so many units.
+void check_same_trials(const ReductionSpec& expected, const ReductionSpec& found, double frequency) {
+  REQUIRE(found.tried.size() == expected.tried.size());
+  for (std::size_t i = 0; i < found.tried.size(); ++i) {
+    const CutoffTrial &a = expected.tried[i], &b = found.tried[i];
+    CHECK(b.modes == a.modes);
+    CHECK(b.cutoff_omega == doctest::Approx(frequency * a.cutoff_omega).epsilon(1e-9));
+    CHECK(b.missed == doctest::Approx(a.missed).epsilon(1e-6));
+    CHECK(b.error == doctest::Approx(a.error).epsilon(1e-6));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a tolerance finds the same modes however the scene is written, and fit ones at any angle") {
+  using namespace signorini::differential;
+  const Scene scene = read_scene(pipeline, {{"run.t_end", "0.01"},
+                                            {"run.output_dt", "5e-4"},
+                                            {"run.engine", "exact"},
+                                            {"reduction.tolerance", "1e-3"}});
+  const Scene found = find_cutoff(scene);
+  CHECK(found.reduction->tried.size() == 3);
+  CHECK(found.reduction->tried.back().modes == 27);
+  std::vector<Transformed> others{permuted(scene, 3), *turned(scene, 90.0), *mirrored(scene),
+                                  *reversed(scene)};
+  for (const Transformed& other : others) {
+    CAPTURE(other.name);
+    check_same_trials(*found.reduction, *find_cutoff(other.scene).reduction, 1.0);
+  }
+  Factors units;
+  units.force = 1e3;
+  units.length = 10.0;
+  units.time = 0.1;
+  check_same_trials(*found.reduction, *find_cutoff(in_units(scene, units)->scene).reduction, 10.0);
+  // Along other axes ux and uy are other numbers, by a factor of sqrt(2) and 1/sqrt(2) at most.
+  const Scene askew = find_cutoff(turned(scene, 33.0)->scene);
+  const double factor = askew.reduction->tried[0].missed / found.reduction->tried[0].missed;
+  CHECK(factor < 2.0);  // of what is missed, and of what it is beside
+  CHECK(factor > 0.5);
+  CHECK(askew.reduction->tried.back().error <= 1e-3);
+}
+
+TEST_CASE("a tolerance on another scene: the full model within the error that is told") {
+  const Changes changes{{"run.engine", "exact"}, {"run.output_dt", "0.01"}};
+  const std::string lift_off = SIGNORINI_MODELS "/lift-off.toml";
+  const Scene whole = read_scene(lift_off, changes);
+  const Model whole_model = build_model(whole);
+  const Result full = simulate(whole_model, whole.run);
+  Changes asked = changes;
+  asked.push_back({"reduction.tolerance", "1e-3"});
+  const Scene scene = find_cutoff(read_scene(lift_off, asked));
+  const double told = scene.reduction->tried.back().error;
+  CHECK(told <= 1e-3);
+  CHECK(scene.reduction->tried.back().modes < whole_model.size());
+  const Result reduced = simulate(build_model(scene), scene.run);
+  REQUIRE(reduced.rows.size() == full.rows.size());
+  double scale = 0.0, off = 0.0;
+  for (const Column& column : whole_model.columns) {
+    if (column.velocity || column.dof < 0 || whole_model.turns(column)) continue;
+    for (std::size_t i = 0; i < full.rows.size(); ++i) {
+      scale = std::max(scale, std::abs(full.rows[i].u[column.dof]));
+      off = std::max(off, std::abs(full.rows[i].u[column.dof] - reduced.rows[i].u[column.dof]));
+    }
+  }
+  CHECK(off < told * scale);  // seen: 0.42 of it
+  CHECK(off > 0.05 * told * scale);
 }
 
 TEST_CASE("a tolerance that no cutoff meets keeps all modes; what has no modes is refused") {

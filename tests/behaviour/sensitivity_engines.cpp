@@ -99,6 +99,20 @@ TEST_CASE(
   CHECK(ida.stretches.correction == doctest::Approx(off).epsilon(0.2));
 }
 
+TEST_CASE("steps so long that states differ: on from the engine's own state, which is counted") {
+  const auto with = [](const char* engine) {
+    return rates_of_model("pipeline", {"contacts.*.friction"},
+                          {{"run.engine", engine}, {"run.dt", "1e-3"}, {"run.t_end", "0.2"}});
+  };
+  const Sensitivities exact = with("exact"), steps = with("newmark");
+  CHECK(steps.stretches.taken > 0);
+  REQUIRE(steps.events.size() > 20);
+  CHECK(steps.events.size() != exact.events.size());
+  for (std::size_t i = 0; i < 3; ++i)  // up to there the sequence is that of the motion
+    CHECK(std::abs(steps.event_rates[i][0].t - exact.event_rates[i][0].t) <= 1e-9);
+  for (std::size_t i = 0; i < 20; ++i) CHECK(std::isfinite(steps.event_rates[i][0].t));
+}
+
 TEST_CASE("an engine without series, followed along series: a ball, a belt and a load that begins") {
   const std::string falls = matrix_scene(
       "t_end = 1.9\nrtol = 1e-6\noutput_dt = 0.5\ninitial = { u = [1.0], v = [0.0] }",

@@ -16,4 +16,6 @@ std::string why_no_input_file(const fs::path& path) {
   return "is a device";
 }
 
+std::string because(int error) { return error == 0 ? "" : ": " + std::generic_category().message(error); }
+
 }  // namespace signorini

@@ -10,4 +10,7 @@ namespace signorini {
 /// where opening says why. A pipe would wait for a writer, and a device may never end.
 [[nodiscard]] std::string why_no_input_file(const std::filesystem::path& path);
 
+/// ": No such file or directory" for what errno was, or nothing.
+[[nodiscard]] std::string because(int error);
+
 }  // namespace signorini

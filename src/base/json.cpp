@@ -4,11 +4,25 @@
 
 namespace signorini {
 
-std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+namespace {
+
+void without_negative_zeros(Json& json) {
+  if (json.is_structured())
+    for (Json& part : json) without_negative_zeros(part);
+  else if (json.is_number_float())
+    json = json.get<double>() + 0.0;
 }
 
-std::string json_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string dumped(Json json, int indent) {
+  without_negative_zeros(json);
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string json_text(const Json& json) { return dumped(json, 2) + "\n"; }
+
+std::string json_line(const Json& json) { return dumped(json, -1); }
 
 Json parse_json(std::istream& stream) { return Json::parse(stream); }
 

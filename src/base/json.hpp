@@ -10,7 +10,7 @@ namespace signorini {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented, with a line end; bytes that are not UTF-8 become replacement characters.
+/// Indented, with a line end; bytes that are not UTF-8 become replacement characters, and -0 is 0.
 [[nodiscard]] std::string json_text(const Json& json);
 /// The same in one line, without line end.
 [[nodiscard]] std::string json_line(const Json& json);

@@ -20,6 +20,7 @@
 #include "certify/truncation.hpp"
 #include "run/choose_engine.hpp"
 #include "run/engines.hpp"
+#include "run/expected.hpp"
 #include "run/observer.hpp"
 
 namespace signorini {
@@ -150,12 +151,19 @@ class Companions {
   std::optional<QuietThread> thread_;  // the last member: it ends first
 };
 
-/// Why a run is not certified unless asked; empty: it is.
-std::string why_not(const RunSpec& run, const CompanionPlan& plan) {
-  if (run.certify == Certify::yes) return "";
+/// Whether a run is certified without being asked for it.
+bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost < cheap; }
+
+/// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then.
+std::string why_not(const RunSpec& run, const CompanionPlan& plan, double wall_time) {
   if (!(plan.cost > 0.0)) return "nobody knows beforehand what a companion costs here; --certify takes one";
-  if (plan.cost < cheap) return "";
-  return fmt::format("a companion is expected to cost {:.2g} times the run; --certify takes one", plan.cost);
+  if (plan.runs.front().run.engine == run.engine)
+    return fmt::format("a companion is expected to cost {:.2g} times the run; --certify takes one",
+                       plan.cost);
+  return fmt::format(
+      "a companion by {} is expected to take {} s, by order of magnitude, and the run took {:.2g} s; "
+      "--certify takes one",
+      plan.name, about_seconds(plan.seconds), wall_time);
 }
 
 Certificate certificate_of(const Model& model, const RunSpec& run, const CompanionPlan& plan,
@@ -202,17 +210,21 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
                                    const CertifyOptions& options) {
   using Clock = std::chrono::steady_clock;
   CertifiedReport result;
-  const auto plain = [&](std::string why) {
-    result.why_not = std::move(why);
-    result.report = simulate(model, settings, recorder, options.listener);
-    return std::move(result);
-  };
-  if (settings.certify == Certify::no) return plain("run.certify = false");
+  const auto plain = [&] { result.report = simulate(model, settings, recorder, options.listener); };
+  if (settings.certify == Certify::no) {
+    plain();
+    result.why_not = "run.certify = false";
+    return result;
+  }
   RunSpec run = settings;
   run.engine = choose_engine(model, settings).engine;
   engine_row(run.engine).refuse(model, run);
   CompanionPlan plan = plan_companion(model, run);
-  if (std::string why = why_not(run, plan); !why.empty()) return plain(std::move(why));
+  if (run.certify != Certify::yes && !is_cheap(plan)) {
+    plain();
+    result.why_not = why_not(run, plan, result.report.wall_time);
+    return result;
+  }
   const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()
                                                         : std::max(least_steps, patience * plan.steps);
   Tracker own(model, options.forces, &recorder);

@@ -78,10 +78,11 @@ void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
     const Effort effort = expected(companion.model, companion.run).effort;
     plan.steps = effort.steps;
     if (!(own.seconds > 0.0) || !(effort.seconds > 0.0)) {
-      plan.cost = 0.0;
+      plan.cost = plan.seconds = 0.0;
       return;
     }
     plan.cost += effort.seconds / own.seconds;
+    plan.seconds += effort.seconds;
   }
 }
 

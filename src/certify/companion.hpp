@@ -34,9 +34,10 @@ struct CompanionPlan {
   std::string name;    ///< "exact", "ida, rtol 1e-10"
   std::string choice;  ///< "as given", or "auto: ..."
   double factor = 1.0;
-  double local = 1.0;  ///< part of t_uncertainty that is added: of what the difference has not seen
-  double cost = 0.0;   ///< expected, of that of the run; 0: nobody knows
-  double steps = 0.0;  ///< expected, of one companion; 0: nobody knows
+  double local = 1.0;    ///< part of t_uncertainty that is added: of what the difference has not seen
+  double cost = 0.0;     ///< expected, of that of the run; 0: nobody knows
+  double seconds = 0.0;  ///< the same of itself
+  double steps = 0.0;    ///< expected, of one companion; 0: nobody knows
 };
 
 /// Gives every contact of `model` that has none the capture velocity of this run.

@@ -116,7 +116,7 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Scene
     throw;
   }
   directory.finish(report);
-  for (const std::string& warning : report.warnings) print_warning(engine + ": " + warning);
+  print_warnings(options, report.warnings, engine + ": ");
   outcomes.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   outcomes.stopped = outcomes.stopped || report.outcome.kind == Outcome::Kind::stopped;
   outcomes.report.runs.push_back(read_compared_run(path / engine, engine));

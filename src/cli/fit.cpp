@@ -39,14 +39,25 @@ std::string text_of(const Fit& fit, const Measurements& measured) {
                                    number(fit.chi_squared));
 }
 
+/// A column that the run has not is told with the file that has it.
+Fit fitted(const FitOptions& options, const Measurements& measured) {
+  try {
+    return fit(reader_of(options.scene, overrides_of(options.settings)), options.parameters, measured,
+               [] { return !Interrupt::asked(); });
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    if (!message.starts_with("the run has no column")) throw;
+    throw Error(ExitCode::scene, options.data + ":1: " + message);
+  }
+}
+
 ExitCode run_fit(const FitOptions& options) {
   if (options.parameters.empty()) throw UsageError("expected --parameter PATH");
   const fs::path path = directory_of(options, "-fit");
   check_folder(path, fit_folder(), options.force, options.scene);
   const Measurements measured = read_measurements(options.data);
   std::optional<Interrupt> interrupt(std::in_place);
-  const Fit result = fit(reader_of(options.scene, overrides_of(options.settings)), options.parameters,
-                         measured, [] { return !Interrupt::asked(); });
+  const Fit result = fitted(options, measured);
   const bool interrupted = Interrupt::asked();
   interrupt.reset();
   begin_folder(path, fit_folder());

@@ -20,6 +20,41 @@ namespace {
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
+bool knows(const CLI::App& command, const std::string& option) {
+  for (const CLI::Option* known : command.get_options())
+    if (known->check_name(option)) return true;
+  return false;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// The beginning of an option's name, else what is near it.
+std::string meant(const std::string& given, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (given.size() > 3 && name.starts_with(given)) return "; did you mean \"" + name + "\"?";
+  return did_you_mean(given, names);
+}
+
+/// What a command was given and does not take, in the order of the line: options are told before what stands beside them.
+std::string unexpected(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  const auto option = std::find_if(rest.begin(), rest.end(), [&](const std::string& text) {
+    return text.size() > 1 && text[0] == '-' && !knows(command, text.substr(0, text.find('=')));
+  });
+  if (option == rest.end())
+    return rest.empty() ? "" : fmt::format("{}: \"{}\" is one too many", command.get_name(), rest.front());
+  const std::string name = option->substr(0, option->find('='));
+  const std::vector<std::string> names = option_names(command);
+  std::string text = fmt::format("{}: no option {}", command.get_name(), name);
+  if (name == "--engine" && knows(command, "--set")) return text + "; --set run.engine=NAME does it";
+  return text + meant(name, names);
+}
+
 // CLI11's own exit codes start at 100; ours are those of docs/command-line.md.
 int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) {  // --help, --version
@@ -28,7 +63,14 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
     print(text.str());
     return code(ExitCode::done);
   }
-  print_error(std::string(error.what()) + "\nsee " + app.get_name() + " --help");
+  const std::vector<const CLI::App*> asked =
+      app.get_subcommands([](const CLI::App* sub) { return sub->parsed(); });
+  const CLI::App& command = asked.empty() ? app : *asked.front();
+  const bool extras = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  std::string message = extras ? unexpected(command) : "";
+  if (message.empty()) message = error.what();
+  print_error(message + "\nsee " + app.get_name() + (asked.empty() ? "" : " " + command.get_name()) +
+              " --help");
   return code(ExitCode::usage);
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/command.hpp"
 #include "cli/gnuplot.hpp"
+#include "cli/plot_any.hpp"
 #include "cli/terminal.hpp"
 #include "result/plots.hpp"
 
@@ -16,9 +17,9 @@ namespace fs = std::filesystem;
 ExitCode plot(const fs::path& directory, const PlotWindow& window, const PictureLook& look) {
   if (window.from && window.to && *window.from >= *window.to)
     throw UsageError("--from: expected less than --to");
-  const std::vector<fs::path> scripts = first_ones(write_plots(directory, window, look));
+  const std::vector<fs::path> scripts = first_ones(write_any_plots(directory, window, look));
   if (scripts.empty())
-    throw FileError(directory.string(), "has fewer than two output times: nothing to draw");
+    throw FileError(directory.string(), "has nothing to draw: fewer than two output times, or rows");
   const Drawing drawing = draw(scripts);
   if (drawing.kind == Drawing::Kind::no_gnuplot) {
     throw FileError("gnuplot", "not found on PATH; the scripts are in " + (directory / "plots").string());
@@ -43,8 +44,9 @@ struct PlotOptions {
 
 void add_plot(Program& program) {
   auto options = std::make_shared<PlotOptions>();
-  CLI::App* command = program.app.add_subcommand("plot", "draw the pictures of a run again");
-  command->add_option("DIR", options->directory, "a directory that `signorini run` wrote")->required();
+  CLI::App* command = program.app.add_subcommand(
+      "plot", "draw the pictures of a run, comparison, sweep or sensitivities again");
+  command->add_option("DIR", options->directory, "a directory of results")->required();
   command->add_option("--from", options->window.from, "first time shown (default: the whole run)")
       ->option_text("T");
   command->add_option("--to", options->window.to, "last time shown")->option_text("T");

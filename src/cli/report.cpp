@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "run/expected.hpp"
 
@@ -153,8 +154,12 @@ std::string event_table(const Live& live, const Model& model, const Certificate*
 std::string contact_table(const Model& model, const Report& report, TableStyle style) {
   const std::size_t most = style == TableStyle::plain ? 24 : model.contacts.size();
   if (model.contacts.empty() || report.peaks.size() < model.contacts.size()) return "";
-  const std::string force = " [" + model.units.force + "]", length = " [" + model.units.length + "]";
-  Table table({"contact", "static -N" + force, "peak along t" + length, "along n" + length, "|N|" + force,
+  const std::string force = " [" + model.units.force + "]", unit = " [" + model.units.length + "]";
+  double greatest = 0.0;
+  for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
+  // A motion of rounding would only distract.
+  const auto length = [&](double x) { return number(x > rounding::of_many * greatest ? x : 0.0); };
+  Table table({"contact", "static -N" + force, "peak along t" + unit, "along n" + unit, "|N|" + force,
                "|T|" + force, "friction loss [" + model.units.force + " " + model.units.length + "]"},
               {false, true, true, true, true, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
@@ -162,7 +167,7 @@ std::string contact_table(const Model& model, const Report& report, TableStyle s
     const bool at_rest = model.static_start && k < model.statics.reactions.size();
     const auto& work = report.audit.friction_work;
     table.row({model.contacts[k].name, at_rest ? number(model.statics.reactions[k]) : "",
-               number(peak.tangential), number(peak.normal), number(peak.N), number(peak.T),
+               length(peak.tangential), length(peak.normal), number(peak.N), number(peak.T),
                k < work.size() ? number(work[k]) : ""});
   }
   if (model.contacts.size() > most) {
@@ -227,9 +232,13 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
+  const std::string automatic = "auto: ";
+  if (report.method.engine == Engine::ida && report.method.reason.starts_with(automatic))
+    return text + "why ida: " + report.method.reason.substr(automatic.size()) + "\n";
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  if (const std::optional<double> exact = exact_instead(model, chosen))
+  // Only where it would be quicker than what the run took.
+  if (const std::optional<double> exact = exact_instead(model, chosen); exact && *exact < report.wall_time)
     text += fmt::format("exact would take {} s (--engine exact)\n", about_seconds(*exact));
   return text;
 }

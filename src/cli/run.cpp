@@ -101,8 +101,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
 
   RunSpec chosen = scene.run;
   chosen.engine = choose_engine(model, scene.run).engine;
-  if (const std::string warning = warn_of_patience(model, chosen, options.scene); !warning.empty())
-    print_warning(warning);
+  if (const std::string warning = warn_of_warning(model, chosen, options.scene); !warning.empty())
+    print_warnings(options, {warning});
   CertifiedReport certified;
   const Report& report = certified.report;
   std::string events;
@@ -122,7 +122,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
       events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr, style);
   }
   const std::string summary = directory.finish(certified);
-  for (const std::string& warning : report.warnings) print_warning(warning);
+  print_warnings(options, report.warnings);
 
   if (options.json) print(summary);
   if (!plain) {

@@ -17,6 +17,7 @@
 #include "result/csv.hpp"
 #include "result/writers.hpp"
 #include "signorini/error.hpp"
+#include "study/key_unit.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 #include "study/sensitivity/sensitivity_plots.hpp"
 
@@ -73,7 +74,31 @@ Sigmas take_sigmas(const SensitivityOptions& options, std::vector<std::string>& 
   return options.sigmas.empty() ? Sigmas{} : sigmas;
 }
 
-std::string shown(double x) { return std::isfinite(x) ? number(x) : "-"; }
+std::string shown_rate(double x) { return std::isfinite(x) ? number(x) : "-"; }
+
+/// What one asks for first: how the first events move.
+std::string first_events(const Sensitivities& s) {
+  constexpr std::size_t most_events = 6, most_keys = 4;
+  const std::size_t keys = std::min(s.parameters.size(), most_keys);
+  std::vector<std::string> header{"event", "t [" + s.units.time + "]", "contact", "what"};
+  for (std::size_t p = 0; p < keys; ++p) header.push_back("dt/d " + s.parameters[p].path);
+  std::vector<bool> right(header.size(), true);
+  right[2] = right[3] = false;
+  Table table(std::move(header), std::move(right));
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < s.events.size() && shown < most_events; ++i) {
+    if (s.events[i].contact < 0) continue;
+    std::vector<std::string> cells{std::to_string(i + 1), fmt::format("{:.9g}", s.events[i].t),
+                                   contact_of(s, s.events[i]), to_string(s.events[i].type)};
+    for (std::size_t p = 0; p < keys; ++p) cells.push_back(shown_rate(s.event_rates[i][p].t));
+    table.row(std::move(cells));
+    ++shown;
+  }
+  if (shown == 0) return "";
+  if (shown < s.events.size())
+    table.line(fmt::format("all {} events are in sensitivities.csv", s.events.size()));
+  return table.str() + "\n";
+}
 
 void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
   std::size_t most = s.events.size();
@@ -82,16 +107,16 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
     if (std::isfinite(rate) && (most == s.events.size() || rate > std::abs(s.event_rates[most][p].t)))
       most = i;
   }
-  const std::string path = s.parameters[p].path;
+  const std::string path = key_with_unit(s.parameters[p].path, s.units);
   if (most < s.events.size()) {
     const Event& event = s.events[most];
     const double rate = s.event_rates[most][p].t;
     table.row({path, fmt::format("t of event {}", most + 1), contact_of(s, event), number(event.t),
-               shown(rate), shown(elasticity(s.parameters[p].value, event.t, rate))});
+               s.units.time, shown_rate(rate), shown_rate(elasticity(s.parameters[p].value, event.t, rate))});
   }
   for (const Response& r : s.responses)
-    table.row({path, r.name, contact_of(s, r), number(r.value), shown(r.rates[p]),
-               shown(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
+    table.row({path, r.name, contact_of(s, r), number(r.value), unit_of(r, s.units), shown_rate(r.rates[p]),
+               shown_rate(elasticity(s.parameters[p].value, r.value, r.rates[p]))});
 }
 
 std::string swap_text(const Sensitivities& s) {
@@ -105,20 +130,20 @@ std::string swap_text(const Sensitivities& s) {
 }
 
 std::string summary_of(const Sensitivities& s, const Sigmas& sigmas) {
-  Table table({"parameter p", "x", "contact", "value", "dx/dp", "p/x dx/dp"},
-              {false, false, false, true, true, true});
+  Table table({"parameter p", "x", "contact", "value", "unit", "dx/dp", "p/x dx/dp"},
+              {false, false, false, true, false, true, true});
   for (std::size_t p = 0; p < s.parameters.size(); ++p) add_parameter(s, p, table);
-  std::string text = table.str() + "\n" + swap_text(s);
+  std::string text = first_events(s) + table.str() + "\n" + swap_text(s);
   for (const Parameter& parameter : s.parameters)
     if (!parameter.reason.empty())
       text +=
           fmt::format("{}: known until {}: {}\n", parameter.path, number(parameter.until), parameter.reason);
   if (sigmas.empty()) return text;
   const Spread spreads = spread(s, sigmas);
-  Table figures({"x", "contact", "value", "sigma"}, {false, false, true, true});
+  Table figures({"x", "contact", "value", "sigma", "unit"}, {false, false, true, true, false});
   for (std::size_t i = 0; i < s.responses.size(); ++i)
     figures.row({s.responses[i].name, contact_of(s, s.responses[i]), number(s.responses[i].value),
-                 shown(spreads.responses[i])});
+                 shown_rate(spreads.responses[i]), unit_of(s.responses[i], s.units)});
   text += "\n" + figures.str() + "\n";
   for (std::size_t p = 0; p < sigmas.size(); ++p)
     if (sigmas[p] > 0.0)
@@ -183,7 +208,7 @@ ExitCode run(const SensitivityOptions& options) {
     print(summary_of(s, sigmas) + method_of(s) + "results: " + path.string() +
           "/ (sensitivities.csv, figures.csv, columns-1.csv)\n" + drawn);
   }
-  for (const std::string& warning : s.report.warnings) print_warning(warning);
+  print_warnings(options, s.report.warnings);
   if (s.report.outcome.kind != Outcome::Kind::done) print_error("stopped: " + s.report.outcome.reason);
   return code_of(s.report.outcome);
 }

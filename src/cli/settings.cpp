@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/suggest.hpp"
+#include "cli/terminal.hpp"
 
 namespace signorini::cli {
 
@@ -31,6 +32,12 @@ void add_output_options(CLI::App& command, OutputOptions& options, const std::st
   command.add_flag("--quiet", options.quiet, "print errors only");
   command.add_flag("--json", options.json, "print " + json + " instead of tables");
   command.add_flag("--no-plots", options.no_plots, "no pictures, nor scripts for them");
+}
+
+void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
+                    const std::string& of) {
+  if (options.quiet) return;
+  for (const std::string& warning : warnings) print_warning(of + warning);
 }
 
 void add_settings(CLI::App& command, std::vector<std::string>& settings) {

@@ -16,6 +16,9 @@ struct OutputOptions {
   bool force = false, quiet = false, json = false, no_plots = false;
   [[nodiscard]] bool tables() const { return !quiet && !json; }
 };
+/// Prints them to stderr, with `of` in front; none with --quiet.
+void print_warnings(const OutputOptions& options, const std::vector<std::string>& warnings,
+                    const std::string& of = "");
 
 /// Adds --force, --quiet, --json and --no-plots to a subcommand; `options` must outlive parsing.
 void add_output_options(CLI::App& command, OutputOptions& options, const std::string& force,

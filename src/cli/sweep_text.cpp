@@ -23,10 +23,10 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
     cells.push_back(i < row.responses.size() && std::isfinite(row.responses[i]) ? number(row.responses[i])
                                                                                 : "");
   if (responses > 0) return cells;
-  for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k) {
-    const SweepRow::Contact* contact = contact_of(row, contacts[k]);
+  for (const std::string& name : contacts) {
+    const SweepRow::Contact* contact = contact_of(row, name);
     for (const double SweepRow::Contact::*figure :
-         {&SweepRow::Contact::tangential, &SweepRow::Contact::normal, &SweepRow::Contact::friction})
+         {&SweepRow::Contact::tangential, &SweepRow::Contact::N, &SweepRow::Contact::friction})
       cells.push_back(contact ? number(contact->*figure) : "");
   }
   return cells;
@@ -34,8 +34,30 @@ std::vector<std::string> cells_of(const SweepRow& row, std::size_t responses,
 
 }  // namespace
 
+namespace {
+
+/// The contacts that press hardest in any run, in their own order.
+std::vector<std::string> shown_contacts(const std::vector<std::string>& contacts, const SweepRows& rows) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    double greatest = 0.0;
+    for (const auto& [index, row] : rows)
+      if (const SweepRow::Contact* contact = contact_of(row, contacts[k]))
+        greatest = std::max(greatest, contact->N);
+    order.emplace_back(-greatest, k);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), most_contacts));
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<std::string> shown;
+  for (const auto& [force, k] : order) shown.push_back(contacts[k]);
+  return shown;
+}
+
+}  // namespace
+
 std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle style) {
-  const std::vector<std::string> contacts = contact_names(rows);
+  const std::vector<std::string> all = contact_names(rows), contacts = shown_contacts(all, rows);
   std::vector<std::string> header;
   for (const Vary& vary : spec.vary) header.push_back(vary.path);
   header.insert(header.end(), {"outcome", "events"});
@@ -44,9 +66,9 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle 
                      (spec.response_units[i].empty() ? "" : " [" + spec.response_units[i] + "]"));
   const std::string length = " [" + spec.units.length + "]";
   const bool figures = spec.responses.empty();
-  for (std::size_t k = 0; figures && k < std::min(contacts.size(), most_contacts); ++k) {
+  for (std::size_t k = 0; figures && k < contacts.size(); ++k) {
     header.push_back(contacts[k] + ": peak along t" + length);
-    header.push_back("along n" + length);
+    header.push_back("|N| [" + spec.units.force + "]");
     header.push_back("friction loss [" + spec.units.force + " " + spec.units.length + "]");
   }
   std::vector<bool> right(header.size(), true);
@@ -66,8 +88,9 @@ std::string sweep_text(const SweepSpec& spec, const SweepRows& rows, TableStyle 
   if (spec.responses.size() > most_responses)
     text += fmt::format("  ... {} more responses; all are in sweep.csv\n",
                         spec.responses.size() - most_responses);
-  if (figures && contacts.size() > most_contacts)
-    text += fmt::format("  ... {} more contacts; all are in sweep.csv\n", contacts.size() - most_contacts);
+  if (figures && all.size() > contacts.size())
+    text += fmt::format("  ... {} more contacts, which press less; all are in sweep.csv\n",
+                        all.size() - contacts.size());
   constexpr std::size_t most_reasons = 10;
   std::size_t reasons = 0;
   for (const auto& [index, row] : rows) {

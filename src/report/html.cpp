@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "result/csv_read.hpp"
 
 namespace signorini {
@@ -66,25 +68,58 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
   return row + "</tr>\n";
 }
 
+/// N and T are told beside each other, before and after: what is rounding of one is that of all.
+void share_scales(const std::vector<std::string>& header, std::vector<double>& greatest) {
+  for (const std::vector<std::string_view>& alike :
+       {std::vector<std::string_view>{"N", "T", "N_after", "T_after"},
+        std::vector<std::string_view>{"vn", "vt", "vn_after", "vt_after"}}) {
+    const auto among = [&](const std::string& name) {
+      return std::find(alike.begin(), alike.end(), name) != alike.end();
+    };
+    double most = 0.0;
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (among(header[i])) most = std::max(most, greatest[i]);
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (among(header[i])) greatest[i] = most;
+  }
+}
+
 }  // namespace
 
-std::string csv_table(const fs::path& file, std::size_t most, const std::vector<std::string>& columns) {
+std::string csv_table(const fs::path& file, std::size_t most, const std::vector<std::string>& columns,
+                      const std::map<std::string, std::string>& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
   CsvReader reader(file);
   std::vector<std::string> header = columns.empty() ? reader.header() : columns;
   std::vector<std::size_t> index;
   for (const std::string& name : header) index.push_back(reader.column(name));
-  std::string rows;
+  std::vector<std::vector<std::string>> kept;
+  std::vector<double> greatest(header.size(), 0.0);
   std::size_t count = 0;
   while (reader.next()) {
-    if (++count > most) continue;
-    std::vector<std::string> cells;
     for (std::size_t i = 0; i < index.size(); ++i)
-      cells.push_back(short_number(reader.cell(index[i]), header[i] == "t" ? 11 : 6));
+      if (const auto value = parse_number(reader.cell(index[i])); value && std::isfinite(*value))
+        greatest[i] = std::max(greatest[i], std::abs(*value));
+    if (++count > most) continue;
+    std::vector<std::string>& cells = kept.emplace_back();
+    for (const std::size_t i : index) cells.push_back(reader.cell(i));
+  }
+  share_scales(header, greatest);
+  std::string rows;
+  for (std::vector<std::string>& cells : kept) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto value = parse_number(cells[i]);
+      // Rounding beside the others of its column would only distract.
+      if (value && std::abs(*value) <= rounding::of_elimination * greatest[i]) cells[i] = "0";
+      cells[i] = short_number(cells[i], header[i] == "t" ? 11 : 6);
+    }
     rows += table_row(cells, "td");
   }
   if (count == 0) return "";
+  for (std::string& name : header)
+    if (const auto found = units.find(name); found != units.end() && !found->second.empty())
+      name += " [" + found->second + "]";
   std::string text =
       fmt::format("<div class=wide><table><thead>{}</thead><tbody>\n{}</tbody></table></div>\n",
                   table_row(header, "th"), rows);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +23,11 @@ namespace signorini {
 [[nodiscard]] std::string short_number(const std::string& cell, int digits = 6);
 
 /// Numbers have six digits, times (t) eleven. `columns`: which ones, by name; all where empty. Rows after the first `most` are left out, and said so.
-/// Empty where there is no such file. Errors: FileError.
+/// What is rounding beside the others of its column is 0. `units`: of columns, for the header. Empty where there is no such
+/// file. Errors: FileError.
 [[nodiscard]] std::string csv_table(const std::filesystem::path& file, std::size_t most,
-                                    const std::vector<std::string>& columns = {});
+                                    const std::vector<std::string>& columns = {},
+                                    const std::map<std::string, std::string>& units = {});
 
 /// "<section id=...><h2>...</h2>...</section>"; nothing around nothing.
 [[nodiscard]] std::string section(const std::string& id, const std::string& heading, const std::string& body);

@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include "base/embedded.hpp"
@@ -12,7 +14,9 @@
 #include "report/html.hpp"
 #include "report/picture.hpp"
 #include "report/run_data.hpp"
+#include "result/csv_read.hpp"
 #include "signorini/error.hpp"
+#include "signorini/event.hpp"
 
 namespace signorini {
 
@@ -126,22 +130,67 @@ std::string run_facts(const Json& summary) {
   return text;
 }
 
+/// The scene's words in place of "force", "length" and "time".
+std::string in_units(std::string text, const Json& units) {
+  for (const char* name : {"force", "length", "time"})
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+      const std::string own = value_text(member(units, name));
+      if (own.find(name) != std::string::npos) break;  // a unit of that name
+      text.replace(at, std::string_view(name).size(), own);
+    }
+  return text;
+}
+
+/// events.csv, with units in its header, and the error of a time beside it.
+std::string event_table(const fs::path& file, const Json& summary) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return "";
+  const Json& units = member(summary, "units");
+  std::map<std::string, std::string> of_columns;
+  for (const EventColumn& column : event_columns) of_columns[column.name] = in_units(column.unit, units);
+  of_columns["guard_rate"].clear();  // of each guard its own
+  const std::string error_of_time = "t_error";
+  of_columns[error_of_time] = in_units("time", units);
+  std::vector<std::string> columns = CsvReader(file).header();
+  const auto found = std::find(columns.begin(), columns.end(), error_of_time);
+  if (found != columns.end()) std::rotate(columns.begin() + 1, found, found + 1);
+  return csv_table(file, most_rows, columns, of_columns);
+}
+
+/// What the terminal calls a condition of the audit, and its unit.
+struct Condition {
+  const char *key, *name, *unit;
+};
+constexpr Condition conditions[] = {{"gap", "gap g < 0", "length"},
+                                    {"tension", "tension N > 0", "force"},
+                                    {"product", "both |g N|", "force length"},
+                                    {"penetration", "penetration", "length"},
+                                    {"friction", "friction |T| > T_U", "force"},
+                                    {"direction", "direction T p' < 0", "force length/time"},
+                                    {"equilibrium", "equilibrium", "force"},
+                                    {"reactions", "sum of reactions", "force"},
+                                    {"energy", "energy balance", "force length"}};
+
 std::string audit_table(const Json& summary) {
   std::string rows;
   const Json& audit = member(summary, "audit");
   for (const auto& [name, entry] : audit.items()) {
     if (!entry.is_object()) continue;
     const Json& contact = member(entry, "contact");
+    const auto known = std::find_if(std::begin(conditions), std::end(conditions),
+                                    [&](const Condition& c) { return name == c.key; });
+    const bool told = known != std::end(conditions);
+    const std::string unit = told ? " " + in_units(known->unit, member(summary, "units")) : "";
     rows += fmt::format(
         "<tr><td>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
-        html_text(name), html_text(value_text(member(entry, "relative"))),
-        html_text(value_text(member(entry, "value"))), html_text(value_text(member(entry, "t"))),
+        html_text(told ? known->name : name), html_text(value_text(member(entry, "relative"))),
+        html_text(value_text(member(entry, "value")) + unit), html_text(value_text(member(entry, "t"))),
         html_text(contact.is_null() ? "" : value_text(contact)));
   }
   if (rows.empty()) return "";
   return "<p>How well the run kept the conditions of contact, the equations and the energy balance: the "
          "greatest errors.</p>\n<div class=wide><table><thead><tr><th>condition</th><th>relative</th>"
-         "<th>absolute</th><th>at t</th><th>contact</th></tr></thead><tbody>\n" +
+         "<th>value</th><th>at t</th><th>contact</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";
 }
 
@@ -190,7 +239,7 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   const Json data = run_data(scene, directory);
   std::string body = section("summary", "Summary", run_facts(summary));
   body += part("player.html");
-  body += section("events", "Events", part("events.html") + csv_table(directory / "events.csv", most_rows));
+  body += section("events", "Events", part("events.html") + event_table(directory / "events.csv", summary));
   body += section("audit", "Audit", audit_table(summary));
   body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string()));
   body += section("check", "What check says", preformatted(check));

@@ -25,7 +25,7 @@ void CsvBlock::separate() {
 
 CsvBlock& CsvBlock::number(double value) {
   separate();
-  text_ += shortest(value);
+  text_ += shortest(value + 0.0);  // no negative zero
   return *this;
 }
 

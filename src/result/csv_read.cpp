@@ -1,6 +1,7 @@
 #include "result/csv_read.hpp"
 
 #include <algorithm>
+#include <cerrno>
 
 #include "base/csv_row.hpp"
 #include "base/input_file.hpp"
@@ -12,8 +13,9 @@ namespace signorini {
 CsvReader::CsvReader(const std::filesystem::path& path) : path_(path) {
   if (const std::string why = why_no_input_file(path); !why.empty())
     throw FileError(path.string(), why + ", expected a file");
+  errno = 0;
   file_.open(path, std::ios::binary);
-  if (!file_) throw FileError(path.string(), "cannot be read");
+  if (!file_) throw FileError(path.string(), "cannot be read" + because(errno));
   if (!read_csv_row(file_, header_)) throw FileError(path.string(), "is empty; expected a header row");
 }
 

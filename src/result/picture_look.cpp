@@ -17,6 +17,8 @@ namespace {
 
 constexpr double wide = 1120.0;                                           // pixels
 constexpr double pixels_a_mm = 96.0 / 25.4, dots_a_pixel = 300.0 / 96.0;  // PNG: 300 an inch
+constexpr double letter_height = 13.0;                                    // pixels
+constexpr double least_letter = 6.0 * 96.0 / 72.0;                        // 6 points, what journals ask for
 
 std::string white(const std::string& size, double font) {
   return fmt::format("size {} background '#ffffff' font 'DejaVu Sans,{:.4g}'", size, font);
@@ -62,25 +64,49 @@ void read_language(const std::string& text, PictureLook& look) {
   look.language = text;
 }
 
-Terminals terminals(const PictureLook& look, int height, bool over_time) {
-  const bool sized = look.width > 0.0;
-  const double width = sized ? look.width * pixels_a_mm : wide;
-  const double high = look.height > 0.0 && over_time ? look.height * pixels_a_mm : height * width / wide;
-  Terminals result;
-  // Panels, their margins and legends stand at fractions of the picture: letters a tenth larger would lose the time axis its name.
-  result.font = sized ? 1.05 * 13.0 * std::min(width / wide, high / height) : 13.0;
-  result.line = result.font / 13.0 / high;
+double Canvas::left() const { return (narrow() ? 96.0 : 112.0) / width; }
+
+double Canvas::right(double legend) const {
+  const double room = narrow() ? legend * 155.0 / usual_legend : legend;
+  return 1.0 - std::min(room / width, 0.5);
+}
+
+Canvas canvas_of(const PictureLook& look, double height, bool over_time, bool fixed) {
+  Canvas canvas;
+  canvas.height = height;
+  if (look.width <= 0.0) return canvas;
+  const double size = look.width * pixels_a_mm;
+  canvas.pixel = std::max(least_letter / letter_height, 1.05 * size / wide);
+  const double high = over_time ? look.height * pixels_a_mm : 0.0;
+  // Panels of less than half their height have no room for what stands beside them: smaller letters, then.
+  if (high > 0.0) canvas.pixel = std::min(canvas.pixel, high / (0.5 * height));
+  canvas.width = size / canvas.pixel;
+  if (high > 0.0) {
+    canvas.height = high / canvas.pixel;
+  } else if (!fixed) {
+    canvas.height *= std::sqrt(canvas.width / wide);
+  }
+  return canvas;
+}
+
+std::string terminals(const Canvas& canvas, bool sized) {
   const double dots = sized ? dots_a_pixel : 1.5;
   const auto size = [&](double scale) {
-    return fmt::format("{},{}", std::lround(width * scale), std::lround(high * scale));
+    return fmt::format("{},{}", std::lround(canvas.width * canvas.pixel * scale),
+                       std::lround(canvas.height * canvas.pixel * scale));
   };
-  result.text = fmt::format(
-      "if (format eq 'svg') {{ set terminal svg noenhanced {} }}\n"
-      "if (format eq 'png') {{ set terminal pngcairo noenhanced {} fontscale {:.4g} linewidth {:.4g} }}\n"
-      "if (format eq 'pdf') {{ set terminal pdfcairo noenhanced {} }}\n",
-      white(size(1.0), result.font), white(size(dots), result.font), 1.3 / 1.5 * dots, dots,
-      white(fmt::format("{:.3f}in,{:.3f}in", width / 96.0, high / 96.0), 0.75 * result.font));
-  return result;
+  const double font = canvas.font(letter_height), line = canvas.pixel;
+  return fmt::format(
+      "if (format eq 'svg') {{ set terminal svg noenhanced {} linewidth {:.4g} }}\n"
+      "if (format eq 'png') {{ set terminal pngcairo noenhanced {} fontscale {:.4g} linewidth {:.4g} "
+      "pointscale {:.4g} }}\n"
+      "if (format eq 'pdf') {{ set terminal pdfcairo noenhanced {} linewidth {:.4g} pointscale {:.4g} }}\n",
+      white(size(1.0), font), line, white(size(dots), font), 1.3 / 1.5 * dots, dots * line,
+      sized ? line : 1.0,
+      white(fmt::format("{:.3f}in,{:.3f}in", canvas.width * canvas.pixel / 96.0,
+                        canvas.height * canvas.pixel / 96.0),
+            0.75 * font),
+      line, line);
 }
 
 }  // namespace signorini

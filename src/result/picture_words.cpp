@@ -69,7 +69,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"slid by ({}, {}) {}, deformation", "verschoben um ({}, {}) {}, Verformung", "сдвиг на ({}, {}) {}, деформация"},
     std::array<std::string_view, 3>{"displacements", "Verschiebungen", "перемещения"},
     std::array<std::string_view, 3>{"in true scale", "maßstäblich", "в масштабе"},
-    std::array<std::string_view, 3>{"magnified {} times", "{}-fach vergrößert", "увеличено в {} раз"},
+    std::array<std::string_view, 3>{"magnified {} times", "{}-fach vergrößert", "увеличение в {} раз"},
     std::array<std::string_view, 3>{"longest arrow of the run: {} {}", "längster Pfeil des Laufs: {} {}", "наибольшая стрелка расчёта: {} {}"},
     std::array<std::string_view, 3>{" (run {})", " (Lauf {})", " (расчёт {})"},
     std::array<std::string_view, 3>{"stopped", "abgebrochen", "остановлен"},

@@ -11,16 +11,19 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_panels = 20;
+constexpr double least_panel = 130.0, small_panel = 300.0;  // pixels, with what stands beside it
 
 struct Grid {
   std::size_t columns = 1, rows = 1;
 };
 
-Grid grid_for(std::size_t panels) {
+/// No more panels beside each other than `most`.
+Grid grid_for(std::size_t panels, std::size_t most) {
   Grid grid;
   grid.columns = panels <= 3
                      ? panels
                      : static_cast<std::size_t>(std::ceil(std::sqrt(1.25 * static_cast<double>(panels))));
+  grid.columns = std::clamp<std::size_t>(grid.columns, 1, most);
   grid.rows = (panels + grid.columns - 1) / grid.columns;
   return grid;
 }
@@ -73,16 +76,20 @@ std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
   return plot_command(elements);
 }
 
+bool rubs(const PlottedRun& run, std::size_t k) { return run.facts.contacts[k].static_friction != 0.0; }
+
 /// The legend in a panel of its own without axes.
-std::string legend(const PlottedRun& run, double top) {
-  std::string s = "set lmargin at screen 0.86\nset rmargin at screen 0.99\n";
-  s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", top - 0.3, top);
+std::string legend(const PlottedRun& run, const Canvas& canvas, double top) {
+  const double left = canvas.right() + 10.0 / canvas.width;
+  std::string s =
+      fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen 0.99\n", std::min(left, 0.95));
+  s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", 0.5 * top, top);
   s += "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset label\nunset grid\n";
   s += "set xrange [0:1]\nset yrange [0:1]\n";
   s += fmt::format(
-      "set key at screen 0.85,{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 "
-      "spacing 1.15 font ',11' noautotitle noenhanced\n",
-      top);
+      "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 "
+      "spacing 1.15 font ',{:.4g}' noautotitle noenhanced\n",
+      left, top, canvas.font(11.0));
   std::vector<std::string> elements = {"2 notitle",  // entries of a legend alone are no plot to gnuplot
                                        "keyentry with lines linecolor '#c0182b' linewidth 1.2 title '±f|N|'"};
   for (const auto& contact : run.facts.contacts) {
@@ -92,19 +99,21 @@ std::string legend(const PlottedRun& run, double top) {
     break;
   }
   for (const std::string& state : state_names()) {
-    const bool occurs = std::any_of(run.bands.begin(), run.bands.end(), [&](const auto& bands) {
-      return std::any_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; });
-    });
+    bool occurs = false;
+    for (std::size_t k = 0; k < run.bands.size(); ++k)
+      occurs = occurs || (rubs(run, k) && std::any_of(run.bands[k].begin(), run.bands[k].end(),
+                                                      [&](const auto& b) { return b.state == state; }));
     if (occurs && state != "open" && state != "closed")
       elements.push_back("keyentry with points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) +
                          "' title " + quoted(say(run, state)));
   }
-  for (const std::string& event : run.event_types)
-    for (const EventLook& look : event_looks)
-      if (event == to_string(look.type))
-        elements.push_back(
-            fmt::format("keyentry with points pointtype 6 pointsize 0.9 linecolor '{}' title {}", look.colour,
-                        quoted(say(run, "event") + ": " + say(run, event))));
+  for (const EventLook& look : event_looks) {
+    const auto drawn = [&](const auto& e) { return e.second == to_string(look.type) && rubs(run, e.first); };
+    const std::string event = to_string(look.type);
+    if (std::any_of(run.occurring.begin(), run.occurring.end(), drawn))
+      elements.push_back(fmt::format("keyentry with points pointtype 6 pointsize 0.9 linecolor '{}' title {}",
+                                     look.colour, quoted(say(run, "event") + ": " + say(run, event))));
+  }
   return s + plot_command(elements);
 }
 
@@ -114,30 +123,38 @@ std::string cone_script(const PlottedRun& run) {
   std::vector<std::size_t> shown;
   std::size_t rubbing = 0;
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
-    if (run.facts.contacts[k].static_friction == 0.0) continue;
+    if (!rubs(run, k)) continue;
     if (++rubbing <= most_panels) shown.push_back(k);
   }
   if (shown.empty()) return "";
-  const Grid grid = grid_for(shown.size());
-  const bool small = grid.columns > 2;
-  const int panel_height = grid.columns == 1 ? 560 : grid.columns == 2 ? 400 : grid.columns == 3 ? 300 : 200;
-  const int height = 90 + static_cast<int>(grid.rows) * (panel_height + 70);
+  Canvas canvas = canvas_of(run.look, 0.0, false);
+  const double room = canvas.width * (canvas.right() - canvas.left());
+  const Grid grid =
+      grid_for(shown.size(), std::max<std::size_t>(1, static_cast<std::size_t>(room / least_panel)));
+  const bool small = grid.columns > 2 || room / static_cast<double>(grid.columns) < small_panel;
+  const double panel_height = std::min(grid.columns == 1   ? 560.0
+                                       : grid.columns == 2 ? 400.0
+                                       : grid.columns == 3 ? 300.0
+                                                           : 200.0,
+                                       1.3 * room / static_cast<double>(grid.columns));
+  constexpr double between = 70.0, above = 92.0;
+  canvas.height = std::round(above - 2.0 + static_cast<double>(grid.rows) * (panel_height + between));
   const std::string part =
       rubbing > shown.size() ? " (" + say(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
   std::string s = begin_script(run, {"cone",
                                      say(run, "Contact forces and friction cones") + part + ": " +
                                          say(run, "inside sticks, on its edge slips"),
-                                     height});
+                                     canvas});
   s += colour_functions() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
-  if (small) s += "set tics font ',10'\n";
-  const double line = 1.0 / height, left = 0.09, right = 0.845;
+  if (small) s += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
+  const double line = 1.0 / canvas.height, left = canvas.left(), right = canvas.right();
   const double width = (right - left) / static_cast<double>(grid.columns);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const std::size_t column = i % grid.columns, row = i / grid.columns;
-    const double top = 1.0 - line * (92.0 + static_cast<double>(row) * (panel_height + 70));
+    const double top = 1.0 - line * (above + static_cast<double>(row) * (panel_height + between));
     const double from = left + width * static_cast<double>(column);
     s += fmt::format("\nset lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", from,
-                     from + width - (grid.columns > 1 ? 0.055 : 0.0));
+                     from + width - (grid.columns > 1 ? 60.0 / canvas.width : 0.0));
     s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
                      top - panel_height * line, top);
     const auto& contact = run.facts.contacts[shown[i]];
@@ -146,7 +163,8 @@ std::string cone_script(const PlottedRun& run) {
             ? fmt::format(", f = {:.4g}", contact.static_friction)
             : fmt::format(", f = {:.4g} and {:.4g}", contact.static_friction, contact.kinetic_friction);
     s += "set label 3 " + quoted(contact.name + f) +
-         fmt::format(" at graph 0,1 left offset character 0,0.8 font ',{}'\n", small ? 10 : 13);
+         fmt::format(" at graph 0,1 left offset character 0,0.8 font ',{:.4g}'\n",
+                     canvas.font(small ? 10.0 : 13.0));
     const double greatest = run.greatest_compression[shown[i]];
     const double most = greatest > 0.0 ? 1.08 * greatest : 1.0;
     s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", shortest(most),
@@ -165,7 +183,7 @@ std::string cone_script(const PlottedRun& run) {
                      : "unset ylabel\n";
     s += panel_of(run, shown[i], small);
   }
-  s += "\n" + legend(run, 1.0 - 92.0 * line);
+  s += "\n" + legend(run, canvas, 1.0 - above * line);
   s += "set border 3\nset tics\nset grid\n";
   return s + end_script();
 }

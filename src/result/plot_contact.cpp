@@ -29,70 +29,101 @@ class ContactScript {
         k_(k),
         contact_(run.facts.contacts[k]),
         units_(run.facts.units),
-        data_(contact_rows(run, k)) {}
+        data_(contact_rows(run, k)),
+        ranges_(run.ranges[k]),
+        scales_(scales_of(run.ranges)) {}
 
+  /// From the top: states, N, T (not without friction), gap (none for sliders), motion along the tangent.
   [[nodiscard]] std::string text() const {
-    // From the top, as parts of the height: states, N, T, gap (none for sliders), sliding.
-    const bool slider = contact_.slider;
-    const std::vector<double> edges = slider ? std::vector<double>{0.885, 0.635, 0.345, 0.0, 0.075}
-                                             : std::vector<double>{0.905, 0.715, 0.49, 0.285, 0.065};
-    const std::vector<double> tops = slider ? std::vector<double>{0.915, 0.86, 0.61, 0.0, 0.32}
-                                            : std::vector<double>{0.93, 0.885, 0.695, 0.47, 0.265};
-    std::string s =
-        begin_script(run_, {"contact-" + run_.slugs[k_] + run_.suffix,
-                            say(run_, "Contact '{}'", contact_.name) + ", " + friction_text(run_, contact_),
-                            slider ? 860 : 1040});
-    s += states(edges[0], tops[0]) + normal_force(edges[1], tops[1]) + friction_force(edges[2], tops[2]);
-    if (!slider) s += gap(edges[3], tops[3]);
-    return s + sliding(edges[4], tops[4]) + end_script();
+    const std::vector<Part> rows = parts();
+    constexpr double space = 21.0;
+    double height = room_above + room_below - space;
+    std::vector<double> weights;
+    for (const Part& row : rows) {
+      weights.push_back(row.weight);
+      height += row.weight + space;
+    }
+    const Canvas canvas = canvas_of(run_.look, height, true);
+    const std::vector<PanelEdges> edges = stacked(weights, canvas, space);
+    std::string s = begin_script(
+        run_, {"contact-" + run_.slugs[k_] + run_.suffix,
+               say(run_, "Contact '{}'", contact_.name) + ", " + friction_text(run_, contact_), canvas});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      s += panel(run_, canvas, edges[i], rows[i].axis, i + 1 == rows.size()) + (this->*rows[i].plot)();
+    return s + end_script();
   }
 
  private:
-  [[nodiscard]] std::string states(double bottom, double top) const {
-    return panel(run_, bottom, top, "", false) + "unset ytics\nset grid noxtics noytics\nset yrange [0:1]\n" +
+  struct Part {
+    double weight;     ///< of the height
+    std::string axis;  ///< its name
+    std::string (ContactScript::*plot)() const;
+  };
+
+  [[nodiscard]] std::vector<Part> parts() const {
+    const std::string force = " [" + units_.force + "]", length = "[" + units_.length + "]";
+    const bool rubs = contact_.static_friction > 0.0;
+    std::vector<Part> list = {{26.0, "", &ContactScript::states},
+                              {177.0, "N" + force, &ContactScript::normal_force}};
+    if (rubs) list.push_back({213.0, "T" + force, &ContactScript::friction_force});
+    // On its own scale: a lift-off is small beside the sliding.
+    if (!contact_.slider) list.push_back({192.0, "g " + length, &ContactScript::gap});
+    // A wheel or a guide moves along its tangent, too; one that only rounding moves says nothing there.
+    if (rubs || !is_rounding(ranges_.ut, scales_.length))
+      list.push_back({208.0, length, &ContactScript::sliding});
+    return list;
+  }
+
+  [[nodiscard]] std::string states() const {
+    return "unset ytics\nset grid noxtics noytics\nset yrange [0:1]\n" +
            plot_command(band_elements(run_, k_, 1.0)) + "set grid xtics ytics\n";
   }
 
-  [[nodiscard]] std::string normal_force(double bottom, double top) const {
+  [[nodiscard]] std::string normal_force() const {
     auto elements = bands();
     elements.push_back(curve(8, "#1a1a1a", "N"));
     const auto legend = band_legend(run_, k_);
     elements.insert(elements.end(), legend.begin(), legend.end());
     // N <= 0; a constant one stands below zero
-    return panel(run_, bottom, top, "N [" + units_.force + "]", false) + "set yrange [*:0] noextend\n" +
-           plot_command(elements);
+    const bool none = is_rounding(ranges_.N, scales_.force);
+    return (none ? steady(ranges_.N, scales_.force) : "set yrange [*:0] noextend\n") + plot_command(elements);
   }
 
-  [[nodiscard]] std::string friction_force(double bottom, double top) const {
+  [[nodiscard]] std::string friction_force() const {
     auto elements = bands();
-    if (contact_.static_friction > 0.0) {
-      const bool one = contact_.static_friction == contact_.kinetic_friction;
-      const std::string red = "linecolor '#c0182b' linewidth 1.0";
-      const auto outer = limit_elements(data_, contact_.static_friction,
-                                        say(run_, one ? "limits" : "static") + " ±f|N|", red);
-      elements.insert(elements.end(), outer.begin(), outer.end());
-      if (!one) {
-        const auto inner = limit_elements(data_, contact_.kinetic_friction,
-                                          say(run_, "kinetic limit") + " ±f|N|", red + " dashtype 2");
-        elements.insert(elements.end(), inner.begin(), inner.end());
-      }
+    const bool one = contact_.static_friction == contact_.kinetic_friction;
+    const std::string red = "linecolor '#c0182b' linewidth 1.0";
+    const auto outer =
+        limit_elements(data_, contact_.static_friction, say(run_, one ? "limits" : "static") + " ±f|N|", red);
+    elements.insert(elements.end(), outer.begin(), outer.end());
+    if (!one) {
+      const auto inner = limit_elements(data_, contact_.kinetic_friction,
+                                        say(run_, "kinetic limit") + " ±f|N|", red + " dashtype 2");
+      elements.insert(elements.end(), inner.begin(), inner.end());
     }
     elements.push_back(curve(9, "#1a1a1a", "T"));
-    return panel(run_, bottom, top, "T [" + units_.force + "]", false) + plot_command(elements);
+    Range range = ranges_.T;
+    const double limit = contact_.static_friction * ranges_.N.size();
+    range.take(limit);
+    range.take(-limit);
+    return steady(range, scales_.force) + plot_command(elements);
   }
 
-  /// On its own scale: a lift-off is small beside the sliding.
-  [[nodiscard]] std::string gap(double bottom, double top) const {
+  [[nodiscard]] std::string gap() const {
     auto elements = bands();
     elements.push_back(curve(4, "#2166ac", say(run_, "gap g")));
-    return panel(run_, bottom, top, "g [" + units_.length + "]", false) + plot_command(elements);
+    return steady(ranges_.gap, scales_.length) + plot_command(elements);
   }
 
-  [[nodiscard]] std::string sliding(double bottom, double top) const {
+  [[nodiscard]] std::string sliding() const {
     auto elements = bands();
     elements.push_back(curve(5, "#1a1a1a", say(run_, "motion ut")));
-    elements.push_back(curve(7, "#b35806", say(run_, "slip p"), " dashtype 2"));
-    return panel(run_, bottom, top, "[" + units_.length + "]", true) + plot_command(elements);
+    Range range = ranges_.ut;
+    if (contact_.static_friction > 0.0) {
+      elements.push_back(curve(7, "#b35806", say(run_, "slip p"), " dashtype 2"));
+      range.take(ranges_.slip);
+    }
+    return steady(range, scales_.length) + plot_command(elements);
   }
 
   [[nodiscard]] std::vector<std::string> bands() const { return band_elements(run_, k_, 0.28); }
@@ -108,6 +139,8 @@ class ContactScript {
   const RunFacts::Contact& contact_;
   const Units& units_;
   std::string data_;
+  const ContactRanges& ranges_;
+  ContactScales scales_;
 };
 
 }  // namespace
@@ -116,10 +149,10 @@ std::string contact_script(const PlottedRun& run, std::size_t k) { return Contac
 
 std::string states_script(const PlottedRun& run) {
   const std::size_t count = run.facts.contacts.size();
-  const int height = 150 + static_cast<int>(34 * count);
-  std::string s = begin_script(run, {"states", say(run, "States of the contacts"), height});
-  const double line = 1.0 / height;
-  s += panel(run, 62.0 * line, 1.0 - 64.0 * line, "", true);
+  const Canvas canvas =
+      canvas_of(run.look, room_above + room_below + 24.0 + 34.0 * static_cast<double>(count), true, true);
+  std::string s = begin_script(run, {"states", say(run, "States of the contacts"), canvas});
+  s += panel(run, canvas, stacked(0, 1, canvas), "", true);
   s += fmt::format("set yrange [{}.5:-0.5]\nset y2range [{}.5:-0.5]\nset grid noxtics noytics\n", count - 1,
                    count - 1);
   s += "set ytics (";

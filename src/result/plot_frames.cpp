@@ -58,26 +58,25 @@ std::string force_table(const Frame& frame, const FrameScales& scales) {
 }
 
 struct Layout {
-  int height = 0;
-  double x0, x1, y0, y1, bottom, top;
+  Canvas canvas;
+  double x0, x1, y0, y1;
 };
 
 /// Equal scales in both directions: the picture's height follows from the shape.
-Layout layout_of(const FrameScales& scales) {
-  constexpr double width = (panel_right - panel_left) * picture_width;
-  constexpr double air = 0.09, room_above = 66.0, room_below = 60.0;
+Layout layout_of(const FrameScales& scales, const PlottedRun& run) {
+  constexpr double air = 0.09;
   const double size = std::max({scales.x1 - scales.x0, scales.y1 - scales.y0, 1e-300});
   Layout l;
+  l.canvas = canvas_of(run.look, 0.0, false);
+  const double width = (l.canvas.right(run.legend) - l.canvas.left()) * l.canvas.width;
   l.x0 = scales.x0 - air * size, l.x1 = scales.x1 + air * size;
   l.y0 = scales.y0 - air * size, l.y1 = scales.y1 + air * size;
-  const double panel = std::clamp(width * (l.y1 - l.y0) / (l.x1 - l.x0), 220.0, 640.0);
+  const double panel = std::clamp(width * (l.y1 - l.y0) / (l.x1 - l.x0), std::min(220.0, width), 640.0);
   const double wider = (l.y1 - l.y0) * width / panel, higher = (l.x1 - l.x0) * panel / width;
   const double dx = std::max(0.0, wider - (l.x1 - l.x0)), dy = std::max(0.0, higher - (l.y1 - l.y0));
   l.x0 -= 0.5 * dx, l.x1 += 0.5 * dx;
   l.y0 -= 0.5 * dy, l.y1 += 0.5 * dy;
-  l.height = static_cast<int>(panel + room_above + room_below);
-  l.bottom = room_below / l.height;
-  l.top = 1.0 - room_above / l.height;
+  l.canvas.height = std::round(panel + room_above + room_below);
   return l;
 }
 
@@ -107,9 +106,9 @@ std::string labels(const Frame& frame, const FrameScales& scales, const Layout& 
                        : part > 0.75 ? "right"  // text ends inside the panel
                        : part < 0.2  ? "left"
                                      : "center";
-    s += fmt::format("set label {} at {},{} {} offset character {:.2f},{:.2f} front font ',{}'\n",
+    s += fmt::format("set label {} at {},{} {} offset character {:.2f},{:.2f} front font ',{:.4g}'\n",
                      signorini::quoted(text), shortest(x), shortest(y), side, 0.8 * dx, 0.9 * dy,
-                     figures ? 11 : 9);
+                     l.canvas.font(figures ? 11.0 : 9.0));
   }
   return s;
 }
@@ -192,10 +191,10 @@ std::vector<std::string> force_elements(const Frame& frame, const std::string& n
 
 std::string script_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
                       const std::string& name) {
-  const Layout l = layout_of(scales);
+  const Layout l = layout_of(scales, run);
   const Units& units = run.facts.units;
-  std::string s = begin_script(run, {name, subtitle(frame, scales, run), l.height, false});
-  s += panel(run, l.bottom, l.top, "y [" + units.length + "]", true);
+  std::string s = begin_script(run, {name, subtitle(frame, scales, run), l.canvas, false});
+  s += panel(run, l.canvas, stacked(0, 1, l.canvas), "y [" + units.length + "]", true);
   s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
   s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
                    shortest(l.y1));

@@ -20,14 +20,15 @@ std::string loads_script(const PlottedRun& run, const std::vector<std::string>& 
   }
   if (forces.empty() && base.empty()) return "";
   const Units& units = run.facts.units;
-  std::string s = begin_script(run, {"loads", say(run, "Loads and motion of the base"), 560});
+  const Canvas canvas = canvas_of(run.look, 568, true);
+  std::string s = begin_script(run, {"loads", say(run, "Loads and motion of the base"), canvas});
   const bool both = !forces.empty() && !base.empty();
   if (!forces.empty()) {
-    s += panel(run, both ? 0.53 : 0.11, 0.88, "[" + units.force + "]", !both);
+    s += panel(run, canvas, stacked(0, both ? 2 : 1, canvas), "[" + units.force + "]", !both);
     s += plot_command(forces);
   }
   if (!base.empty()) {
-    s += panel(run, 0.11, both ? 0.49 : 0.88,
+    s += panel(run, canvas, stacked(both ? 1 : 0, both ? 2 : 1, canvas),
                say(run, "acceleration") + " [" + units.length + "/" + units.time + "²]", true);
     s += plot_command(base);
   }

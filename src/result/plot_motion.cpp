@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name; curves.csv has them
 
+constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
+
 constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
                                                 "#e7298a", "#666666", "#a6761d", "#17becf"};
 
@@ -34,6 +36,7 @@ struct PlottedLine {
 struct PanelOfLines {
   std::string key, label;  ///< key: what its lines have in common
   std::vector<PlottedLine> lines;
+  std::string axis = "";  ///< where gnuplot would not find a good one
 };
 
 std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
@@ -49,6 +52,16 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
       const TableColumn curve = curve_of(run, "history.csv", name, i + 1);
       p.lines.push_back({name.substr(0, name.size() - p.key.size()), curve.data, curve.number});
     }
+  double greatest = 0.0;
+  for (const auto& [name, range] : run.moves)
+    if (!ends_with(name, ".rz")) greatest = std::max(greatest, range.size());
+  for (PanelOfLines& p : panels) {
+    Range all;
+    for (const PlottedLine& line : p.lines)
+      if (const auto found = run.moves.find(line.title + p.key); found != run.moves.end())
+        all.take(found->second);
+    p.axis = steady(all, p.key == ".rz" ? turn : greatest);
+  }
   panels.erase(
       std::remove_if(panels.begin(), panels.end(), [](const PanelOfLines& p) { return p.lines.empty(); }),
       panels.end());
@@ -76,16 +89,16 @@ std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
 std::string script_of_lines(const PlottedRun& run, Picture picture, const std::vector<PanelOfLines>& panels) {
   if (panels.empty()) return "";
   const int count = static_cast<int>(panels.size());
-  picture.height = 120 + (count == 1 ? 480 : 290 * count);
+  picture.canvas = canvas_of(run.look, 132 + (count == 1 ? 480 : 290 * count), true);
+  const Canvas& canvas = picture.canvas;
   std::string s = begin_script(run, picture);
   s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
   s += "unset colorbox\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const PanelOfLines& p = panels[i];
-    const auto [bottom, top] = stacked(i, panels.size(), picture.height);
-    s += panel(run, bottom, top, p.label, i + 1 == panels.size());
+    s += panel(run, canvas, stacked(i, panels.size(), canvas), p.label, i + 1 == panels.size()) + p.axis;
     const std::size_t shown = std::min(p.lines.size(), most_curves);
-    if (shown > 12) s += "set key spacing 0.9 font ',10'\n";
+    if (shown > 12) s += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
     std::vector<std::string> elements;
     for (std::size_t j = 0; j < shown; ++j)
       elements.push_back(
@@ -104,12 +117,12 @@ std::string script_of_lines(const PlottedRun& run, Picture picture, const std::v
 }  // namespace
 
 std::string displacement_script(const PlottedRun& run) {
-  return script_of_lines(run, {"displacement", say(run, "Displacements from the undeformed state")},
+  return script_of_lines(run, {"displacement", say(run, "Displacements from the undeformed state"), {}},
                          displacement_panels(run));
 }
 
 std::string response_script(const PlottedRun& run) {
-  return script_of_lines(run, {"response", say(run, "Response quantities")}, response_panels(run));
+  return script_of_lines(run, {"response", say(run, "Response quantities"), {}}, response_panels(run));
 }
 
 std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start) {
@@ -124,9 +137,11 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
       {"work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
   }};
   const std::string unit = run.facts.units.force + " " + run.facts.units.length;
+  const Canvas canvas = canvas_of(run.look, 768, true);
+  const std::vector<PanelEdges> edges = stacked({0.72, 0.28}, canvas, 27.0);
   std::string s =
-      begin_script(run, {"energy", say(run, "Where the energy is, where it went, and the balance"), 760});
-  s += panel(run, 0.34, 0.915, say(run, "energy") + " [" + unit + "]", false);
+      begin_script(run, {"energy", say(run, "Where the energy is, where it went, and the balance"), canvas});
+  s += panel(run, canvas, edges[0], say(run, "energy") + " [" + unit + "]", false);
   std::vector<std::string> elements;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!used[i + 1]) continue;
@@ -138,7 +153,7 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
   if (elements.empty())
     elements.push_back(balance.data + " using 1:(0) with lines title " + quoted(say(run, "kinetic")));
   s += plot_command(elements);
-  s += panel(run, 0.08, 0.305, say(run, "balance off by") + " [" + unit + "]", true);
+  s += panel(run, canvas, edges[1], say(run, "balance off by") + " [" + unit + "]", true);
   s += "set format y '%.1e'\n";
   s +=
       plot_command({fmt::format("{} using 1:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",

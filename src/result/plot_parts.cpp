@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/number.hpp"
 #include "result/picture_words.hpp"
@@ -56,16 +57,26 @@ TableColumn curve_of(const PlottedRun& run, const std::string& table, const std:
   return {quoted("../" + table) + " skip 1" + every(run, 1, 0), number};
 }
 
-PanelEdges stacked(std::size_t i, std::size_t count, int height, double margin, double space) {
-  const double bottom = margin / height, top = 1.0 - 62.0 / height, apart = space / height;
-  const double each = (top - bottom - apart * static_cast<double>(count - 1)) / static_cast<double>(count);
-  const double upper = top - static_cast<double>(i) * (each + apart);
-  return {upper - each, upper};
+std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas, double space) {
+  const double all =
+      canvas.height - room_above - room_below - space * static_cast<double>(weights.size() - 1);
+  const double each = all / std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<PanelEdges> panels;
+  double top = canvas.height - room_above;
+  for (const double weight : weights) {
+    panels.push_back({(top - each * weight) / canvas.height, top / canvas.height});
+    top -= each * weight + space;
+  }
+  return panels;
+}
+
+PanelEdges stacked(std::size_t i, std::size_t count, const Canvas& canvas, double space) {
+  return stacked(std::vector<double>(count, 1.0), canvas, space)[i];
 }
 
 namespace {
 
-// Letters of legends are some 8.8 of the picture's 1120 points wide, in front of them a line of 55.
+// Letters of legends are some 8.8 pixels wide, in front of them a line of 55.
 constexpr double letter = 8.8, line_of_legend = 55.0;
 constexpr std::size_t longest_name = 44;
 
@@ -84,11 +95,22 @@ std::string legend_name(const std::string& name) {
 double room_for(const std::vector<std::string>& names) {
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, legend_name(name).size());
-  return std::min(panel_right,
-                  1.0 - (line_of_legend + letter * static_cast<double>(longest)) / picture_width);
+  return std::max(Canvas::usual_legend, line_of_legend + letter * static_cast<double>(longest));
 }
 
 std::string say(const PlottedRun& run, std::string_view english) { return say(run.look.language, english); }
+
+namespace {
+
+/// A line's letters, smaller where it would not fit: some 0.62 of their height wide.
+double heading(const Canvas& canvas, const std::string& text, double size) {
+  const auto letters = std::count_if(text.begin(), text.end(),
+                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  const double wide = 0.62 * size * static_cast<double>(letters), room = canvas.width * (1.0 - canvas.left());
+  return canvas.font(size) * std::clamp(room / std::max(wide, 1.0), 0.6, 1.0);
+}
+
+}  // namespace
 
 std::string begin_script(const PlottedRun& run, const Picture& picture) {
   const std::string title = run.facts.title.empty() ? "Signorini" : run.facts.title;
@@ -108,17 +130,19 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
   std::string formats;
   for (const std::string& format : run.look.formats) formats += (formats.empty() ? "" : " ") + format;
   s += "do for [format in '" + formats + "'] {\n";
-  const Terminals size = terminals(run.look, picture.height, picture.over_time);
-  s += size.text;
+  const Canvas& canvas = picture.canvas;
+  s += terminals(canvas, run.look.width > 0.0);
   s += "set output " + quoted(picture.name + ".") + ".format\n";
   s += "set multiplot\n";
   if (run.look.title) {
-    s += fmt::format("set label 1 {} at screen {},{:.4f} left font ',{:.4g}'\n", quoted(title + note),
-                     panel_left, 1.0 - 24.0 * size.line, size.font * 15.0 / 13.0);
-    s += fmt::format("set label 2 {} at screen {},{:.4f} left textcolor '#666666'\n",
-                     quoted(picture.subtitle), panel_left, 1.0 - 46.0 * size.line);
+    s += fmt::format("set label 1 {} at screen {:.4f},{:.4f} left font ',{:.4g}'\n", quoted(title + note),
+                     canvas.left(), 1.0 - 24.0 / canvas.height, heading(canvas, title + note, 15.0));
+    s += fmt::format("set label 2 {} at screen {:.4f},{:.4f} left textcolor '#666666' font ',{:.4g}'\n",
+                     quoted(picture.subtitle), canvas.left(), 1.0 - 46.0 / canvas.height,
+                     heading(canvas, picture.subtitle, 13.0));
   }
-  s += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", panel_left, run.right);
+  s += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", canvas.left(),
+                   canvas.right(run.legend));
   s += "set border 3 linecolor '#555555'\nset tics nomirror out scale 0.6\n";
   s += "set grid front linetype 1 linewidth 0.5 linecolor '#c8909090'\n";
   if (picture.over_time) s += "set xrange [from:to]\nset offsets 0,0,graph 0.03,graph 0.03\n";
@@ -133,16 +157,18 @@ std::string begin_script(const PlottedRun& run, const Picture& picture) {
 
 std::string end_script() { return "unset multiplot\nunset output\n}\n"; }
 
-std::string panel(const PlottedRun& run, double bottom, double top, const std::string& label, bool last) {
-  std::string s = fmt::format("\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", bottom, top);
+std::string panel(const PlottedRun& run, const Canvas& canvas, const PanelEdges& edges,
+                  const std::string& label, bool last) {
+  std::string s =
+      fmt::format("\nset bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", edges.bottom, edges.top);
   s += fmt::format(
       "set ylabel {} offset character 0.5,0\nset yrange [*:*] noextend\nset ytics nomirror out scale 0.6 "
       "autofreq\nset format y '%g'\n",
       quoted(label));
   s += fmt::format(
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 spacing 1.15 "
-      "noautotitle noenhanced\n",
-      run.right + 0.012, top + 0.008);
+      "noautotitle noenhanced font ',{:.4g}'\n",
+      canvas.right(run.legend) + 13.0 / canvas.width, edges.top + 8.0 / canvas.height, canvas.legend_font());
   if (last) {
     s += "set format x '%g'\nset xlabel " + quoted(say(run, "time t") + " [" + run.facts.units.time + "]") +
          "\n";
@@ -154,7 +180,8 @@ std::string panel(const PlottedRun& run, double bottom, double top, const std::s
 
 std::string state_colour(const std::string& state) {
   if (state == "open") return "#bcd3e6";
-  if (state == "stick" || state == "closed") return "#5aae61";
+  if (state == "stick") return "#5aae61";
+  if (state == "closed") return "#35978f";
   if (state == "slip+") return "#f1a340";
   if (state == "slip-") return "#8e6bbf";
   return "#999999";

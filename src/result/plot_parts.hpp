@@ -9,18 +9,21 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "result/picture_look.hpp"
+#include "result/plot_ranges.hpp"
 #include "result/summary.hpp"
 
 namespace signorini {
 
-/// Where panels begin and end, as fractions of the picture's width; the legend stands to the right.
-inline constexpr double panel_left = 0.1, panel_right = 0.835;
-inline constexpr int picture_width = 1120;
+/// Pixels of a canvas above the panels, for title and subtitle, and below them, for the axis and its name.
+inline constexpr double room_above = 62.0, room_below = 70.0;
 
 /// A run as the pictures see it.
 struct PlottedRun {
@@ -38,19 +41,22 @@ struct PlottedRun {
     std::string state;
   };
   std::vector<std::vector<Band>> bands;
-  std::vector<std::string> event_types;      ///< those that occur
-  std::vector<double> greatest_compression;  ///< -N in the tables, one a contact
-  double greatest_force = 0.0;               ///< |(N, T)| of any contact
+  std::vector<std::string> event_types;                     ///< those that occur
+  std::set<std::pair<std::size_t, std::string>> occurring;  ///< of which contact which
+  std::vector<double> greatest_compression;                 ///< -N in the tables, one a contact
+  double greatest_force = 0.0;                              ///< |(N, T)| of any contact
   /// Rows of a contact in motion.csv; none in runs that have no such table.
   struct Rows {
     std::size_t first = 0, count = 0;
   };
   std::vector<Rows> motion;
-  std::vector<std::string> curves;  ///< columns of curves.csv; none in runs that have no such table
-  double right = panel_right;       ///< where its panels end
+  std::vector<std::string> curves;       ///< columns of curves.csv; none in runs that have no such table
+  double legend = Canvas::usual_legend;  ///< pixels beside its panels
+  std::vector<ContactRanges> ranges;     ///< of the time shown, one a contact
+  std::map<std::string, Range> moves;    ///< of the displacements, by name of the column
 };
 
-/// Where panels end that leave room for these names in the legend, no longer than legend_name() makes them.
+/// Pixels of a legend with these names, no longer than legend_name() makes them.
 [[nodiscard]] double room_for(const std::vector<std::string>& names);
 /// A name that is too long for a legend without its middle.
 [[nodiscard]] std::string legend_name(const std::string& name);
@@ -83,27 +89,29 @@ struct TableColumn {
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
                                    std::size_t number);
 
-/// Lower and upper edge of the i-th of `count` panels above each other, as fractions of the picture's height; margin
-/// below all and space between, in points.
+/// Lower and upper edge of a panel, as fractions of the picture's height.
 struct PanelEdges {
   double bottom = 0.0, top = 1.0;
 };
-[[nodiscard]] PanelEdges stacked(std::size_t i, std::size_t count, int height, double margin = 58.0,
-                                 double space = 22.0);
+/// The i-th of `count` equal ones above each other; `space` between them in pixels.
+[[nodiscard]] PanelEdges stacked(std::size_t i, std::size_t count, const Canvas& canvas, double space = 22.0);
+/// Panels above each other, as high as these weights are to each other.
+[[nodiscard]] std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas,
+                                              double space = 22.0);
 
 /// Size and headings of a picture.
 struct Picture {
   std::string name;      ///< of its files
   std::string subtitle;  ///< below the run's title
-  int height = 760;      ///< points, of a width of 1120
+  Canvas canvas;
   bool over_time = true;
 };
 [[nodiscard]] std::string begin_script(const PlottedRun& run, const Picture& picture);
 [[nodiscard]] std::string end_script();
 
-/// Axes of a panel between two heights (fractions of the picture); the last one carries the time axis.
-[[nodiscard]] std::string panel(const PlottedRun& run, double bottom, double top, const std::string& label,
-                                bool last);
+/// Axes of a panel; the last one carries the time axis.
+[[nodiscard]] std::string panel(const PlottedRun& run, const Canvas& canvas, const PanelEdges& edges,
+                                const std::string& label, bool last);
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
 /// States in the order of legends.

@@ -59,11 +59,11 @@ std::string raster_script(const PlottedRun& run) {
   if (lanes.empty()) return "";
   const std::size_t count = run.facts.contacts.size();
   const int row = count <= 2 ? 120 : count <= 6 ? 70 : count <= 40 ? 38 : 12;
-  const int height = 140 + row * static_cast<int>(count);
+  const Canvas canvas =
+      canvas_of(run.look, room_above + room_below + 16 + row * static_cast<int>(count), true, true);
   std::string s =
-      begin_script(run, {"raster" + run.suffix, say(run, "Events of the contacts, a mark each"), height});
-  const double line = 1.0 / height;
-  s += panel(run, 62.0 * line, 1.0 - 62.0 * line, "", true);
+      begin_script(run, {"raster" + run.suffix, say(run, "Events of the contacts, a mark each"), canvas});
+  s += panel(run, canvas, stacked(0, 1, canvas), "", true);
   s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\nset ytics (", count - 1);
   for (std::size_t k = 0; k < count; ++k) {
     s += (k > 0 ? ", " : "") + quoted_tick(run.facts.contacts[k].name) + fmt::format(" {}", k);

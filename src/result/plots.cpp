@@ -86,6 +86,7 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
     if (events.cell(who).empty()) continue;
     const std::size_t k = number_of(index, events.cell(who), directory / "events.csv");
     if (t <= run.t_first || t > run.t_last) continue;
+    run.occurring.emplace(k, events.cell(type));
     compressed(k, -events.number(events.column("N")));
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;
@@ -128,7 +129,7 @@ std::string energy_script_of(const fs::path& directory, PlottedRun run) {
   return energy_script(run, used, start);
 }
 
-// From the first event of any contact to the last one, with some air.
+// From the first event of any contact to the last one, with some air; without the ranges of what it shows.
 PlottedRun zoom(PlottedRun run) {
   double first = run.t_last, last = run.t_first;
   for (const auto& bands : run.bands) {
@@ -195,6 +196,9 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   run.from = window.from.value_or(run.t_first);
   run.to = window.to.value_or(run.t_last);
   const bool closer = !window.from && !window.to && zoom_helps(run);
+  read_ranges(directory, run);
+  PlottedRun zoomed = closer ? zoom(run) : PlottedRun{};
+  if (closer) read_ranges(directory, zoomed);
 
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_run);
@@ -210,18 +214,15 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
     write_file(folder / ("states-" + run.slugs[k] + ".csv"), band_table(run.bands[k]));
     add("contact-" + run.slugs[k], contact_script(run, k));
-    if (closer) {
-      const PlottedRun zoomed = zoom(run);
-      add("contact-" + run.slugs[k] + zoomed.suffix, contact_script(zoomed, k));
-    }
+    if (closer) add("contact-" + run.slugs[k] + zoomed.suffix, contact_script(zoomed, k));
   }
   if (!run.facts.contacts.empty()) {
     write_file(folder / "marks.csv", marks_table(directory, run));
     add("states", states_script(run));
     add("raster", raster_script(run));
     if (closer) {
-      write_file(folder / "marks-events.csv", marks_table(directory, zoom(run)));
-      add("raster-events", raster_script(zoom(run)));
+      write_file(folder / "marks-events.csv", marks_table(directory, zoomed));
+      add("raster-events", raster_script(zoomed));
     }
     add("cone", cone_script(run));
   }

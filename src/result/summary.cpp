@@ -1,5 +1,6 @@
 #include "result/summary.hpp"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -338,8 +339,10 @@ RunFacts read_run_facts(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / "summary.json";
   if (const std::string why = why_no_input_file(path); !why.empty())
     throw FileError(path.string(), why + ", expected the summary of a run");
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path.string(), "cannot be read; expected the directory of a run");
+  if (!file)
+    throw FileError(path.string(), "cannot be read" + because(errno) + "; expected the directory of a run");
   try {
     const Json json = parse_json(file);
     RunFacts facts;

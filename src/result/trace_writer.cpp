@@ -1,5 +1,8 @@
 #include "result/trace_writer.hpp"
 
+#include <cerrno>
+
+#include "base/input_file.hpp"
 #include "base/json.hpp"
 
 #include "signorini/error.hpp"
@@ -18,9 +21,10 @@ Json names(const std::vector<NamedGuard>& guards, const Model& model, bool with_
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model)
-    : model_(model), path_(path), file_(path) {
-  if (!file_) throw FileError(path.string(), "cannot be created");
+TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) : model_(model), path_(path) {
+  errno = 0;
+  file_.open(path);
+  if (!file_) throw FileError(path.string(), "cannot be created" + because(errno));
 }
 
 void TraceWriter::write(const Round& round) {

@@ -25,10 +25,9 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   }
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
-    return {Engine::ida,
-            fmt::format("auto: the fastest decay, {:.3g} per unit of time, is not slow beside the "
-                        "fastest oscillation, {:.3g}",
-                        decay, oscillation)};
+    return {Engine::ida, fmt::format("auto: the fastest decay, {:.3g} 1/{}, is not slow beside the "
+                                     "fastest oscillation, {:.3g} rad/{}",
+                                     decay, model.units.time, oscillation, model.units.time)};
   return {Engine::exact, "auto: the laws are linear, and every decay is slow beside the fastest oscillation"};
 }
 

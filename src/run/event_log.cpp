@@ -33,6 +33,17 @@ std::optional<double> departure_of(const Decision& decision, std::size_t k) {
   return std::abs(std::log(left)) < std::abs(std::log(rebound)) ? left : rebound;
 }
 
+/// What is zero by what the event is, where it was found no further from it than the error of its condition: the gap
+/// of a contact that closes; N of one that opens, with it |T| <= f |N|, and the gap -N / k of a spring.
+void settle(const Contact& contact, double error, Event& event) {
+  if (contact.own) return;
+  const auto vanishes = [&](double value) { return std::abs(value) <= error; };
+  if (event.type == EventType::contact && event.gap && vanishes(*event.gap)) event.gap = 0.0;
+  if (event.type != EventType::separation || !vanishes(event.N)) return;
+  event.N = event.T = 0.0;
+  if (event.gap && vanishes(contact.normal_stiffness * *event.gap)) event.gap = 0.0;
+}
+
 /// What the decision knows of a contact; the guard is left out.
 Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool has_gap) {
   const Decision& decision = *now.decision;
@@ -156,6 +167,8 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
       crossing.derivatives[0] * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time;
   const double error =
       std::max(crossing.noise, stepper.guard_error(crossing.form, now.decision->before[k], k));
+  // The instant itself is known to its resolution only.
+  settle(model_.contacts[k], error + std::abs(crossing.derivatives[0]) * now.resolution, event);
   const std::optional<double> off = time_uncertainty(crossing, error);
   if (!off) return;
   event.t_uncertainty = std::max(*off, now.resolution);

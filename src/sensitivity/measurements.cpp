@@ -6,6 +6,7 @@
 
 #include "base/number.hpp"
 #include "result/csv_read.hpp"
+#include "signorini/error.hpp"
 #include "signorini/fit.hpp"
 
 namespace signorini {
@@ -36,7 +37,7 @@ class MeasuredTable {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   [[noreturn]] void fail(long line, const std::string& message) const {
-    throw FileError(fmt::format("{}:{}", path_, line), message);
+    throw Error(ExitCode::scene, fmt::format("{}:{}: {}", path_, line, message));
   }
   [[nodiscard]] std::size_t place(const std::string& name) const {
     const auto& header = reader_.header();

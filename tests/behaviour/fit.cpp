@@ -101,8 +101,9 @@ TEST_CASE("tables that are no measurements, and measurements that the run has no
     std::string message;
     try {
       static_cast<void>(read_measurements(path.string()));
-    } catch (const FileError& error) {
+    } catch (const Error& error) {
       message = error.what();
+      CHECK(error.code() == ExitCode::scene);
     }
     std::filesystem::remove(path);
     CAPTURE(message);

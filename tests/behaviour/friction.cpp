@@ -88,6 +88,11 @@ TEST_CASE("vertical lift-off is one separation, although the friction limit vani
     CHECK(result.events[0].type == EventType::separation);
     CHECK(result.events[1].type == EventType::contact);
     CHECK(result.events[1].to == State::stick);
+    // What an event is by definition is no rounding of it: N vanishes where a contact opens, the gap where it closes.
+    CHECK(result.events[0].N == 0.0);
+    CHECK(result.events[0].T == 0.0);
+    CHECK(result.events[0].gap == 0.0);
+    CHECK(result.events[1].gap == 0.0);
   }
 }
 

@@ -74,6 +74,56 @@ TEST_CASE("cli: a wrong command line is 2, said on stderr, and leaves nothing") 
   }
 }
 
+TEST_CASE("cli: what a command does not take is named, with what was meant") {
+  const Shell shell;
+  const auto told = [&](const std::vector<std::string>& arguments) {
+    const Ending ending = shell.run(arguments);
+    CHECK(ending.code == 2);
+    return ending.err;
+  };
+  CHECK(told({"run", "a.toml", "--sett", "run.rtol=1"}) ==
+        "error: run: no option --sett; did you mean \"--set\"?\nsee signorini run --help\n");
+  CHECK(told({"plot", "a-run", "--lang", "de"}) ==
+        "error: plot: no option --lang; did you mean \"--language\"?\nsee signorini plot --help\n");
+  CHECK(told({"sensitivity", "a.toml", "--engine", "exact", "--parameter", "b"}) ==
+        "error: sensitivity: no option --engine; --set run.engine=NAME does it\nsee signorini sensitivity "
+        "--help\n");
+  CHECK(told({"run", "a.toml", "extra"}) ==
+        "error: run: \"extra\" is one too many\nsee signorini run --help\n");
+}
+
+TEST_CASE("cli: --quiet says nothing but errors, and what happens is kept") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const std::string rough = "contacts.belt.friction.static=2.5";  // above 2: a warning
+  CHECK(shell.run({"run", "belt.toml", "--set", rough, "--no-plots"}).err.find("warning: ") !=
+        std::string::npos);
+  CHECK(shell.run({"run", "belt.toml", "--set", rough, "--no-plots", "--force", "--quiet"}).err.empty());
+  CHECK(shell.read("belt-run/summary.json").find("\"warnings\": []") == std::string::npos);
+  CHECK(shell.run({"compare", "belt.toml", "--engines", "exact,ida", "--set", rough, "--no-plots", "--quiet"})
+            .err.empty());
+}
+
+TEST_CASE("cli: wrong measurements are wrong data, as a wrong load table is") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  shell.write("d.csv", "t,block.ux\nabc,1\n");
+  shell.write("e.csv", "t,nobody.ux\n1.0,1\n");
+  const auto fit = [&](const std::string& data) {
+    return shell.run({"fit", "belt.toml", data, "--parameter", "contacts.1.friction.static"});
+  };
+  const Ending number = fit("d.csv"), column = fit("e.csv"), missing = fit("nope.csv");
+  CHECK(number.code == 3);
+  CHECK(number.err == "error: d.csv:2: t: found \"abc\", expected a finite number\n");
+  CHECK(column.code == 3);
+  CHECK(column.err == "error: e.csv:1: the run has no column \"nobody.ux\"\n");
+  CHECK(missing.code == 6);
+  CHECK(missing.err == "error: nope.csv: cannot be read: No such file or directory\n");
+  CHECK(shell.run({"run", "belt.toml", "--trace", "nodir/t"}).err ==
+        "error: nodir/t: cannot be created: No such file or directory\n");
+  CHECK(shell.run({"plot", "nodir"}).err == "error: nodir: is no directory\n");
+}
+
 TEST_CASE("cli: a wrong scene is 3, with its place, and leaves nothing") {
   const Shell shell;
   shell.write("wrong.toml", belt(10) + "frction = 0.3\n");

@@ -17,7 +17,7 @@ std::string doc(const std::string& name) {
 std::vector<std::string> words_of_command(const std::string& line) {
   std::istringstream stream(line);
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  for (std::string word; stream >> word; words.push_back(word)) std::erase(word, '\'');  // as a shell does
   return words;
 }
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <regex>
 
 #include "program.hpp"
 
@@ -56,6 +57,33 @@ TEST_CASE("cli plot: size, format and title for a paper") {
     const Ending refused = shell.run({"plot", "belt-run", wrong[0], wrong[1]});
     CHECK(refused.code == 2);
     CHECK(refused.err.find(wrong[0] + ": ") != std::string::npos);
+  }
+}
+
+// A line of text reaches a quarter of its letters below its place.
+TEST_CASE("cli plot: no text ends outside its picture, on a screen or in a column") {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  for (const std::vector<std::string>& size : std::vector<std::vector<std::string>>{{}, {"--size", "85"}}) {
+    std::vector<std::string> line{"plot", "belt-run", "--format", "svg"};
+    line.insert(line.end(), size.begin(), size.end());
+    REQUIRE(shell.run(line).code == 0);
+    for (const char* name : {"displacement", "contact-belt", "states", "energy", "raster", "cone"}) {
+      CAPTURE(name);
+      const std::string svg = shell.read(std::string("belt-run/plots/") + name + ".svg");
+      const std::size_t box = svg.find("viewBox=\"0 0 ");
+      REQUIRE(box != std::string::npos);
+      const double height = std::stod(svg.substr(svg.find(' ', box + 13) + 1));
+      static const std::regex text("translate\\([-0-9.]+,([-0-9.]+)\\)\"[^>]*font-size=\"([0-9.]+)\"");
+      std::size_t found = 0;
+      for (std::sregex_iterator i(svg.begin(), svg.end(), text), end; i != end; ++i, ++found) {
+        CHECK(std::stod((*i)[1]) + 0.25 * std::stod((*i)[2]) < height);
+        CHECK(std::stod((*i)[2]) >= (size.empty() ? 10.0 : 6.0));  // pixels: 4.5 points in legends of cones
+      }
+      CHECK(found > 3);
+    }
   }
 }
 

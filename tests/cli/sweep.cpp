@@ -200,7 +200,36 @@ TEST_CASE("cli sweep: over two keys of numbers it is drawn as maps") {
   CHECK(std::count(cells.begin(), cells.end(), '\n') == 10);
   CHECK(has(cells, "\n1.35,1.75,"));
   CHECK(has(shell.read("belt-sweep/plots/motion.gp"), "fillcolor palette"));
-  if (on_path("gnuplot")) CHECK(shell.read("belt-sweep/plots/forces.png").size() > 2000);
+  if (!on_path("gnuplot")) return;
+  CHECK(shell.read("belt-sweep/plots/forces.png").size() > 2000);
+  // For a paper they are drawn again from the rows; there is no part of a time to show.
+  const Ending again = shell.run({"plot", "belt-sweep", "--size", "85", "--format", "svg", "--no-title"});
+  CAPTURE(again.err);
+  CHECK(again.code == 0);
+  CHECK(has(shell.read("belt-sweep/plots/forces.svg"), "width=\"321\""));  // 85 mm of 96 pixels an inch
+  CHECK_FALSE(exists(shell, "belt-sweep/plots/forces.png"));
+  CHECK(shell.run({"plot", "belt-sweep", "--from", "1"}).code == 2);
+}
+
+TEST_CASE("cli plot: sensitivities and comparisons are drawn again from their tables, the same to the byte") {
+  if (!on_path("gnuplot")) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(10));
+  REQUIRE(shell
+              .run({"sensitivity", "belt.toml", "--sigma", "contacts.1.friction.static=0.01", "--parameter",
+                    "contacts.1.friction.kinetic"})
+              .code == 0);
+  REQUIRE(shell.run({"compare", "belt.toml", "--engines", "exact,ida"}).code == 0);
+  for (const std::string picture :
+       {"belt-sensitivity/plots/tornado.gp", "belt-sensitivity/plots/tornado-1.csv",
+        "belt-sensitivity/plots/times-1.csv", "belt-sensitivity/plots/times-1.gp",
+        "belt-compare/plots/differences.gp", "belt-compare/plots/contact-1-belt.gp"}) {
+    CAPTURE(picture);
+    const std::string first = shell.read(picture);
+    REQUIRE_FALSE(first.empty());
+    CHECK(shell.run({"plot", picture.substr(0, picture.find('/'))}).code == 0);
+    CHECK(shell.read(picture) == first);
+  }
 }
 
 TEST_CASE("cli sweep: what another key would overwrite is refused, under whichever name") {

@@ -5,9 +5,10 @@ class Player {
     this.times = [...new Set(data.events.map((event) => event[0]))].filter((t) => t <= this.last);
     this.t = 0;
     this.playing = false;
-    this.shapes();
     this.scales();
+    this.shapes();
     this.bands();
+    this.legend();
     this.table();
     this.controls();
     this.show(0);
@@ -27,7 +28,7 @@ class Player {
     let greatest = 0;
     const columns = data.nodes.flatMap((node) => node.u.slice(0, 2)).filter((column) => column >= 0);
     for (const row of data.curve.u) for (const column of columns) greatest = Math.max(greatest, Math.abs(row[column]));
-    const wanted = greatest > 0 ? this.stage.size / 8 / greatest : 1;
+    const wanted = greatest > 0 ? new Stage(byId("stage")).size / 8 / greatest : 1;
     const power = Math.pow(10, Math.floor(Math.log10(wanted))), lead = wanted / power;
     const fit = Math.max(lead >= 5 ? 5 * power : lead >= 2 ? 2 * power : power, wanted < 1 ? 0 : 1);
     this.magnification = fit;
@@ -43,7 +44,7 @@ class Player {
     this.stage = new Stage(byId("stage"));
     const svg = this.stage.svg, still = data.nodes.map(() => [0, 0, 0]);
     const ghost = drawn("g", { class: "ghost" }, svg), g = drawn("g", {}, svg);
-    this.stage.fixed(g);
+    this.stage.fixed(g, this.magnification);
     for (const piece of data.pieces) drawn("path", { class: "member bar", d: this.stage.piece(piece, still, 0) }, ghost);
     this.springShapes = data.springs.map(() => drawn("path", { class: "spring" }, g));
     this.touchShapes = data.contacts.map((c) => c.against.length && c.node >= 0 ? drawn("path", { class: "spring" }, g) : null);
@@ -51,12 +52,26 @@ class Player {
     this.bars = drawn("path", { class: "member bar" }, g);
     this.nodes = drawn("path", { class: "dots", "stroke-width": data.nodes.length <= 40 ? 6 : 3 }, g);
     this.loads = data.loads.map(() => drawn("path", { class: "load" }, g));
-    this.forces = data.contacts.map(() => drawn("path", { class: "force" }, g));
     this.marks = data.contacts.map((contact) => drawn("circle", { r: contact.node < 0 ? 0 : Math.min(7, this.stage.mark / 2) }, g));
+    this.forces = data.contacts.map(() => drawn("path", { class: "force" }, g));  // on top: heads are seen
     this.greatest = 1e-300;
     for (const { motion } of data.contacts)
       motion.N.forEach((N, i) => { this.greatest = Math.max(this.greatest, Math.hypot(N, motion.T[i])); });
+    this.greatestGap = 0;
+    for (const { motion } of data.contacts) for (const g of motion.gap) this.greatestGap = Math.max(this.greatestGap, Math.abs(g));
     this.greatestLoad = data.loads.map((load) => Math.max(1e-300, ...load.f.map(Math.abs)));
+  }
+  // Which colour is which state, of those that occur.
+  legend() {
+    const occurring = new Set(data.contacts.flatMap((contact) => contact.motion.state));
+    data.states.forEach(([name, colour], k) => {
+      if (!occurring.has(k)) return;
+      const entry = document.createElement("span"), chip = document.createElement("span");
+      chip.className = "chip";
+      chip.style.background = colour;
+      entry.append(chip, name);
+      byId("legend").append(entry);
+    });
   }
   // The states of the first contacts over time, one path a state and contact.
   bands() {
@@ -99,7 +114,11 @@ class Player {
     on("next", () => this.step(1));
     on("play", () => this.toggle());
     byId("time").addEventListener("input", (event) => this.stop(this.last * event.target.value));
-    byId("scale").addEventListener("change", (event) => { this.magnification = Number(event.target.value); this.show(this.t); });
+    byId("scale").addEventListener("change", (event) => {
+      this.magnification = Number(event.target.value);
+      this.shapes();
+      this.show(this.t);
+    });
     document.addEventListener("keydown", (event) => {
       const kind = event.target.tagName;
       if (event.ctrlKey || event.altKey || event.metaKey || kind === "SELECT" || kind === "BUTTON" && event.key === " ") return;
@@ -154,11 +173,23 @@ class Player {
       put(this.loads[k], "d", stage.arrow(stage.place(load.node, u, m), size * load.dx, size * load.dy, false));
     });
     // Nobody reads figures sixty times a second: while it plays they follow ten times.
+    // Of contacts at one node a closed one gives the dot its colour.
+    const closed = new Set(data.contacts.filter((contact) => this.stateOf(contact) !== "open").map((contact) => contact.node));
     const now = performance.now(), tells = !this.playing || !(now - this.toldAt < 100);
     if (tells) this.toldAt = now;
-    data.contacts.forEach((contact, k) => this.contact(contact, k, u, m, tells));
+    data.contacts.forEach((contact, k) => {
+      this.contact(contact, k, u, m, tells);
+      put(this.marks[k], "visibility", closed.has(contact.node) && this.stateOf(contact) === "open" ? "hidden" : "visible");
+    });
     byId("needle").style.transform = `translateX(${(this.last > 0 ? this.wide * this.t / this.last : 0).toFixed(1)}px)`;
     if (tells) this.told();
+  }
+  stateOf({ motion: { t, state } }) {
+    return t.length ? data.states[state[Math.max(0, rowAt(t, this.t))]]?.[0] : "open";
+  }
+  // Rounding beside the greatest of its kind is zero.
+  figure(x, digits, greatest) {
+    return Math.abs(x) <= 2.2e-13 * greatest ? "0" : x.toPrecision(digits);
   }
   contact(contact, k, u, m, tells) {
     const { t, state, N, T, gap } = contact.motion;
@@ -181,13 +212,13 @@ class Player {
     const g = valueAt(t, gap, this.t);
     row.chip.style.background = colour;
     row.state.textContent = name;
-    row.cells[0].textContent = n.toPrecision(5);
-    row.cells[1].textContent = s.toPrecision(5);
-    row.cells[2].textContent = contact.slider || gap[0] === null ? "" : g.toPrecision(4);
+    row.cells[0].textContent = this.figure(n, 5, this.greatest);
+    row.cells[1].textContent = this.figure(s, 5, this.greatest);
+    row.cells[2].textContent = contact.slider || gap[0] === null ? "" : this.figure(g, 4, this.greatestGap);
   }
   told() {
     const row = rowAt(this.times, this.t), exact = row >= 0 && this.times[row] === this.t;
-    let text = `t = ${exact ? this.t : Number(this.t.toPrecision(6))} ${data.units[2]}`;
+    let text = `t = ${Number(this.t.toPrecision(exact ? 10 : 6))} ${data.units[2]}`;
     if (exact) {
       const here = data.events.filter((event) => event[0] === this.t);
       text += ": " + here.map(([, k, event, from, to]) =>

@@ -113,8 +113,9 @@ class Stage {
     const head = `M${tip}L${to(X - h * (c - 0.5 * s), Y - h * (s + 0.5 * c))}M${tip}L${to(X - h * (c + 0.5 * s), Y - h * (s - 0.5 * c))}`;
     return `M${to(X - c * length, Y - s * length)}L${tip}` + head;
   }
-  // What does not move: grounds of contacts, supports, springs to the ground begin there.
-  fixed(parent) {
+  // What does not move: grounds of contacts, supports. A ground stands as far off as its gap, which is magnified as the motion
+  // is (m), and is as wide as its node goes.
+  fixed(parent, m) {
     for (const support of data.supports) {
       const [x, y] = this.at(data.nodes[support.node].x, data.nodes[support.node].y);
       const clamp = support.rz ? `M${x - 8} ${y - 8}h16v16h-16z` : "";
@@ -125,13 +126,22 @@ class Stage {
     for (const contact of data.contacts) {
       if (contact.node < 0 || contact.against.length) continue;
       const [x, y] = this.at(data.nodes[contact.node].x, data.nodes[contact.node].y);
-      const nx = contact.nx, ny = -contact.ny, tx = -ny, ty = nx, foot = [x - 9 * nx, y - 9 * ny];
-      const half = this.mark, hatches = Math.floor(half / 8);
+      const nx = contact.nx, ny = -contact.ny, tx = -ny, ty = nx, off = 9 + m * this.pixels * (contact.gap || 0);
+      const foot = [x - off * nx, y - off * ny], far = m * this.pixels * this.reach(contact);
+      const half = Math.min(this.wide, this.mark + far), hatches = Math.floor(half / 8);
       let path = `M${foot[0] - half * tx} ${foot[1] - half * ty}L${foot[0] + half * tx} ${foot[1] + half * ty}`;
       for (let i = -hatches; i <= hatches; ++i)
         path += `M${foot[0] + 8 * i * tx} ${foot[1] + 8 * i * ty}l${-7 * nx - 5 * tx} ${-7 * ny - 5 * ty}`;
       drawn("path", { class: "ground", d: path }, parent);
     }
+  }
+  // How far its node goes along the tangent.
+  reach(contact) {
+    const [cx, cy] = data.nodes[contact.node].u;
+    if (contact.reach === undefined)
+      contact.reach = data.curve.u.reduce((most, row) =>
+        Math.max(most, Math.abs((cx < 0 ? 0 : row[cx] * contact.ny) - (cy < 0 ? 0 : row[cy] * contact.nx))), 0);
+    return contact.reach;
   }
   spring(spring, u, m) {
     const end = this.place(spring.a, u, m);
@@ -149,7 +159,7 @@ class Stage {
 
 const plan = () => {
   const stage = new Stage(byId("plan")), still = data.nodes.map(() => [0, 0, 0]), g = drawn("g", {}, stage.svg);
-  stage.fixed(g);
+  stage.fixed(g, 0);
   for (const spring of data.springs) drawn("path", { class: "spring", d: stage.spring(spring, still, 0) }, g);
   for (const piece of data.pieces) drawn("path", { class: piece.bar ? "member bar" : "member", d: stage.piece(piece, still, 0) }, g);
   const few = data.nodes.length <= 40;

@@ -46,6 +46,7 @@ PlottedRun plotted(const RunFigures& figures, double t_end) {
   run.to = std::max(run.t_last, t_end);
   run.greatest_compression.assign(run.facts.contacts.size(), 0.0);
   read_motion(figures.directory, contact_numbers(run.facts), run);
+  read_ranges(figures.directory, run);
   return run;
 }
 
@@ -63,7 +64,8 @@ struct Curve {
 
 class Pictures {
  public:
-  Pictures(fs::path folder, const ComparisonReport& report) : folder_(std::move(folder)), report_(report) {
+  Pictures(fs::path folder, const ComparisonReport& report, const PictureLook& look)
+      : folder_(std::move(folder)), report_(report) {
     double t_end = 0.0;
     for (const ComparedRun& run : report.runs) t_end = std::max(t_end, run.figures.t);
     std::vector<std::string> names;
@@ -71,7 +73,10 @@ class Pictures {
       runs_.push_back(plotted(run.figures, t_end));
       names.push_back(run.figures.name);
     }
-    for (PlottedRun& run : runs_) run.right = room_for(names);
+    for (PlottedRun& run : runs_) {
+      run.legend = room_for(names);
+      run.look = look;
+    }
   }
 
   [[nodiscard]] bool any() const { return runs_.front().times >= 2; }
@@ -84,11 +89,11 @@ class Pictures {
     if (!contact.slider) curves.push_back({"gap [" + units.length + "]", "gap", 4});
     curves.push_back({"N [" + units.force + "]", "N", 8});
     curves.push_back({"T [" + units.force + "]", "T", 9});
-    const int height = 130 + 230 * static_cast<int>(curves.size());
-    std::string s = begin_script(first, {name, "Contact '" + contact.name + "': motion and forces", height});
+    const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
+    std::string s = begin_script(first, {name, "Contact '" + contact.name + "': motion and forces", canvas});
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto [bottom, top] = stacked(i, curves.size(), height);
-      s += panel(first, bottom, top, curves[i].label, i + 1 == curves.size());
+      s += panel(first, canvas, stacked(i, curves.size(), canvas), curves[i].label, i + 1 == curves.size());
+      s += axis(contact.name, curves[i].column);
       std::vector<std::string> elements;
       for (std::size_t r = 0; r < runs_.size(); ++r) {
         const auto& contacts = runs_[r].facts.contacts;
@@ -115,13 +120,12 @@ class Pictures {
     const bool events = std::any_of(report_.comparisons.begin(), report_.comparisons.end(),
                                     [](const Comparison& c) { return !c.alignment.pairs.empty(); });
     if (events) curves.push_back({"event time [" + units.time + "]", "events", 4});
-    const int height = 130 + 230 * static_cast<int>(curves.size());
+    const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
     std::string s = begin_script(
-        first, {"differences", "Greatest differences from " + report_.runs.front().figures.name, height});
+        first, {"differences", "Greatest differences from " + report_.runs.front().figures.name, canvas});
     s += "set logscale y\n";
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto [bottom, top] = stacked(i, curves.size(), height);
-      s += panel(first, bottom, top, curves[i].label, i + 1 == curves.size());
+      s += panel(first, canvas, stacked(i, curves.size(), canvas), curves[i].label, i + 1 == curves.size());
       s += "set format y '%.0e'\n";
       std::vector<std::string> elements;
       for (std::size_t r = 1; r < runs_.size(); ++r) elements.push_back(difference(curves[i], r));
@@ -138,6 +142,22 @@ class Pictures {
   }
 
  private:
+  /// Where the curves of all runs together hardly move.
+  [[nodiscard]] std::string axis(const std::string& contact, int column) const {
+    Range all;
+    ContactScales scales;
+    for (const PlottedRun& run : runs_) {
+      const ContactScales own = scales_of(run.ranges);
+      scales = {std::max(scales.length, own.length), std::max(scales.force, own.force)};
+      for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
+        if (run.facts.contacts[k].name != contact) continue;
+        const ContactRanges& r = run.ranges[k];
+        all.take(column == 4 ? r.gap : column == 5 ? r.ut : column == 8 ? r.N : r.T);
+      }
+    }
+    return steady(all, column < 8 ? scales.length : scales.force);
+  }
+
   /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
   /// runs agree to the last digit.
   [[nodiscard]] std::string y_range(const Curve& curve, std::vector<std::string>& elements) const {
@@ -194,9 +214,10 @@ void begin_comparison_plots(const fs::path& directory) {
   begin_plot_folder(directory / "plots", is_picture_of_comparison);
 }
 
-std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report) {
+std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
+                                             const PictureLook& look) {
   const fs::path folder = directory / "plots";
-  const Pictures pictures(folder, report);
+  const Pictures pictures(folder, report, look);
   if (!pictures.any()) return {};
   std::vector<fs::path> scripts;
   const auto add = [&](const std::string& name, const std::string& text) {

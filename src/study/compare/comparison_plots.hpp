@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "result/picture_look.hpp"
 #include "study/compare/comparison_files.hpp"
 
 namespace signorini {
@@ -22,6 +23,7 @@ void begin_comparison_plots(const std::filesystem::path& directory);
 /// Writes the scripts into DIR/plots and returns them; none with fewer than two output times. Errors:
 /// FileError.
 std::vector<std::filesystem::path> write_comparison_plots(const std::filesystem::path& directory,
-                                                          const ComparisonReport& report);
+                                                          const ComparisonReport& report,
+                                                          const PictureLook& look = {});
 
 }  // namespace signorini

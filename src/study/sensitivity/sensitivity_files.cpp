@@ -126,6 +126,12 @@ std::string spread_table(const Sensitivities& s, const Spread& spread) {
 
 }  // namespace
 
+std::string unit_of(const Response& figure, const Units& units) {
+  if (figure.name == "peak N" || figure.name == "peak T") return units.force;
+  const bool work = figure.name.starts_with("lost by") || figure.name.starts_with("work of");
+  return work ? units.force + " " + units.length : units.length;
+}
+
 double elasticity(double p, double x, double rate) {
   return p != 0.0 && x != 0.0 ? p / x * rate : EventRates::none;
 }

@@ -26,6 +26,13 @@ namespace signorini {
 void write_sensitivities(const std::filesystem::path& directory, const Sensitivities& s,
                          const Sigmas& sigmas);
 
+/// Back from its files, as far as pictures need it: parameters, figures, and times of events with their derivatives; sigmas
+/// are empty where there were none. Errors: FileError.
+[[nodiscard]] Sensitivities read_sensitivities(const std::filesystem::path& directory, Sigmas& sigmas);
+
+/// The unit of a figure, in the scene's words.
+[[nodiscard]] std::string unit_of(const Response& figure, const Units& units);
+
 /// (p/x) dx/dp; NaN where x or p is zero.
 [[nodiscard]] double elasticity(double p, double x, double rate);
 /// The name of an event's contact; "" for a jump of a load.

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "study/key_unit.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
 namespace signorini {
@@ -17,7 +19,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_figures = 6, most_bars = 16, most_time_pictures = 12, most_tangents = 400;
+constexpr std::size_t most_figures = 6, most_bars = 16, most_time_pictures = 12;
+constexpr std::size_t first_events = 24;  // of a picture of event times; more are one grey
+constexpr const char* contact_colours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
+                                           "#e7298a", "#666666", "#a6761d", "#17becf"};
 constexpr double widest = 0.1;  // of a parameter, that a picture of event times shows to each side
 constexpr const char* rising = "#2166ac";
 constexpr const char* falling = "#c0182b";
@@ -29,8 +34,9 @@ bool is_picture_of_sensitivities(const fs::path& file) {
          (file.extension() == ".csv" && (named || stem.starts_with("tornado-")));
 }
 
-PlottedRun facts_of(const Sensitivities& s) {
+PlottedRun facts_of(const Sensitivities& s, const PictureLook& look) {
   PlottedRun run;
+  run.look = look;
   run.facts.title = s.title;
   run.facts.outcome = "done";
   run.facts.units = s.units;
@@ -98,30 +104,36 @@ std::string bars_plot(const std::string& table) {
                    table, "0xc0182b", "0x2166ac")});
 }
 
-std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder) {
+std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder,
+                    const PictureLook& look) {
   const std::vector<const Response*> figures = moved_figures(s);
   if (figures.empty()) return {};
-  const PlottedRun run = facts_of(s);
+  const PlottedRun run = facts_of(s, look);
   const auto bars_each = static_cast<int>(std::min(s.parameters.size(), most_bars));
-  const int each = 70 + 26 * bars_each, height = 110 + (each + 50) * static_cast<int>(figures.size());
-  std::string text = begin_script(run, {"tornado",
-                                        sigmas.empty() ? "What one per cent of each key does, in per cent"
-                                                       : "What the standard deviation of each key does",
-                                        height, false});
+  const int each = 70 + 26 * bars_each;
+  const Canvas canvas = canvas_of(
+      run.look, room_above + room_below - 64.0 + (each + 64.0) * static_cast<double>(figures.size()), false,
+      true);
+  std::string text =
+      begin_script(run, {"tornado",
+                         sigmas.empty() ? "What one per cent more of each key does: blue more, red less"
+                                        : "What one standard deviation more of each key does: blue more, "
+                                          "red less",
+                         canvas, false});
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Response& r = *figures[i];
     std::vector<Bar> bars;
     for (std::size_t p = 0; p < s.parameters.size(); ++p)
-      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x))
+      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x) && (sigmas.empty() || sigmas[p] > 0.0))
         bars.push_back({s.parameters[p].path, x});
     sort_bars(bars);
     const std::string table = fmt::format("tornado-{}.csv", i + 1);
     write_file(folder / table, bar_table(bars));
-    const auto [bottom, top] = stacked(i, figures.size(), height, 60.0, 64.0);
-    text += panel(run, bottom, top, "", true) + wide_margin();
+    text += panel(run, canvas, stacked(i, figures.size(), canvas, 64.0), "", true) + wide_margin();
     text += "set xlabel " +
             quoted(r.name + (r.contact < 0 ? "" : " of '" + contact_of(s, r) + "'") +
-                   fmt::format(" = {:.6g}", r.value)) +
+                   fmt::format(" = {:.6g} {}", r.value, unit_of(r, s.units)) +
+                   (sigmas.empty() ? "; change [%]" : "; change [" + unit_of(r, s.units) + "]")) +
             "\n";
     text +=
         "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange "
@@ -144,8 +156,7 @@ double span_of(const Sensitivities& s, std::size_t p) {
 std::string tangent_table(const Sensitivities& s, std::size_t p, double span) {
   CsvBlock block;
   block.text("p").text("t").text("dp").text("dt").text("contact").end_row();
-  const std::size_t stride = std::max<std::size_t>(1, s.events.size() / most_tangents);
-  for (std::size_t i = 0; i < s.events.size(); i += stride) {
+  for (std::size_t i = 0; i < std::min(s.events.size(), first_events); ++i) {
     const double rate = s.event_rates[i][p].t;
     if (!std::isfinite(rate)) continue;
     block.number(s.parameters[p].value - span).number(s.events[i].t - span * rate);
@@ -155,44 +166,48 @@ std::string tangent_table(const Sensitivities& s, std::size_t p, double span) {
   return block.str();
 }
 
-std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder) {
+std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder, const PictureLook& look) {
   const Parameter& parameter = s.parameters[p];
   const double span = span_of(s, p);
   const std::string name = fmt::format("times-{}", p + 1);
   write_file(folder / (name + ".csv"), tangent_table(s, p, span));
-  const PlottedRun run = facts_of(s);
-  const int height = 760;
+  const PlottedRun run = facts_of(s, look);
+  const Canvas canvas = canvas_of(run.look, 760, false);
   std::string text =
-      begin_script(run, {name, "Event times over " + parameter.path + ", to first order", height, false});
-  const auto [bottom, top] = stacked(0, 1, height, 70.0, 0.0);
-  text += panel(run, bottom, top, "t [" + s.units.time + "]", true);
-  text += "set xlabel " + quoted(parameter.path) + "\n";
+      begin_script(run, {name,
+                         "Times of " +
+                             (s.events.size() > first_events
+                                  ? fmt::format("the first {} of {} events", first_events, s.events.size())
+                                  : std::string("events")) +
+                             " over " + parameter.path + ", to first order",
+                         canvas, false});
+  text += panel(run, canvas, stacked(0, 1, canvas), "t [" + s.units.time + "]", true);
+  text += "set xlabel " + quoted(key_with_unit(parameter.path, s.units)) + "\n";
   text += fmt::format("set xrange [{}:{}]\nset yrange [*:*]\n", shortest(parameter.value - span),
                       shortest(parameter.value + span));
   text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead dashtype 3 linecolor '#808080'\n",
                       shortest(parameter.value));
   int arrow = 2;
   for (const Swap& swap : least_swaps(s))
-    if (swap.parameter == p)
+    if (swap.parameter == p && std::max(swap.first, swap.second) < first_events)
       text +=
           fmt::format("set arrow {0} from {1}, graph 0 to {1}, graph 1 nohead dashtype 2 linecolor '{2}'\n",
                       arrow++, shortest(parameter.value + swap.change), falling);
   std::vector<std::string> elements;
-  const std::size_t count = std::min<std::size_t>(s.contacts.size(), event_looks.size());
+  const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
   for (std::size_t c = 0; c <= count; ++c) {
     const std::string title = c == 0 ? "" : s.contacts[c - 1];
-    elements.push_back(
-        fmt::format("'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 "
-                    "linecolor '{}' {}",
-                    name, c, c == 0 ? "#808080" : event_looks[(c - 1) % event_looks.size()].colour,
-                    c == 0 ? "notitle" : "title " + quoted(title)));
+    elements.push_back(fmt::format(
+        "'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 "
+        "linecolor '{}' {}",
+        name, c, c == 0 ? "#808080" : contact_colours[c - 1], c == 0 ? "notitle" : "title " + quoted(title)));
   }
   elements.push_back(
       fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
   return text + plot_command(elements) + end_script();
 }
 
-std::string sequence(const Sensitivities& s, const fs::path& folder) {
+std::string sequence(const Sensitivities& s, const fs::path& folder, const PictureLook& look) {
   const std::vector<Swap> swaps = least_swaps(s);
   std::vector<Bar> bars;
   for (const Swap& swap : swaps) {
@@ -209,12 +224,12 @@ std::string sequence(const Sensitivities& s, const fs::path& folder) {
   for (std::size_t i = 0; i < bars.size(); ++i)
     block.text(std::to_string(i + 1)).number(bars[i].length).text(bars[i].name).end_row();
   write_file(folder / "sequence.csv", block.str());
-  const PlottedRun run = facts_of(s);
-  const int height = 170 + 30 * static_cast<int>(bars.size());
+  const PlottedRun run = facts_of(s, look);
+  const Canvas canvas = canvas_of(
+      run.look, room_above + room_below + 38.0 + 30.0 * static_cast<double>(bars.size()), false, true);
   std::string text = begin_script(
-      run, {"sequence", "Least change of each key at which, to first order, two events meet", height, false});
-  const auto [bottom, top] = stacked(0, 1, height, 70.0, 0.0);
-  text += panel(run, bottom, top, "", true) + wide_margin();
+      run, {"sequence", "Least change of each key at which, to first order, two events meet", canvas, false});
+  text += panel(run, canvas, stacked(0, 1, canvas), "", true) + wide_margin();
   text += "set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\nset xrange [*:*]\n" +
           bar_ticks(bars);
   const std::string point =
@@ -230,7 +245,7 @@ std::string sequence(const Sensitivities& s, const fs::path& folder) {
 }  // namespace
 
 std::vector<fs::path> write_sensitivity_plots(const fs::path& directory, const Sensitivities& s,
-                                              const Sigmas& sigmas) {
+                                              const Sigmas& sigmas, const PictureLook& look) {
   if (s.events.empty() && s.responses.empty()) return {};
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_sensitivities);
@@ -240,11 +255,11 @@ std::vector<fs::path> write_sensitivity_plots(const fs::path& directory, const S
     scripts.push_back(folder / (name + ".gp"));
     write_file(scripts.back(), text);
   };
-  add("tornado", tornado(s, sigmas, folder));
+  add("tornado", tornado(s, sigmas, folder, look));
   if (!s.events.empty())
     for (std::size_t p = 0; p < std::min(s.parameters.size(), most_time_pictures); ++p)
-      add(fmt::format("times-{}", p + 1), times(s, p, folder));
-  add("sequence", sequence(s, folder));
+      add(fmt::format("times-{}", p + 1), times(s, p, folder, look));
+  add("sequence", sequence(s, folder, look));
   return scripts;
 }
 

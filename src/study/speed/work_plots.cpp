@@ -87,17 +87,17 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
   run.facts.title = report.title.empty() ? report.scene : report.title;
   run.facts.outcome = "done";
   run.facts.units = report.units;
-  const int count = static_cast<int>(axes.size()), height = 90 + panel_height * count;
+  const int count = static_cast<int>(axes.size());
+  const Canvas canvas = canvas_of(run.look, 90 + panel_height * count, false);
   std::string s = begin_script(run, {"work-precision",
                                      "Time of a run over its error, reference " + report.reference +
                                          "; hollow: not all events, or not to the end",
-                                     height, false});
+                                     canvas, false});
   s += "set logscale xy\n";
-  const double line = 1.0 / height;
   for (int i = 0; i < count; ++i) {
     const auto& [quantity, axis] = axes[static_cast<std::size_t>(i)];
-    const double top = 1.0 - (66.0 + i * panel_height) * line;
-    s += panel(run, top - (panel_height - 70.0) * line, top, "wall time [s]", true);
+    s += panel(run, canvas, stacked(static_cast<std::size_t>(i), axes.size(), canvas, 80.0), "wall time [s]",
+               true);
     s += "set format y '%.0e'\nset format x '%.0e'\nset xlabel " + quoted(axis.label) + "\n";
     s += "set yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
     std::vector<std::string> elements;

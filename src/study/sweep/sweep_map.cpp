@@ -11,6 +11,7 @@
 #include "base/number.hpp"
 #include "result/csv.hpp"
 #include "result/plot_parts.hpp"
+#include "study/key_unit.hpp"
 
 namespace signorini {
 namespace {
@@ -24,18 +25,35 @@ std::vector<double> values_of(const Vary& vary) {
   return values;
 }
 
-/// From halfway to the value before to halfway to the one after; as wide at the ends.
-std::pair<double, double> cell(const std::vector<double>& values, double at) {
-  const auto here = std::lower_bound(values.begin(), values.end(), at);
-  const bool first = here == values.begin(), last = here + 1 == values.end();
-  const double before = first ? at - (*(here + 1) - at) : *(here - 1);
-  const double after = last ? at + (at - *(here - 1)) : *(here + 1);
-  return {0.5 * (before + at), 0.5 * (at + after)};
+constexpr double decades = 50.0;       // greatest over least value: an axis of logarithms
+constexpr std::size_t most_ticks = 8;  // more values than that do not each have theirs
+
+bool logarithmic(const std::vector<double>& values) {
+  return values.front() > 0.0 && values.back() >= decades * values.front();
 }
 
-std::string range_of(const std::vector<double>& values) {
-  return fmt::format("[{}:{}]", shortest(cell(values, values.front()).first),
-                     shortest(cell(values, values.back()).second));
+/// From halfway to the value before to halfway to the one after; as wide at the ends.
+std::pair<double, double> cell(const std::vector<double>& values, double at) {
+  const bool log = logarithmic(values);
+  const auto scale = [&](double x) { return log ? std::log(x) : x; };
+  const auto back = [&](double x) { return log ? std::exp(x) : x; };
+  const auto here = std::lower_bound(values.begin(), values.end(), at);
+  const bool first = here == values.begin(), last = here + 1 == values.end();
+  const double x = scale(at);
+  const double before = first ? x - (scale(*(here + 1)) - x) : scale(*(here - 1));
+  const double after = last ? x + (x - scale(*(here - 1))) : scale(*(here + 1));
+  return {back(0.5 * (before + x)), back(0.5 * (x + after))};
+}
+
+/// Range, kind and ticks of axis "x" or "y".
+std::string axis(const char* name, const std::vector<double>& values) {
+  std::string s =
+      fmt::format("set {}range [{}:{}]\n{} logscale {}\n", name, shortest(cell(values, values.front()).first),
+                  shortest(cell(values, values.back()).second), logarithmic(values) ? "set" : "unset", name);
+  if (values.size() > most_ticks) return s + fmt::format("set {}tics autofreq\n", name);
+  s += fmt::format("set {}tics (", name);
+  for (std::size_t i = 0; i < values.size(); ++i) s += (i > 0 ? ", " : "") + shortest(values[i]);
+  return s + ")\n";
 }
 
 }  // namespace
@@ -89,18 +107,23 @@ std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRow
   return block.str();
 }
 
-std::string border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
+Borders border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
   const std::vector<double> x = values_of(spec.vary[axes.x]), y = values_of(spec.vary[axes.y]);
   std::map<std::pair<double, double>, const std::string*> sequences;
   for (const auto& [index, row] : rows)
     if (row.ran())
       sequences[{*parse_number(row.values[axes.x]), *parse_number(row.values[axes.y])}] = &row.sequence;
+  Borders borders;
   CsvBlock block;
   for (const char* name : {"x0", "y0", "x1", "y1"}) block.text(name);
   block.end_row();
   const auto differ = [&](double xa, double ya, double xb, double yb) {
     const auto a = sequences.find({xa, ya}), b = sequences.find({xb, yb});
-    return a != sequences.end() && b != sequences.end() && *a->second != *b->second;
+    if (a == sequences.end() || b == sequences.end()) return false;
+    ++borders.neighbours;
+    const bool parted = *a->second != *b->second;
+    borders.count += parted ? 1 : 0;
+    return parted;
   };
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < y.size(); ++j) {
@@ -111,31 +134,32 @@ std::string border_table(const SweepSpec& spec, const MapAxes& axes, const Sweep
       if (j + 1 < y.size() && differ(x[i], y[j], x[i], y[j + 1]))
         block.number(x0).number(y1).number(x1).number(y1).end_row();
     }
-  return block.str();
+  borders.table = block.str();
+  return borders;
 }
 
 std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                       const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders) {
+                       const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
+                       const PictureLook& look) {
   PlottedRun run;
+  run.look = look;
   run.facts.title = spec.title;
   run.facts.outcome = "done";
   run.facts.units = spec.units;
-  const int count = static_cast<int>(panels.size()), height = 140 + 380 * count;
-  const double line = 1.0 / height, bottom = 62.0 * line, top = 1.0 - 62.0 * line, space = 30.0 * line;
-  const double each = (top - bottom - space * (count - 1)) / count;
-  std::string s = begin_script(run, {name, subtitle, height, false});
+  const std::size_t count = panels.size();
+  const Canvas canvas = canvas_of(run.look, 148.0 + 380.0 * static_cast<double>(count), false);
+  std::string s = begin_script(run, {name, subtitle, canvas, false});
   s += "set palette defined (0 '#f7fbff', 0.35 '#6baed6', 0.7 '#08519c', 1 '#08203f')\nset grid front\n";
-  for (int i = 0; i < count; ++i) {
-    const MapPanel& shown = panels[static_cast<std::size_t>(i)];
-    const double upper = top - i * (each + space);
-    s += panel(run, upper - each, upper, spec.vary[axes.y].path, i + 1 == count);
-    if (i + 1 == count) s += "set xlabel " + quoted(spec.vary[axes.x].path) + "\n";
-    s += "set xrange " + range_of(values_of(spec.vary[axes.x])) + "\n";
-    s += "set yrange " + range_of(values_of(spec.vary[axes.y])) + "\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const MapPanel& shown = panels[i];
+    const PanelEdges edges = stacked(i, count, canvas, 30.0);
+    s += panel(run, canvas, edges, key_with_unit(spec.vary[axes.y].path, spec.units), i + 1 == count);
+    if (i + 1 == count) s += "set xlabel " + quoted(key_with_unit(spec.vary[axes.x].path, spec.units)) + "\n";
+    s += axis("x", values_of(spec.vary[axes.x])) + axis("y", values_of(spec.vary[axes.y]));
     s += fmt::format(
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen 0.018, screen {:.4f}\n",
-        panel_right + 0.02, upper - each, each);
-    s += "set cblabel " + quoted(shown.label) + "\n";
+        canvas.right() + 22.0 / canvas.width, edges.bottom, edges.top - edges.bottom);
+    s += "set cblabel " + quoted(shown.label) + " offset character 1,0\n";
     std::vector<std::string> elements{
         fmt::format("'map.csv' skip 1 using (0.5*($1+$2)):(0.5*($3+$4)):1:2:3:4:{} with boxxyerror "
                     "fillstyle solid 1.0 noborder fillcolor palette notitle",

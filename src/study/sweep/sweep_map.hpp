@@ -3,7 +3,8 @@
 //   map.csv      x0,x1,y0,y1,events,peak_t,peak_n,peak_N,peak_T,friction_work,QUERY,...
 //   borders.csv  x0,y0,x1,y1: sides between cells whose events come in another sequence
 //
-// Greatest of all contacts; a cell reaches halfway to its neighbours.
+// Greatest of all contacts; a cell reaches halfway to its neighbours: on an axis of positive values that span a factor of
+// 50 or more, which is logarithmic, to the geometric mean.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "result/picture_look.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace signorini {
@@ -27,7 +29,11 @@ struct MapAxes {
 [[nodiscard]] std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
 /// The sides that part regions of equal sequences of events; of cells without a run none.
-[[nodiscard]] std::string border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
+struct Borders {
+  std::string table;
+  std::size_t count = 0, neighbours = 0;  ///< sides in the table; sides between cells that ran
+};
+[[nodiscard]] Borders border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
 /// A figure and its column in map.csv, from 1.
 struct MapPanel {
@@ -36,6 +42,6 @@ struct MapPanel {
 };
 [[nodiscard]] std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                                      const std::string& subtitle, const std::vector<MapPanel>& panels,
-                                     bool borders);
+                                     bool borders, const PictureLook& look);
 
 }  // namespace signorini

@@ -12,6 +12,7 @@
 #include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "study/key_unit.hpp"
 #include "study/sweep/quantiles.hpp"
 #include "study/sweep/sweep_map.hpp"
 
@@ -21,8 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
-                                                "#e7298a", "#666666", "#a6761d", "#17becf"};
+constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77", "#7b3294",
+                                                 "#e7298a", "#666666", "#a6761d", "#17becf",
+                                                 "#c0182b", "#7f7f00", "#5e4fa2", "#1a1a1a"};
 constexpr std::size_t most_panels = 6;
 constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
 
@@ -129,8 +131,9 @@ struct Panel {
 class Script {
  public:
   Script(const SweepSpec& spec, const Axis& axis, const std::vector<Curve>& combinations,
-         const std::vector<std::string>& contacts)
+         const std::vector<std::string>& contacts, const PictureLook& look)
       : axis_(axis), curves_(combinations), contacts_(contacts) {
+    run_.look = look;
     run_.facts.title = spec.title;
     run_.facts.outcome = "done";
     run_.facts.units = spec.units;
@@ -138,16 +141,17 @@ class Script {
 
   [[nodiscard]] std::string str(const std::string& name, const std::string& subtitle,
                                 const std::vector<Panel>& panels) const {
-    const int count = static_cast<int>(panels.size()), height = 140 + 320 * count;
-    std::string s = begin_script(run_, {name, subtitle, height, false});
+    const std::size_t count = panels.size();
+    const Canvas canvas = canvas_of(run_.look, 148.0 + 320.0 * static_cast<double>(count), false);
+    std::string s = begin_script(run_, {name, subtitle, canvas, false});
     s += "set offsets 0,0,graph 0.05,0\n" + x_range();
-    for (int i = 0; i < count; ++i) {
-      const auto [bottom, top] = stacked(static_cast<std::size_t>(i), panels.size(), height, 62.0, 26.0);
-      s += panel(run_, bottom, top, panels[static_cast<std::size_t>(i)].label, i + 1 == count);
-      s += panels[static_cast<std::size_t>(i)].figure < 0 ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
+    for (std::size_t i = 0; i < count; ++i) {
+      s += panel(run_, canvas, stacked(i, count, canvas, 26.0), panels[i].label, i + 1 == count);
+      s += panels[i].figure < 0 ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) s += ticks(i + 1 == count);
-      if (i + 1 == count) s += "set xlabel " + quoted(axis_.vary->path) + "\n";
-      s += plot_command(elements(panels[static_cast<std::size_t>(i)]));
+      if (i + 1 == count)
+        s += "set xlabel " + quoted(key_with_unit(axis_.vary->path, run_.facts.units)) + "\n";
+      s += plot_command(elements(panels[i]));
     }
     return s + end_script();
   }
@@ -194,7 +198,7 @@ class Script {
         list.push_back(fmt::format(
             "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {:.1f} pointtype {} pointsize 0.7{} "
             "linecolor '{}' title {}",
-            c + 1, column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 7 - 2 * static_cast<int>(k % 3),
+            c + 1, column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 5 + 2 * static_cast<int>(i % 5),
             i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1), colours[colour % colours.size()],
             signorini::quoted(title)));
       }
@@ -224,29 +228,27 @@ std::string labelled(const SweepSpec& spec, std::size_t query) {
 
 /// Probability that an answer is greater, over it, with its interval; a panel a query.
 std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepSpec& spec,
-                                         const SweepRows& rows) {
+                                         const SweepRows& rows, const PictureLook& look) {
   const std::vector<Sampled> answers = sampled_answers(spec, rows);
   const auto drawn = [](const Sampled& s) { return s.sorted.size() > 1; };
   if (std::none_of(answers.begin(), answers.end(), drawn)) return {};
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_sweep);
   PlottedRun run;
+  run.look = look;
   run.facts.title = spec.title;
   run.facts.outcome = "done";
   run.facts.units = spec.units;
   const std::size_t panels = std::min(spec.responses.size(), most_panels);
-  const int count = static_cast<int>(panels), height = 140 + 340 * count;
-  std::string s = begin_script(run, {"exceedance", "Probability of more; " + spec.sampling, height, false});
-  const double bottom = 62.0 / height, top = 1.0 - 62.0 / height, space = 74.0 / height;
-  const double each = (top - bottom - space * (count - 1)) / count;
+  const Canvas canvas = canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false);
+  std::string s = begin_script(run, {"exceedance", "Probability of more; " + spec.sampling, canvas, false});
   s += "set logscale y\n";
-  for (int i = 0; i < count; ++i) {
-    const double upper = top - i * (each + space);
-    s += panel(run, upper - each, upper, "P(greater)", true);
-    s += "set xlabel " + quoted(labelled(spec, static_cast<std::size_t>(i))) + "\nset yrange [*:1]\n";
+  for (std::size_t i = 0; i < panels; ++i) {
+    s += panel(run, canvas, stacked(i, panels, canvas, 80.0), "P(greater)", true);
+    s += "set xlabel " + quoted(labelled(spec, i)) + "\nset yrange [*:1]\n";
     std::vector<std::string> elements;
     for (std::size_t k = 0; k < answers.size() && elements.size() < most_curves; ++k) {
-      if (answers[k].query != static_cast<std::size_t>(i) || !drawn(answers[k])) continue;
+      if (answers[k].query != i || !drawn(answers[k])) continue;
       CsvBlock block;
       block.text("value").text("probability").text("low").text("high").end_row();
       for (const Exceedance& e : exceedance(answers[k].sorted, independent(spec)))
@@ -274,8 +276,8 @@ std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepS
 }  // namespace
 
 std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
-                                        const SweepRows& rows) {
-  if (!spec.sampling.empty()) return write_sample_plots(directory, spec, rows);
+                                        const SweepRows& rows, const PictureLook& look) {
+  if (!spec.sampling.empty()) return write_sample_plots(directory, spec, rows, look);
   const Axis axis = axis_of(spec);
   const std::vector<Curve> list = group(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);
@@ -286,16 +288,17 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
     write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(spec, list[i], axis, contacts));
 
   const std::optional<MapAxes> axes = map_axes(spec);
-  bool borders = false;
+  bool borders = false, differ = false;
   if (axes) {
     write_file(folder / "map.csv", map_table(spec, *axes, rows));
-    const std::string sides = border_table(spec, *axes, rows);
-    borders = std::count(sides.begin(), sides.end(), '\n') > 1;
-    if (borders) write_file(folder / "borders.csv", sides);
+    const Borders sides = border_table(spec, *axes, rows);
+    differ = sides.count > 0;
+    borders = differ && 2 * sides.count <= sides.neighbours;  // lines around most cells would say nothing
+    if (borders) write_file(folder / "borders.csv", sides.table);
   }
   const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
-  const Script script(spec, axis, list, contacts);
+  const Script script(spec, axis, list, contacts, look);
   std::vector<fs::path> scripts;
   const std::string others = other_keys(spec, axis);
   const auto add = [&](const std::string& name, const std::string& subtitle,
@@ -307,9 +310,11 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
     }
     std::vector<MapPanel> maps;
     for (const Panel& p : panels) maps.push_back({p.label, p.figure < 0 ? 10 - p.figure : 5 + p.figure});
-    const char* parts = borders ? "; lines part sequences of events" : "";
+    const std::string parts = !differ   ? ""
+                              : borders ? "; lines part sequences of events"
+                                        : "; most neighbours have other sequences of events";
     const char* of = contacts.size() > 1 && panels.front().figure >= 0 ? ", greatest of all contacts" : "";
-    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders));
+    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders, look));
   };
   if (!spec.responses.empty()) {
     std::vector<Panel> panels;

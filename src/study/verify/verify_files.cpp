@@ -127,12 +127,13 @@ std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& 
   run.to = result.events.back().time.t * 1.02;
   if (result.until < run.to) run.facts.certain_until = result.until;
   const std::string data = "'verify.csv' skip 1 using 1:";
+  const Canvas canvas = canvas_of(run.look, 620, true);
   std::string script =
       begin_script(run, {"verify",
                          fmt::format("Times of events: ida against newmark at dt = {:g}, {:g}, {:g}",
                                      result.dt[0], result.dt[1], result.dt[2]),
-                         620});
-  script += panel(run, 0.11, 0.87, "difference [" + model.units.time + "]", true);
+                         canvas});
+  script += panel(run, canvas, stacked(0, 1, canvas), "difference [" + model.units.time + "]", true);
   script += "set logscale y\nset format y '%.0e'\n";
   script += plot_command(
       {data + "3 with lines linewidth 1.2 linecolor '#c0182b' title 'allowed'",

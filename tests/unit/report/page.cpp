@@ -57,6 +57,12 @@ TEST_SUITE("unit/report/page") {
     CHECK(table.find("1 more rows are in t.csv") != std::string::npos);
     CHECK(csv_table(folder.path / "t.csv", 9, {"contact"}).find("1.23457") == std::string::npos);
     CHECK(csv_table(folder.path / "none.csv", 9).empty());
+    // Rounding beside its like is zero; what is small by itself is not.
+    folder.write("e.csv", "t,N,T,t_error\n0.5,-20,3.4e-14,2e-10\n0.6,0,-1,1e-16\n");
+    const std::string told = csv_table(folder.path / "e.csv", 9, {}, {{"N", "kN"}, {"t_error", "s"}});
+    CHECK(told.find("e-14") == std::string::npos);
+    CHECK(told.find("<td class=n>1e-16</td>") != std::string::npos);
+    CHECK(told.find("<th>N [kN]</th><th>T</th><th>t_error [s]</th>") != std::string::npos);
     CHECK(short_number("1e-300x") == "1e-300x");
     CHECK(short_number("inf") == "inf");
   }

@@ -59,7 +59,7 @@ TEST_CASE("frames: two rows an element, one a named node, forces on the body") {
         "0.5,node,,R,4,0,0.01,0.02,0\n");
   CHECK(slurp(folder / "run" / "frame_contacts.csv") ==
         "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n"
-        "0.5,foot,stick,R,4,0,0.01,0.02,0,1,1,-0,-30,4\n");
+        "0.5,foot,stick,R,4,0,0.01,0.02,0,1,1,0,-30,4\n");
   const auto frames = read_frames(folder / "run", 0.0, 1.0);
   REQUIRE(frames.size() == 1);
   REQUIRE(frames[0].elements.size() == 2);

@@ -57,19 +57,78 @@ TEST_CASE("plots: names that look alike as file names stay apart") {
 }
 
 TEST_CASE("plots: a legend has room for its names") {
-  CHECK(room_for({"ida", "exact"}) == panel_right);
+  CHECK(room_for({"ida", "exact"}) == Canvas::usual_legend);
   const std::string name = "friction-iteration:dt=1e-3";
   // 9 points a letter, and the line in front of it.
-  CHECK((1.0 - room_for({"ida", name})) * picture_width >= 8.5 * static_cast<double>(name.size()) + 50.0);
+  CHECK(room_for({"ida", name}) >= 8.5 * static_cast<double>(name.size()) + 50.0);
   CHECK(legend_name(name) == name);
   const std::string longer = std::string(100, 'a') + std::string(100, 'b');
   CHECK(legend_name(longer).size() <= 44);
   CHECK(legend_name(longer).find("a...b") != std::string::npos);
-  CHECK(room_for({longer}) > 0.5);
+  CHECK(canvas_of({}, 800.0, true).right(room_for({longer})) >= 0.5);
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
   CHECK(legend_name(umlauts).find("\u00e4...\u00e4") != std::string::npos);
   CHECK(legend_name("x" + umlauts).find("\u00e4...\u00e4") != std::string::npos);
+}
+
+TEST_CASE("plots: the axis of a curve that hardly moves is no picture of rounding") {
+  const auto range = [](double least, double greatest) {
+    Range r;
+    r.take(least);
+    r.take(greatest);
+    return r;
+  };
+  // A pipe on its shoes: 7e-5 m with noise in the sixteenth digit. One per cent to each side; by hand.
+  CHECK(steady(range(-8e-5, -8e-5 * (1.0 + 1e-15)), 2e-3) == "set yrange [-8.08e-05:-7.92e-05]\n");
+  CHECK(steady(range(8.0, 8.0), 8.0) == "set yrange [7.92:8.08]\n");
+  // What is rounding beside its like is zero: a thousandth of that to each side.
+  CHECK(steady(range(-1e-19, 1.4e-19), 2.0) == "set yrange [-0.002:0.002]\n");
+  CHECK(is_rounding(range(-1e-19, 1.4e-19), 2e-3));
+  CHECK_FALSE(is_rounding(range(0.0, 1e-9), 2e-3));
+  // A small motion is none, nor what six digits can tell apart.
+  CHECK(steady(range(0.0, 1e-9), 2e-3).empty());
+  CHECK(steady(range(1.0, 1.001), 2.0).empty());
+  CHECK(steady(Range{}, 1.0).empty());
+  CHECK(steady(range(0.0, 0.0), 0.0).empty());
+}
+
+TEST_CASE("plots: on paper letters stay readable, and take their room") {
+  PictureLook look;
+  CHECK(canvas_of(look, 800.0, true).width == 1120.0);
+  for (const double mm : {85.0, 120.0, 160.0, 240.0}) {
+    CAPTURE(mm);
+    look.width = mm;
+    const Canvas canvas = canvas_of(look, 800.0, true);
+    CHECK(canvas.width * canvas.pixel * 25.4 / 96.0 == doctest::Approx(mm));
+    CHECK(canvas.font(13.0) * 72.0 / 96.0 >= 6.0 - 1e-12);                         // points
+    CHECK((canvas.right() - canvas.left()) * canvas.width >= 0.5 * canvas.width);  // left for the curves
+    CHECK(canvas.height * canvas.pixel >= 800.0 * mm / 1120.0 * 96.0 / 25.4 * 0.25);
+    CHECK(stacked(1, 2, canvas).bottom * canvas.height == doctest::Approx(room_below));
+  }
+  look.width = 160.0;
+  look.height = 90.0;
+  const Canvas flat = canvas_of(look, 1000.0, true);
+  CHECK(flat.height * flat.pixel * 25.4 / 96.0 == doctest::Approx(90.0));
+  CHECK(flat.height >= 500.0 - 1e-9);
+}
+
+TEST_CASE("plots: a contact without friction has neither T nor slip, and no part in the cones") {
+  const Folder folder;
+  const Scene s = scene();
+  Model m = model();
+  m.contacts[0].friction = {};
+  RunDirectory directory(folder / "run", s, m);
+  feed(directory, 0.0);
+  feed(directory, 1.0);
+  (void)directory.finish(report());
+  (void)write_plots(folder / "run");
+  const auto plots = folder / "run" / "plots";
+  const std::string smooth = slurp(plots / "contact-foot.gp"), rough = slurp(plots / "contact-pad__left.gp");
+  CHECK(smooth.find("'T [") == std::string::npos);
+  CHECK(smooth.find("slip p") == std::string::npos);
+  CHECK(rough.find("'T [") != std::string::npos);
+  CHECK(rough.find("slip p") != std::string::npos);
 }
 
 TEST_CASE("plots: a run of one instant has no pictures, a folder without a run is an error") {

@@ -1,0 +1,78 @@
+#include "cli/plot_any.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+
+#include "base/json.hpp"
+#include "report/page.hpp"
+#include "signorini/error.hpp"
+#include "study/compare/comparison_plots.hpp"
+#include "study/sensitivity/sensitivity_files.hpp"
+#include "study/sensitivity/sensitivity_plots.hpp"
+#include "study/sweep/sweep_directory.hpp"
+#include "study/sweep/sweep_plots.hpp"
+
+namespace signorini::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> sweep(const fs::path& directory, const PictureLook& look) {
+  const SweepDirectory swept(directory, read_sweep_spec(directory), false);
+  return write_sweep_plots(directory, swept.spec(), swept.rows(), look);
+}
+
+std::vector<fs::path> sensitivity(const fs::path& directory, const PictureLook& look) {
+  Sigmas sigmas;
+  const Sensitivities s = read_sensitivities(directory, sigmas);
+  return write_sensitivity_plots(directory, s, sigmas, look);
+}
+
+/// The runs of a comparison: in a folder of the engine's name, else where they were.
+std::vector<fs::path> comparison(const fs::path& directory, const PictureLook& look) {
+  const fs::path file = directory / "compare.json";
+  std::ifstream stream(file, std::ios::binary);
+  ComparisonReport report;
+  try {
+    const Json json = parse_json(stream);
+    for (const Json& run : json.at("runs")) {
+      const std::string name = run.at("name");
+      if (run.at("outcome") == "refused") continue;
+      std::error_code error;
+      const bool here = fs::is_directory(directory / name, error);
+      report.runs.push_back(read_compared_run(here ? directory / name : fs::path(run.at("directory")), name));
+    }
+  } catch (const Json::exception& error) {
+    throw FileError(file.string(), std::string("is no comparison: ") + error.what());
+  }
+  if (report.runs.empty()) throw FileError(file.string(), "has no runs");
+  begin_comparison_plots(directory);
+  for (std::size_t i = 1; i < report.runs.size(); ++i) {
+    ComparisonSettings settings;
+    settings.folder = directory / "plots";
+    settings.slug = run_slug(report.runs[i].figures.name, i);
+    report.comparisons.push_back(compare_runs(report.runs.front(), report.runs[i], settings));
+  }
+  return write_comparison_plots(directory, report, look);
+}
+
+}  // namespace
+
+std::vector<fs::path> write_any_plots(const fs::path& directory, const PlotWindow& window,
+                                      const PictureLook& look) {
+  const std::string kind = kind_of_results(directory);
+  if (kind == "run") return write_plots(directory, window, look);
+  if (window.from || window.to)
+    throw UsageError(fmt::format("{}: {} is a {}, whose pictures have no part of a time to show",
+                                 window.from ? "--from" : "--to", directory.string(), kind));
+  if (kind == "sweep") return sweep(directory, look);
+  if (kind == "sensitivity") return sensitivity(directory, look);
+  if (kind == "comparison") return comparison(directory, look);
+  throw FileError(
+      directory.string(),
+      fmt::format("is a {}; runs, comparisons, sweeps and sensitivities can be drawn again", kind));
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,15 @@
+// plot_any.hpp: the pictures of a directory of results, whatever it holds, drawn again from its tables.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "result/plots.hpp"
+
+namespace signorini::cli {
+
+/// The scripts. Errors: FileError; UsageError for a window of what has no time.
+std::vector<std::filesystem::path> write_any_plots(const std::filesystem::path& directory,
+                                                   const PlotWindow& window, const PictureLook& look);
+
+}  // namespace signorini::cli

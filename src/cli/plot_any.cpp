@@ -19,19 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> sweep(const fs::path& directory, const PictureLook& look) {
+std::vector<fs::path> sweep_scripts(const fs::path& directory, const PictureLook& look) {
   const SweepDirectory swept(directory, read_sweep_spec(directory), false);
   return write_sweep_plots(directory, swept.spec(), swept.rows(), look);
 }
 
-std::vector<fs::path> sensitivity(const fs::path& directory, const PictureLook& look) {
+std::vector<fs::path> sensitivity_scripts(const fs::path& directory, const PictureLook& look) {
   Sigmas sigmas;
   const Sensitivities s = read_sensitivities(directory, sigmas);
   return write_sensitivity_plots(directory, s, sigmas, look);
 }
 
 /// The runs of a comparison: in a folder of the engine's name, else where they were.
-std::vector<fs::path> comparison(const fs::path& directory, const PictureLook& look) {
+std::vector<fs::path> comparison_scripts(const fs::path& directory, const PictureLook& look) {
   const fs::path file = directory / "compare.json";
   std::ifstream stream(file, std::ios::binary);
   ComparisonReport report;
@@ -67,9 +67,9 @@ std::vector<fs::path> write_any_plots(const fs::path& directory, const PlotWindo
   if (window.from || window.to)
     throw UsageError(fmt::format("{}: {} is a {}, whose pictures have no part of a time to show",
                                  window.from ? "--from" : "--to", directory.string(), kind));
-  if (kind == "sweep") return sweep(directory, look);
-  if (kind == "sensitivity") return sensitivity(directory, look);
-  if (kind == "comparison") return comparison(directory, look);
+  if (kind == "sweep") return sweep_scripts(directory, look);
+  if (kind == "sensitivity") return sensitivity_scripts(directory, look);
+  if (kind == "comparison") return comparison_scripts(directory, look);
   throw FileError(
       directory.string(),
       fmt::format("is a {}; runs, comparisons, sweeps and sensitivities can be drawn again", kind));

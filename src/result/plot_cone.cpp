@@ -117,6 +117,23 @@ std::string legend(const PlottedRun& run, const Canvas& canvas, double top) {
   return s + plot_command(elements);
 }
 
+/// Name and coefficients above a panel, and what it shows.
+std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canvas& canvas, bool small) {
+  const auto& contact = run.facts.contacts[k];
+  const std::string f =
+      contact.static_friction == contact.kinetic_friction
+          ? fmt::format(", f = {:.4g}", contact.static_friction)
+          : fmt::format(", f = {:.4g} and {:.4g}", contact.static_friction, contact.kinetic_friction);
+  std::string s = "set label 3 " + quoted(contact.name + f) +
+                  fmt::format(" at graph 0,1 left offset character 0,0.8 font ',{:.4g}'\n",
+                              canvas.font(small ? 10.0 : 13.0));
+  const double greatest = run.greatest_compression[k];
+  const double most = greatest > 0.0 ? 1.08 * greatest : 1.0;
+  s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", shortest(most),
+                   shortest(1.05 * most * contact.static_friction));
+  return small ? s + "set xtics " + shortest(tic_step(most)) + "\n" : s;
+}
+
 }  // namespace
 
 std::string cone_script(const PlottedRun& run) {
@@ -157,19 +174,7 @@ std::string cone_script(const PlottedRun& run) {
                      from + width - (grid.columns > 1 ? 60.0 / canvas.width : 0.0));
     s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
                      top - panel_height * line, top);
-    const auto& contact = run.facts.contacts[shown[i]];
-    const std::string f =
-        contact.static_friction == contact.kinetic_friction
-            ? fmt::format(", f = {:.4g}", contact.static_friction)
-            : fmt::format(", f = {:.4g} and {:.4g}", contact.static_friction, contact.kinetic_friction);
-    s += "set label 3 " + quoted(contact.name + f) +
-         fmt::format(" at graph 0,1 left offset character 0,0.8 font ',{:.4g}'\n",
-                     canvas.font(small ? 10.0 : 13.0));
-    const double greatest = run.greatest_compression[shown[i]];
-    const double most = greatest > 0.0 ? 1.08 * greatest : 1.0;
-    s += fmt::format("set xrange [0:{0}]\nset yrange [-{1}:{1}]\n", shortest(most),
-                     shortest(1.05 * most * contact.static_friction));
-    if (small) s += "set xtics " + shortest(tic_step(most)) + "\n";
+    s += heading_and_ranges(run, shown[i], canvas, small);
     // Labels on the outer panels only.
     const bool lowest = i + grid.columns >= shown.size();
     s +=

@@ -106,8 +106,9 @@ namespace {
 double heading(const Canvas& canvas, const std::string& text, double size) {
   const auto letters = std::count_if(text.begin(), text.end(),
                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-  const double wide = 0.62 * size * static_cast<double>(letters), room = canvas.width * (1.0 - canvas.left());
-  return canvas.font(size) * std::clamp(room / std::max(wide, 1.0), 0.6, 1.0);
+  const double text_width = 0.62 * size * static_cast<double>(letters),
+               room = canvas.width * (1.0 - canvas.left());
+  return canvas.font(size) * std::clamp(room / std::max(text_width, 1.0), 0.6, 1.0);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double narrow = 2e-4, around = 0.01, flat = 1e-3;
+constexpr double least_range = 2e-4, around_middle = 0.01, around_zero = 1e-3;
 
 bool is_table(const fs::path& file) {
   std::error_code error;
@@ -93,10 +93,10 @@ std::string steady(const Range& range, double scale) {
   const auto axis = [](double middle, double half) {
     return fmt::format("set yrange [{:.8g}:{:.8g}]\n", middle - half, middle + half);
   };
-  if (is_rounding(range, scale)) return scale > 0.0 ? axis(0.0, flat * scale) : "";
+  if (is_rounding(range, scale)) return scale > 0.0 ? axis(0.0, around_zero * scale) : "";
   const double middle = 0.5 * (range.least + range.greatest);
-  if (range.greatest - range.least >= narrow * std::abs(middle)) return "";
-  return axis(middle, around * std::abs(middle));
+  if (range.greatest - range.least >= least_range * std::abs(middle)) return "";
+  return axis(middle, around_middle * std::abs(middle));
 }
 
 void read_ranges(const fs::path& directory, PlottedRun& run) {

@@ -101,7 +101,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
 
   RunSpec chosen = scene.run;
   chosen.engine = choose_engine(model, scene.run).engine;
-  if (const std::string warning = warn_of_warning(model, chosen, options.scene); !warning.empty())
+  if (const std::string warning = warn_of_patience(model, chosen, options.scene); !warning.empty())
     print_warnings(options, {warning});
   CertifiedReport certified;
   const Report& report = certified.report;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Which folder of src/ includes which; fails where two include each other, directly or round about: rooms within
-# folders, and the folders themselves.
+# folders, and the folders themselves; and where two headers define types of one name.
 # includes.sh [--list]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../src"
@@ -19,3 +19,11 @@ for graph in arrows houses; do
     exit 1
   fi
 done
+
+# Two types of one name in one namespace are one to the linker, which takes either's functions and says nothing.
+twice=$(grep -rhoE '^(struct|class) [A-Za-z]+( final)?( :.*)? \{' --include='*.hpp' . ../include --exclude-dir=cli |
+  sed -E 's/^(struct|class) ([A-Za-z]+).*/\2/' | sort | uniq -d)
+if [[ -n "$twice" ]]; then
+  echo "includes.sh: headers that define types of one name: $twice" >&2
+  exit 1
+fi

@@ -176,7 +176,7 @@ class Path {
       }
       std::vector<double> conditions;
       for (const Unknown& unknown : unknowns) conditions.push_back(condition(unknown, forces));
-      const Share shared = least_share(
+      const LeastShare shared = least_share(
           {stiffness_, map_, rows, unknowns, conditions, *z * size, forces.cwiseAbs().maxCoeff()}, rates);
       if (!shared.undetermined.empty()) doubt(shared);
       take_states(unknowns, shared.moves);
@@ -185,7 +185,7 @@ class Path {
     take_rates(forces);
   }
 
-  void doubt(const Share& shared) {
+  void doubt(const LeastShare& shared) {
     std::vector<std::string> names;
     for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(

@@ -52,8 +52,8 @@ Eigen::MatrixXd free_motions(const SharedOut& given, const std::vector<Loose>& l
 
 }  // namespace
 
-Share least_share(const SharedOut& given, Vector& rates) {
-  Share share;
+LeastShare least_share(const SharedOut& given, Vector& rates) {
+  LeastShare share;
   for (const double z : given.z) share.moves.push_back(z > 0.0);
   const double zero = same_rate * std::max(given.greatest_force, given.z.cwiseAbs().maxCoeff());
   std::vector<bool> may;

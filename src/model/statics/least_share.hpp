@@ -28,7 +28,7 @@ struct SharedOut {
   double greatest_force;                  ///< of the rates of forces in the rows
 };
 
-struct Share {
+struct LeastShare {
   std::vector<bool> moves;  ///< one an unknown
   /// Contacts at their limits whose slips the data leave open, in the order of their rows; empty: none.
   std::vector<std::size_t> undetermined;
@@ -36,6 +36,6 @@ struct Share {
 };
 
 /// Adds to rates (n) what the least takes of those motions.
-[[nodiscard]] Share least_share(const SharedOut& given, Vector& rates);
+[[nodiscard]] LeastShare least_share(const SharedOut& given, Vector& rates);
 
 }  // namespace signorini

@@ -161,7 +161,7 @@ class EventsBetween {
 
 void compare_forces(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
                     double split, Comparison& c) {
-  ContactRows rows_a(a.figures.directory / "contacts.csv"), rows_b(b.figures.directory / "contacts.csv");
+  ContactRowReader rows_a(a.figures.directory / "contacts.csv"), rows_b(b.figures.directory / "contacts.csv");
   EventsBetween events(a, b);
   Series series(settings, "forces-", {"N", "T"});
   std::map<std::string, std::pair<Deviation, Deviation>> by_contact;

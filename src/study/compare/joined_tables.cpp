@@ -20,12 +20,12 @@ bool TimeJoin::next() {
   }
 }
 
-ContactRows::ContactRows(const std::filesystem::path& path)
+ContactRowReader::ContactRowReader(const std::filesystem::path& path)
     : reader_(path), contact_(reader_.column("contact")), N_(reader_.column("N")), T_(reader_.column("T")) {
   pending_ = reader_.next();
 }
 
-bool ContactRows::next() {
+bool ContactRowReader::next() {
   if (!pending_) return false;
   t_ = reader_.number(0);
   forces_.clear();

@@ -31,9 +31,9 @@ class TimeJoin {
 };
 
 /// contacts.csv has one row a time and contact: here all rows of one time together.
-class ContactRows {
+class ContactRowReader {
  public:
-  explicit ContactRows(const std::filesystem::path& path);
+  explicit ContactRowReader(const std::filesystem::path& path);
   /// Moves to the next time; a last time whose rows are not all there may have fewer contacts.
   bool next();
   struct Forces {

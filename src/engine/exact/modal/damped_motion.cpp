@@ -108,8 +108,8 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
     const Eigen::Index row =
         std::find(state_->rigid.begin(), state_->rigid.end(), term) - state_->rigid.begin();
     const Eigen::VectorXcd own = modes.force.row(term).transpose();
-    return Quantity{own,
-                    (answers.transpose() * own).real() + (state_->from_forces.row(row) * forces).transpose()};
+    return ModalQuantity{
+        own, (answers.transpose() * own).real() + (state_->from_forces.row(row) * forces).transpose()};
   };
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const Contact& contact = model_.contacts[c];
@@ -138,9 +138,9 @@ void DampedMotion::find_contacts(const Eigen::MatrixXd& forces, const Eigen::Mat
   }
 }
 
-Quantity DampedMotion::of(const Form& form, std::size_t c) const {
+ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
   const ContactQuantities& own = contacts_[c];
-  Quantity sum{Eigen::VectorXcd::Zero(root().size()), time_.constant(form.constant)};
+  ModalQuantity sum{Eigen::VectorXcd::Zero(root().size()), time_.constant(form.constant)};
   const auto add = [&](double factor, const auto& quantity) {
     if (factor != 0.0) sum += factor * quantity();
   };

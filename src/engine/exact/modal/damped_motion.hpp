@@ -15,16 +15,16 @@
 
 namespace signorini {
 
-struct Quantity {
+struct ModalQuantity {
   Eigen::VectorXcd row;
   Course course;
 
-  Quantity& operator+=(const Quantity& b) {
+  ModalQuantity& operator+=(const ModalQuantity& b) {
     row += b.row;
     course += b.course;
     return *this;
   }
-  friend Quantity operator*(double factor, Quantity a) {
+  friend ModalQuantity operator*(double factor, ModalQuantity a) {
     a.row *= factor;
     a.course *= factor;
     return a;
@@ -53,25 +53,25 @@ class DampedMotion {
   [[nodiscard]] const Eigen::MatrixXd& rate() const { return rate_; }
 
   struct ContactQuantities {
-    Quantity N, T, gap, ut;
+    ModalQuantity N, T, gap, ut;
     Course surface, pressing;
   };
   [[nodiscard]] const ContactQuantities& contact(std::size_t c) const { return contacts_[c]; }
-  [[nodiscard]] Quantity derivative(const Quantity& f) const {
+  [[nodiscard]] ModalQuantity derivative(const ModalQuantity& f) const {
     return {f.row.cwiseProduct(root()), time_.derivative(f.course)};
   }
   /// A form on a contact.
-  [[nodiscard]] Quantity of(const Form& form, std::size_t contact) const;
+  [[nodiscard]] ModalQuantity of(const Form& form, std::size_t contact) const;
   /// What modes show of a form on the structure, in open modes.
-  [[nodiscard]] Quantity of(const Vector& form) const {
+  [[nodiscard]] ModalQuantity of(const Vector& form) const {
     return {state_->modes.shape.transpose() * form, place_.transpose() * form};
   }
-  [[nodiscard]] Quantity of_load(std::size_t load) const { return of(basis_.load(load)); }
-  [[nodiscard]] double value(const Quantity& f, const ModalPoint& at) const {
+  [[nodiscard]] ModalQuantity of_load(std::size_t load) const { return of(basis_.load(load)); }
+  [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
   }
   /// Sum of the magnitudes of its terms.
-  [[nodiscard]] double magnitude(const Quantity& f, const ModalPoint& at) const {
+  [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
   }
 

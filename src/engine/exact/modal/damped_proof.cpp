@@ -62,7 +62,7 @@ void DampedProof::measure(const ModalPoint& at) {
 }
 
 /// Modes below which all others together show at most `most`, `first` at least.
-Eigen::Index DampedProof::slow_for(const Quantity& f, Eigen::Index first, double most) const {
+Eigen::Index DampedProof::slow_for(const ModalQuantity& f, Eigen::Index first, double most) const {
   double sum = 0.0;
   Eigen::Index k = amplitude_.size();
   for (; k > first; --k) {
@@ -120,7 +120,7 @@ void DampedProof::expand(const ModalPoint& at) {
     terms_.col(j) = terms_.col(j - 1).cwiseProduct(turned) / static_cast<double>(j);
 }
 
-DampedProof::Part DampedProof::part_of(const Quantity& f, const ModalPoint& at) const {
+DampedProof::Part DampedProof::part_of(const ModalQuantity& f, const ModalPoint& at) const {
   Part part;
   part.p.resize(count_);
   const TimeBasis::Ripple waves = motion_.time().taylor(f.course, at.time, h_, turn_, part.p);
@@ -175,7 +175,7 @@ Passage DampedProof::pass(const ModalPoint& at, double remaining) {
 }
 
 /// As TurningPoints::watched.
-std::array<const Quantity*, 4> DampedProof::shown(std::size_t c) const {
+std::array<const ModalQuantity*, 4> DampedProof::shown(std::size_t c) const {
   const DampedMotion::ContactQuantities& own = motion_.contact(c);
   return {&own.N, &own.T, &own.gap, &own.ut};
 }

@@ -28,29 +28,29 @@ class DampedProof {
   struct Watched {
     std::size_t slot = 0;
     double noise = 0.0;
-    Quantity guard, lead;  // lead: derivative number arming.leading of it
-    double now = 0.0;      // the value, or the leading derivative's
+    ModalQuantity guard, lead;  // lead: derivative number arming.leading of it
+    double now = 0.0;           // the value, or the leading derivative's
   };
   struct Part {  // a quantity on a step
     std::vector<double> p;
     double rest = 0.0, ripple = 0.0, ripple_rate = 0.0;
   };
-  [[nodiscard]] const Quantity& watched(const Watched& guard) const {
+  [[nodiscard]] const ModalQuantity& watched(const Watched& guard) const {
     return arming_.leading(guard.slot) > 0 ? guard.lead : guard.guard;
   }
   [[nodiscard]] bool unknown(const Watched& guard) const {
     return !arming_.armed(guard.slot) && arming_.leading(guard.slot) == 0;
   }
   [[nodiscard]] const Watched* find(std::size_t slot) const;
-  [[nodiscard]] Eigen::Index slow_for(const Quantity& f, Eigen::Index first, double most) const;
+  [[nodiscard]] Eigen::Index slow_for(const ModalQuantity& f, Eigen::Index first, double most) const;
   void measure(const ModalPoint& at);
   void choose_step(double remaining);
   void set_step(double h, bool all_slow);
   void expand(const ModalPoint& at);
-  [[nodiscard]] Part part_of(const Quantity& f, const ModalPoint& at) const;
+  [[nodiscard]] Part part_of(const ModalQuantity& f, const ModalPoint& at) const;
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
-  [[nodiscard]] std::array<const Quantity*, 4> shown(std::size_t contact) const;
+  [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
   [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
 

@@ -79,7 +79,7 @@ double DampedWorks::with_course(const Eigen::VectorXcd& row, const Course& cours
   return sum;
 }
 
-double DampedWorks::integral(const Quantity& f, const Quantity& g, const Stretch& s) const {
+double DampedWorks::integral(const ModalQuantity& f, const ModalQuantity& g, const Stretch& s) const {
   double sum = with_course(f.row, g.course, s) + with_course(g.row, f.course, s);
   if (!f.row.isZero(0.0) && !g.row.isZero(0.0)) sum += of_pairs(f.row, g.row, s);
   if (!f.course.isZero(0.0) && !g.course.isZero(0.0))
@@ -126,13 +126,13 @@ void DampedWorks::add_contact(std::size_t c, const Stretch& s, Works& works) con
         inside_loss(contact, state.state, motion_.value(own.gap, s.from), motion_.value(own.gap, s.to));
   if (state.is_open()) return;
   const TimeBasis& time = motion_.time();
-  const Quantity one{Eigen::VectorXcd::Zero(motion_.root().size()), time.constant(1.0)};
+  const ModalQuantity one{Eigen::VectorXcd::Zero(motion_.root().size()), time.constant(1.0)};
   if (contact.has_gap()) works.pressing[c] -= integral(own.N, one, s);
   if (slip_sign(state.state) != 0) works.friction[c] += integral(own.T, slips_[c], s);
-  const Quantity moved{Eigen::VectorXcd::Zero(motion_.root().size()), time.derivative(own.surface)};
+  const ModalQuantity moved{Eigen::VectorXcd::Zero(motion_.root().size()), time.derivative(own.surface)};
   if (!moved.course.isZero(0.0)) works.surface[c] -= integral(own.T, moved, s);
   if (contact.normal_damping != 0.0) {
-    const Quantity rate = motion_.derivative(own.gap);
+    const ModalQuantity rate = motion_.derivative(own.gap);
     works.damping += contact.normal_damping * integral(rate, rate, s);
   }
 }

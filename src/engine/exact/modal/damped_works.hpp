@@ -27,16 +27,16 @@ class DampedWorks {
   };
   [[nodiscard]] double of_pairs(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, const Stretch& s) const;
   [[nodiscard]] double with_course(const Eigen::VectorXcd& row, const Course& course, const Stretch& s) const;
-  [[nodiscard]] double integral(const Quantity& f, const Quantity& g, const Stretch& s) const;
+  [[nodiscard]] double integral(const ModalQuantity& f, const ModalQuantity& g, const Stretch& s) const;
   [[nodiscard]] double loss(const Stretch& s) const;
   void add_contact(std::size_t c, const Stretch& s, Works& works) const;
 
   const DampedMotion& motion_;
-  std::vector<Quantity> loads_;   // rates along loads that act
-  std::vector<Course> factors_;   // and how strongly they act
-  std::vector<Quantity> slips_;   // slip rates, one a contact; empty rows where none slips
-  Eigen::MatrixXd still_loss_;    // b x b: of courses alone
-  Eigen::MatrixXcd course_loss_;  // modes x b: what damping takes of modes beside courses
+  std::vector<ModalQuantity> loads_;  // rates along loads that act
+  std::vector<Course> factors_;       // and how strongly they act
+  std::vector<ModalQuantity> slips_;  // slip rates, one a contact; empty rows where none slips
+  Eigen::MatrixXd still_loss_;        // b x b: of courses alone
+  Eigen::MatrixXcd course_loss_;      // modes x b: what damping takes of modes beside courses
 };
 
 }  // namespace signorini

@@ -1,5 +1,7 @@
 #include "base/json.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <istream>
 
 namespace signorini {
@@ -13,8 +15,18 @@ void without_negative_zeros(Json& json) {
     json = json.get<double>() + 0.0;
 }
 
-std::string dumped(Json json, int indent) {
-  without_negative_zeros(json);
+bool has_negative_zero(const Json& json) {
+  if (json.is_structured()) return std::any_of(json.begin(), json.end(), has_negative_zero);
+  return json.is_number_float() && json.get<double>() == 0.0 && std::signbit(json.get<double>());
+}
+
+/// Copies only what has something to mend.
+std::string dumped(const Json& json, int indent) {
+  if (has_negative_zero(json)) {
+    Json mended = json;
+    without_negative_zeros(mended);
+    return mended.dump(indent, ' ', false, Json::error_handler_t::replace);
+  }
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 

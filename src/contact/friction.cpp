@@ -3,6 +3,17 @@
 #include <cmath>
 
 namespace signorini {
+namespace {
+
+/// E_k from E_0 ... E_(k-1) and g_0 ... g_k, E = exp(g) times any constant.
+double next_of_exponential(const std::vector<double>& g, const std::vector<double>& e) {
+  const std::size_t k = e.size();
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(j) * g[j] * e[k - j];
+  return sum / static_cast<double>(k);
+}
+
+}  // namespace
 
 double sliding_friction(const Contact& contact, double along) {
   if (!contact.friction.stribeck_velocity) return contact.friction.kinetic;
@@ -34,23 +45,16 @@ Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) 
 
 void FrictionRecursion::begin(const Contact& contact, int s, double rate) {
   s_ = s;
-  kinetic_ = contact.friction.kinetic;
   velocity_ = *contact.friction.stribeck_velocity;
   const double along = s * rate;
-  f_.assign(1, sliding_friction(contact, along));
+  first_ = sliding_friction(contact, along);
+  varying_.assign(1, first_ - contact.friction.kinetic);
   exponent_.assign(1, -along / velocity_);
 }
 
-/// f and E differ by a factor, but for f_0.
 void FrictionRecursion::extend(double rate) {
-  const std::size_t k = f_.size();
   exponent_.push_back(-s_ * rate / velocity_);
-  double sum = 0.0;
-  for (std::size_t j = 1; j <= k; ++j) {
-    const double f = j == k ? f_[0] - kinetic_ : f_[k - j];
-    sum += static_cast<double>(j) * exponent_[j] * f;
-  }
-  f_.push_back(sum / static_cast<double>(k));
+  varying_.push_back(next_of_exponential(exponent_, varying_));
 }
 
 FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
@@ -63,16 +67,11 @@ FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, i
       s_(s) {}
 
 void FrictionTangent::extend(double rate, double moved_rate) {
-  const std::size_t k = x_.size();
-  x_.push_back(s_ * rate);
-  y_.push_back((x_[k] * by_velocity_ / velocity_ - s_ * moved_rate) / velocity_);
-  if (k == 0) {
-    e_.push_back(std::exp(-x_[0] / velocity_));
-  } else {
-    double sum = 0.0;
-    for (std::size_t j = 1; j <= k; ++j) sum -= static_cast<double>(j) * x_[j] * e_[k - j];
-    e_.push_back(sum / (velocity_ * static_cast<double>(k)));
-  }
+  const std::size_t k = e_.size();
+  const double x = s_ * rate;
+  exponent_.push_back(-x / velocity_);
+  y_.push_back((x * by_velocity_ / velocity_ - s_ * moved_rate) / velocity_);
+  e_.push_back(k == 0 ? std::exp(exponent_[0]) : next_of_exponential(exponent_, e_));
   double product = 0.0;
   for (std::size_t j = 0; j <= k; ++j) product += e_[j] * y_[k - j];
   by_p_.push_back((k == 0 ? by_kinetic_ : 0.0) + (by_static_ - by_kinetic_) * e_[k] +

@@ -46,23 +46,23 @@ class FrictionRecursion {
   /// rate: coefficient 0 of ut'.
   void begin(const Contact& contact, int s, double rate);
   /// f_0, the coefficient of the row s f_0 N.
-  [[nodiscard]] double first() const { return f_[0]; }
+  [[nodiscard]] double first() const { return first_; }
   /// Takes coefficient k of ut', in turn from 1 on; returns s sum_(j = 1..k) f_j N_(k-j). pressing(i): N_i.
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& pressing) {
     extend(rate);
-    const std::size_t k = f_.size() - 1;
+    const std::size_t k = varying_.size() - 1;
     double known = 0.0;
-    for (std::size_t j = 1; j <= k; ++j) known += f_[j] * pressing(k - j);
+    for (std::size_t j = 1; j <= k; ++j) known += varying_[j] * pressing(k - j);
     return s_ * known;
   }
 
  private:
   void extend(double rate);
 
-  double kinetic_ = 0.0, velocity_ = 0.0;  // fk, v_s
+  double first_ = 0.0, velocity_ = 0.0;  // f_0, v_s
   int s_ = 0;
-  std::vector<double> exponent_, f_;  // g_k, f_k
+  std::vector<double> exponent_, varying_;  // g_k, (fs - fk) E_k
 };
 
 /// Its derivative by a parameter, coefficient by coefficient beside the motion's. Products of series: at level k
@@ -77,7 +77,7 @@ class FrictionTangent {
   template <class Pressing, class Moved>
   [[nodiscard]] double next(double rate, double moved_rate, const Pressing& pressing, const Moved& moved) {
     extend(rate, moved_rate);
-    const std::size_t k = x_.size() - 1;
+    const std::size_t k = e_.size() - 1;
     double sum = 0.0;
     for (std::size_t j = 1; j <= k; ++j) sum += (static_ - kinetic_) * e_[j] * moved(k - j);
     for (std::size_t j = 0; j <= k; ++j) sum += by_p_[j] * pressing(k - j);
@@ -90,7 +90,7 @@ class FrictionTangent {
   double static_, kinetic_, velocity_ = 1.0;           // fs, fk, v_s
   double by_static_, by_kinetic_, by_velocity_ = 0.0;  // by p
   int s_;
-  std::vector<double> x_, e_, y_, by_p_;  // x, E, ( x v_p/v_s - x_p )/v_s and f_p
+  std::vector<double> exponent_, e_, y_, by_p_;  // -x/v_s, E, ( x v_p/v_s - x_p )/v_s and f_p
 };
 
 }  // namespace signorini

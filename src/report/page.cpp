@@ -15,6 +15,7 @@
 #include "report/picture.hpp"
 #include "report/run_data.hpp"
 #include "result/csv_read.hpp"
+#include "result/unit_words.hpp"
 #include "signorini/error.hpp"
 #include "signorini/event.hpp"
 
@@ -130,27 +131,15 @@ std::string run_facts(const Json& summary) {
   return text;
 }
 
-/// The scene's words in place of "force", "length" and "time".
-std::string in_units(std::string text, const Json& units) {
-  for (const char* name : {"force", "length", "time"})
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
-      const std::string own = value_text(member(units, name));
-      if (own.find(name) != std::string::npos) break;  // a unit of that name
-      text.replace(at, std::string_view(name).size(), own);
-    }
-  return text;
-}
-
 /// events.csv, with units in its header, and the error of a time beside it.
-std::string event_table(const fs::path& file, const Json& summary) {
+std::string event_table(const fs::path& file, const Units& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
-  const Json& units = member(summary, "units");
   std::map<std::string, std::string> of_columns;
-  for (const EventColumn& column : event_columns) of_columns[column.name] = in_units(column.unit, units);
+  for (const EventColumn& column : event_columns) of_columns[column.name] = unit_in_words(column.unit, units);
   of_columns["guard_rate"].clear();  // of each guard its own
   const std::string error_of_time = "t_error";
-  of_columns[error_of_time] = in_units("time", units);
+  of_columns[error_of_time] = unit_in_words("time", units);
   std::vector<std::string> columns = CsvReader(file).header();
   const auto found = std::find(columns.begin(), columns.end(), error_of_time);
   if (found != columns.end()) std::rotate(columns.begin() + 1, found, found + 1);
@@ -171,7 +160,7 @@ constexpr Condition conditions[] = {{"gap", "gap g < 0", "length"},
                                     {"reactions", "sum of reactions", "force"},
                                     {"energy", "energy balance", "force length"}};
 
-std::string audit_table(const Json& summary) {
+std::string audit_table(const Json& summary, const Units& units) {
   std::string rows;
   const Json& audit = member(summary, "audit");
   for (const auto& [name, entry] : audit.items()) {
@@ -180,7 +169,7 @@ std::string audit_table(const Json& summary) {
     const auto known = std::find_if(std::begin(conditions), std::end(conditions),
                                     [&](const Condition& c) { return name == c.key; });
     const bool told = known != std::end(conditions);
-    const std::string unit = told ? " " + in_units(known->unit, member(summary, "units")) : "";
+    const std::string unit = told ? " " + unit_in_words(known->unit, units) : "";
     rows += fmt::format(
         "<tr><td>{}</td><td class=n>{}</td><td class=n>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
         html_text(told ? known->name : name), html_text(value_text(member(entry, "relative"))),
@@ -239,8 +228,9 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   const Json data = run_data(scene, directory);
   std::string body = section("summary", "Summary", run_facts(summary));
   body += part("player.html");
-  body += section("events", "Events", part("events.html") + event_table(directory / "events.csv", summary));
-  body += section("audit", "Audit", audit_table(summary));
+  body +=
+      section("events", "Events", part("events.html") + event_table(directory / "events.csv", scene.units));
+  body += section("audit", "Audit", audit_table(summary, scene.units));
   body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string()));
   body += section("check", "What check says", preformatted(check));
   body += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));

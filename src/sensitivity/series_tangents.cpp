@@ -28,7 +28,6 @@ Vector force_bends(const Series& series, std::size_t degree, double x) {
   return sum;
 }
 
-/// Where a contact presses hardest for a while: N' falls through zero and rises.
 std::vector<double> pressing_turns(const Model& model, const ObservedStep& step) {
   const Expansion& e = step.expansion;
   std::vector<double> turns;

@@ -1,0 +1,22 @@
+// wide_lanes.hpp: a function compiled twice, for two and for four doubles an instruction, chosen at start.
+//
+//   SIGNORINI_WIDE_LANES void f(...) { loops over Four }      bits the same on every machine:
+//   each lane holds a result of its own, or a sum is taken in the same four parts; never a fused product and sum
+//
+// For functions outside templates; what they call has to be inlined into them. Where the compiler or a sanitizer
+// cannot choose at start, there is the narrow one only.
+#pragma once
+
+namespace signorini {
+
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define SIGNORINI_WIDE_LANES __attribute__((target_clones("avx2", "default")))
+#else
+#define SIGNORINI_WIDE_LANES
+#endif
+
+/// Four doubles, which need not lie at an address that is a multiple of more than eight bytes.
+using Four = double __attribute__((vector_size(32), aligned(8)));
+
+}  // namespace signorini

@@ -63,6 +63,12 @@ Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
 }
 
+std::optional<EigenPairs> real_eigen(const Eigen::MatrixXd& a) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a);
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().imag().isZero(0.0)) return std::nullopt;
+  return EigenPairs{solver.eigenvalues().real(), solver.eigenvectors().real()};
+}
+
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
   return qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), a.cols());

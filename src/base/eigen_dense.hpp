@@ -30,6 +30,9 @@ struct EigenPairs {
 /// Eigenvalues of a square matrix that need not be symmetric, in no order.
 [[nodiscard]] Eigen::VectorXcd general_eigenvalues(const Eigen::MatrixXd& a);
 
+/// Eigenpairs of a square matrix that need not be symmetric, columns of length 1; empty where a value is complex.
+[[nodiscard]] std::optional<EigenPairs> real_eigen(const Eigen::MatrixXd& a);
+
 /// Orthonormal columns that span those of a (n x m, m <= n, full rank).
 [[nodiscard]] Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& a);
 

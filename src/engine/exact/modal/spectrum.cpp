@@ -76,6 +76,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   find_vectors(pairs_);
   order_values();
   find_squares();
+  find_alike();
   part_close_roots();
   find_products();
   if (order_.size() + 2 * pairs_.size() <= written_up_to) write_out();

@@ -112,7 +112,7 @@ class Spectrum {
   };
   template <class S>
   Correction<S> correction(std::size_t k, const std::vector<S>& offset, const std::vector<S>& shift) const;
-  /// What the poles outside a group make of a root near it: G0 = 1 + V^T (D - l)^-1 U without the group, its
+  /// What the poles outside a group (if none is given: of those that equal home) make of a root near it: G0 = 1 + V^T (D - l)^-1 U without the group, its
   /// slope, and the group's own matrix, which is not singular near its poles:
   ///   S = D_group - l + U_group G0^-1 V_group^T
   ///   det(A - l) = product of (D_i - l) outside * det G0 * det S
@@ -132,9 +132,17 @@ class Spectrum {
   template <class S>
   void group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local<S>& local) const;
   template <class S>
+  SmallMatrix<S> group_slope(const SmallLu<S>& lu, const Local<S>& local) const;
+  template <class S>
   void settle_home(std::size_t k, std::vector<S>& offset);
   template <class S>
   void find_vectors(Roots<S>& roots);
+  /// Roots that double cannot part: lists of their places.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> find_together(const Roots<double>& roots) const;
+  bool part_together(const std::vector<std::size_t>& members, Roots<double>& roots);
+  template <class S>
+  void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
+                     const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const;
   template <class S, class W>
   void keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c, const SmallVector<W>& d);
   template <class S>
@@ -154,7 +162,13 @@ class Spectrum {
   void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
   void from_modes_written(const std::vector<const Amplitudes*>& z,
                           const std::vector<Eigen::VectorXd*>& q) const;
+  [[nodiscard]] Eigen::VectorXd seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
+                                            std::size_t k) const;
   void part_close_roots();
+  void find_alike();
+  [[nodiscard]] double difference(std::size_t k, std::size_t l) const {
+    return (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
+  }
   template <class S>
   [[nodiscard]] S moved(const Roots<S>& roots, std::size_t k, std::size_t j, double pole) const;
   [[nodiscard]] double moved_by_all(std::size_t j, const std::vector<double>& real,
@@ -179,9 +193,10 @@ class Spectrum {
   std::vector<double> values_;
   struct Close {
     std::size_t k, l;
-    double product;  // y_k^T x_l, of rounding alone
+    double product;  // close_: y_k^T x_l, of rounding alone
   };
   std::vector<Close> close_;
+  std::vector<Close> alike_;  // x_k^T x_l of amplitudes k > l, where l_k - l_l has lost its digits
   std::vector<double> squares_;
   std::vector<Complex> pair_squares_;
   std::vector<double> value_base_, value_offset_;  // of real modes, so that differences keep their digits

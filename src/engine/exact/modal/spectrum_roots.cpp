@@ -106,8 +106,10 @@ void Spectrum::group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local
 template <class S>
 S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
-  local.first = group_begin_[home];
-  local.count = group_end_[home] - local.first;
+  if (local.count == 0) {
+    local.first = group_begin_[home];
+    local.count = group_end_[home] - local.first;
+  }
   const std::size_t squares = rank_ * rank_;
   S poles{};
   for (std::size_t i = 0; i < n_; ++i) {
@@ -126,14 +128,10 @@ S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
   return poles;
 }
 
-/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nothing where a matrix is singular.
+/// S' = -1 - U G0^-1 G0' G0^-1 V^T
 template <class S>
-std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
+SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local) const {
   const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-  const SmallLu<S> lu(local.g, rank_);
-  if (lu.singular()) return std::nullopt;
-  group_matrix(lu, own, home, local);
-  // S' = -1 - U G0^-1 G0' G0^-1 V^T
   SmallMatrix<S> change{};
   for (std::size_t j = 0; j < local.count; ++j) {
     SmallVector<S> column{}, product{};
@@ -148,6 +146,16 @@ std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const
       change[i][j] = value;
     }
   }
+  return change;
+}
+
+/// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nothing where a matrix is singular.
+template <class S>
+std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
+  const SmallLu<S> lu(local.g, rank_);
+  if (lu.singular()) return std::nullopt;
+  group_matrix(lu, own, home, local);
+  const SmallMatrix<S> change = group_slope(lu, local);
   const SmallLu<S> group(local.s, local.count);
   if (group.singular()) return std::nullopt;
   return lu.trace_of_solution(local.slope) + group.trace_of_solution(change);
@@ -196,16 +204,16 @@ Spectrum::Wide Spectrum::polished(std::size_t home, Wide own, Local<Wide>& local
   return own - step;
 }
 
-/// To the nearest pole.
+/// To the nearest pole, past equal ones.
 template <class S>
 void Spectrum::settle_home(std::size_t k, std::vector<S>& offset) {
   std::size_t best = home_[k];
   const auto distance = [&](std::size_t to) { return size_of(offset[k] - poles_.between(to, home_[k])); };
   const double step = real_part(offset[k]);
   const std::size_t now = home_[k];
-  for (std::size_t i = now; step > 0.0 && i + 1 < n_ && distance(i + 1) < distance(i); ++i) best = i + 1;
-  for (std::size_t i = now; step < 0.0 && i > 0 && distance(i - 1) < distance(i); --i) best = i - 1;
-  if (best == now) return;
+  for (std::size_t i = now; step > 0.0 && i + 1 < n_ && distance(i + 1) <= distance(i); ++i) best = i + 1;
+  for (std::size_t i = now; step < 0.0 && i > 0 && distance(i - 1) <= distance(i); --i) best = i - 1;
+  if (!(distance(best) < distance(now))) return;
   const S moved = offset[k] - poles_.between(best, now);
   if (!(size_of(moved) > 0.0)) return;
   offset[k] = moved;
@@ -298,6 +306,7 @@ template double Spectrum::gather(std::size_t, double, Local<double>&) const;
 template Complex Spectrum::gather(std::size_t, Complex, Local<Complex>&) const;
 template Spectrum::Wide Spectrum::gather(std::size_t, Wide, Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Local<Wide>&) const;
+template SmallMatrix<Spectrum::Wide> Spectrum::group_slope(const SmallLu<Wide>&, const Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Complex>&, Complex, std::size_t, Local<Complex>&) const;
 
 }  // namespace signorini

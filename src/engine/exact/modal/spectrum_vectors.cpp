@@ -11,8 +11,25 @@ namespace {
 
 constexpr double close_roots = 1e-3;  // relative distance of eigenvalues whose vectors rounding mixes
 constexpr std::size_t most_neighbours = 6;
+constexpr double alike = 1e-5;  // relative distance of eigenvalues from which on c and h lose five digits
 
 }  // namespace
+
+/// c = -G0^-1 V^T right, d = -G0^-T U^T left: what null vectors of a group are outside it.
+template <class S>
+void Spectrum::outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
+                             const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const {
+  c = {};
+  d = {};
+  for (std::size_t j = 0; j < local.count; ++j)
+    for (std::size_t a = 0; a < rank_; ++a) {
+      const auto row = static_cast<Eigen::Index>(local.first + j), column = static_cast<Eigen::Index>(a);
+      c[a] -= right[j] * v_(row, column);
+      d[a] -= left[j] * u_(row, column);
+    }
+  c = lu.solve(c);
+  d = lu.solve_transposed(d);
+}
 
 /// Null vectors of the small matrices, for real roots in extended precision: where roots lie close to each
 /// other double loses up to five digits of them.
@@ -20,29 +37,32 @@ template <class S>
 void Spectrum::find_vectors(Roots<S>& roots) {
   constexpr bool is_real = std::is_same_v<S, double>;
   using W = std::conditional_t<is_real, Wide, S>;
+  roots.value.resize(roots.size());
+  roots.right.resize(roots.size() * rank_);
+  roots.left.resize(roots.size() * rank_);
+  std::vector<char> known(roots.size(), 0);
+  if constexpr (is_real)
+    for (const std::vector<std::size_t>& members : find_together(roots))
+      if (part_together(members, roots))
+        for (const std::size_t k : members) known[k] = 1;
   for (std::size_t k = 0; k < roots.size(); ++k) {
     const std::size_t home = roots.home[k];
-    W own = roots.offset[k];
-    Local<W> local;
-    if constexpr (is_real)
-      own = polished(home, own, local);
-    else
-      (void)gather(home, own, local);
-    roots.offset[k] = static_cast<S>(own);
-    roots.value.push_back(roots.offset[k] + (poles_.base[home] + poles_.tiny[home]));
-    const SmallLu<W> lu(local.g, rank_);
-    group_matrix(lu, own, home, local);
-    SmallVector<W> right{}, left{}, c{}, d{};  // of the group, and what they are outside
-    SmallLu<W>(local.s, local.count).null_vectors(right, left);
-    for (std::size_t j = 0; j < local.count; ++j)
-      for (std::size_t a = 0; a < rank_; ++a) {
-        const auto row = static_cast<Eigen::Index>(local.first + j), column = static_cast<Eigen::Index>(a);
-        c[a] -= right[j] * v_(row, column);
-        d[a] -= left[j] * u_(row, column);
-      }
-    c = lu.solve(c);
-    d = lu.solve_transposed(d);
-    keep_vectors(roots, k, own, c, d);
+    if (known[k] == 0) {
+      W own = roots.offset[k];
+      Local<W> local;
+      if constexpr (is_real)
+        own = polished(home, own, local);
+      else
+        (void)gather(home, own, local);
+      roots.offset[k] = static_cast<S>(own);
+      const SmallLu<W> lu(local.g, rank_);
+      group_matrix(lu, own, home, local);
+      SmallVector<W> right{}, left{}, c{}, d{};
+      SmallLu<W>(local.s, local.count).null_vectors(right, left);
+      outside_group(lu, local, right, left, c, d);
+      keep_vectors(roots, k, own, c, d);
+    }
+    roots.value[k] = roots.offset[k] + (poles_.base[home] + poles_.tiny[home]);
   }
 }
 
@@ -73,9 +93,22 @@ void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVe
   condition_ = std::max(condition_, x_size * y_size / static_cast<double>(size_of(product)));
   const W to_right = W(1.0 / x_size), to_left = inverse(product) * x_size;
   for (std::size_t a = 0; a < rank_; ++a) {
-    roots.right.push_back(static_cast<S>(c[a] * to_right));
-    roots.left.push_back(static_cast<S>(d[a] * to_left));
+    roots.right[k * rank_ + a] = static_cast<S>(c[a] * to_right);
+    roots.left[k * rank_ + a] = static_cast<S>(d[a] * to_left);
   }
+}
+
+/// X's or Y's, of what is seen.
+Eigen::VectorXd Spectrum::seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
+                                      std::size_t k) const {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(n_));
+  for (std::size_t i = 0; i < n_; ++i) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < rank_; ++a)
+      sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+    x[static_cast<Eigen::Index>(i)] = sum / (poles_.between(i, real_.home[k]) - real_.offset[k]);
+  }
+  return x;
 }
 
 /// Vectors of eigenvalues that nearly coincide are right but for each other: Y := (1 - E) Y with E = Y X
@@ -84,23 +117,13 @@ void Spectrum::part_close_roots() {
   std::vector<std::size_t> order;
   for (const std::size_t k : order_)
     if (k < real_.size()) order.push_back(k);
-  const auto vector = [&](const std::vector<double>& small, const Eigen::MatrixXd& side, std::size_t k) {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(n_));
-    for (std::size_t i = 0; i < n_; ++i) {
-      double sum = 0.0;
-      for (std::size_t a = 0; a < rank_; ++a)
-        sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-      x[static_cast<Eigen::Index>(i)] = sum / (poles_.between(i, real_.home[k]) - real_.offset[k]);
-    }
-    return x;
-  };
   for (std::size_t p = 0; p < order.size(); ++p) {
     const std::size_t k = order[p];
     for (std::size_t m = p + 1; m < std::min(order.size(), p + most_neighbours); ++m) {
       const std::size_t l = order[m];
       if (real_.value[l] - real_.value[k] > close_roots * real_.value[l]) break;
-      close_.push_back({k, l, vector(real_.left, v_, k).dot(vector(real_.right, u_, l))});
-      close_.push_back({l, k, vector(real_.left, v_, l).dot(vector(real_.right, u_, k))});
+      close_.push_back({k, l, seen_vector(real_.left, v_, k).dot(seen_vector(real_.right, u_, l))});
+      close_.push_back({l, k, seen_vector(real_.left, v_, l).dot(seen_vector(real_.right, u_, k))});
     }
   }
 }
@@ -138,13 +161,29 @@ void Spectrum::find_squares() {
   condition_ *= worst;
 }
 
+/// The vectors themselves, of the few whose difference is of rounding.
+void Spectrum::find_alike() {
+  for (std::size_t l = 0; l < order_.size(); ++l)
+    for (std::size_t k = l + 1; k < order_.size() && std::abs(difference(k, l)) <= alike * values_[k]; ++k) {
+      const std::size_t own = order_[k], other = order_[l];
+      if (own >= real_.size() || other >= real_.size()) continue;
+      double product = seen_vector(real_.right, u_, own).dot(seen_vector(real_.right, u_, other));
+      for (std::size_t j = 0; j < unseen_.size(); ++j)
+        product += moved(real_, own, j, unseen_poles_[j]) * moved(real_, other, j, unseen_poles_[j]);
+      alike_.push_back({k, l, product});
+    }
+}
+
 double Spectrum::product(std::size_t k, std::size_t l) const {
+  const double apart = difference(k, l);
+  if (std::abs(apart) <= alike * std::abs(values_[k]))
+    for (const Close& pair : alike_)
+      if (pair.k == std::max(k, l) && pair.l == std::min(k, l)) return pair.product;
   const std::vector<double>&c = products_.c, &h = products_.h;
-  const double difference = (value_base_[k] - value_base_[l]) + (value_offset_[k] - value_offset_[l]);
   double sum = 0.0;
   for (std::size_t a = 0; a < rank_; ++a)
     sum += h[k * rank_ + a] * c[l * rank_ + a] - c[k * rank_ + a] * h[l * rank_ + a];
-  return sum == 0.0 ? 0.0 : sum / difference;
+  return sum == 0.0 ? 0.0 : sum / apart;
 }
 
 void Spectrum::find_products() {

@@ -3,10 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
+
 #include <complex>
 #include <random>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 
 using namespace signorini;
 using Eigen::MatrixXd;
@@ -44,6 +47,70 @@ std::vector<std::complex<double>> values_of(const Spectrum& spectrum) {
     all.emplace_back(l.re, -l.im);
   }
   return all;
+}
+
+/// Two like systems of a spring each, the other's a share stiffer, which the contacts see mixed.
+Case twin_case(std::mt19937_64& random, double stiffer, bool symmetric) {
+  constexpr int n = 8;
+  std::normal_distribution<double> normal;
+  Case c;
+  c.symmetric = symmetric;
+  c.d.resize(2 * n);
+  c.u = MatrixXd::Zero(2 * n, 2);
+  c.v = c.u;
+  for (int i = 0; i < n; ++i) {
+    const double u = 30.0 * normal(random), v = symmetric ? u : u * (1.0 + 0.3 * normal(random));
+    for (int twin = 0; twin < 2; ++twin) {
+      c.d[2 * i + twin] = 10.0 * std::pow(1.0 + i, 3.0);
+      c.u(2 * i + twin, twin) = u * (1.0 + twin * stiffer);
+      c.v(2 * i + twin, twin) = v;
+    }
+  }
+  const double turn = 0.7;
+  MatrixXd mixed(2, 2);
+  mixed << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  if (!symmetric) mixed(0, 1) += 0.4;
+  c.u = (c.u * mixed).eval();
+  c.v = (c.v * mixed.inverse().transpose()).eval();
+  return c;
+}
+
+/// A matrix with two equal eigenvalues, less two springs.
+Case split_case(std::mt19937_64& random) {
+  constexpr int n = 16;
+  std::normal_distribution<double> normal;
+  const MatrixXd turn = orthonormal(MatrixXd::NullaryExpr(n, n, [&] { return normal(random); }));
+  VectorXd l = VectorXd::NullaryExpr(n, [](Eigen::Index i) { return 10.0 * std::pow(1.0 + double(i), 2.0); });
+  l[9] = l[8];
+  const MatrixXd w = MatrixXd::NullaryExpr(n, 2, [&] { return 3.0 * normal(random); });
+  const EigenPairs open = symmetric_eigen(turn * l.asDiagonal() * turn.transpose() - w * w.transpose());
+  const MatrixXd u = open.vectors.transpose() * w;
+  return {open.values, u, u, true};
+}
+
+/// The motion that a spectrum makes of a state, and the matrix itself.
+void check_against_dense(const Case& c) {
+  const Spectrum spectrum(Poles(c.d), c.u, c.v, c.symmetric);
+  REQUIRE(spectrum.failure() == "");
+  const auto n = c.d.size();
+  REQUIRE(values_of(spectrum).size() == static_cast<std::size_t>(n));
+  const VectorXd q = VectorXd::LinSpaced(n, -1.0, 2.0);
+  Amplitudes z;
+  spectrum.to_modes(q, z);
+  for (std::size_t k = 0; k < z.real.size(); ++k) z.real[k] *= spectrum.real()[k];
+  for (std::size_t k = 0; k < z.pair.size(); ++k) z.pair[k] *= spectrum.pairs()[k];
+  VectorXd product;
+  spectrum.from_modes({&z}, {&product});
+  const MatrixXd a = c.dense();
+  CHECK((product - a * q).norm() < rounding::of_elimination * spectrum.condition() * a.norm() * q.norm());
+  for (std::size_t k = 0; k < spectrum.real().size(); ++k)
+    for (std::size_t l = 0; l < k; ++l) {
+      VectorXd x, y;
+      Amplitudes one = spectrum.zero(), other = one;
+      one.real[k] = other.real[l] = 1.0;
+      spectrum.from_modes({&one, &other}, {&x, &y});
+      CHECK(std::abs(spectrum.product(k, l) - x.dot(y)) < 1e-9 * x.norm() * y.norm());
+    }
 }
 
 }  // namespace
@@ -161,5 +228,23 @@ TEST_CASE("spectrum: products of vectors from c and h are those of the vectors")
     CHECK(spectrum.square(k) == doctest::Approx(x[k].squaredNorm()).epsilon(1e-12));
     for (std::size_t l = 0; l < k; ++l)
       CHECK(std::abs(spectrum.product(k, l) - x[k].dot(x[l])) < 1e-9 * x[k].norm() * x[l].norm());
+  }
+}
+
+TEST_CASE("spectrum: equal roots have as many vectors, and nearly equal ones") {
+  std::mt19937_64 random(5);
+  for (const bool symmetric : {true, false})
+    for (const double stiffer : {0.0, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6}) {
+      CAPTURE(symmetric);
+      CAPTURE(stiffer);
+      for (int i = 0; i < 3; ++i) check_against_dense(twin_case(random, stiffer, symmetric));
+    }
+}
+
+TEST_CASE("spectrum: equal roots between unlike poles") {
+  std::mt19937_64 random(6);
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    check_against_dense(split_case(random));
   }
 }

@@ -139,6 +139,8 @@ class Spectrum {
   void find_vectors(Roots<S>& roots);
   /// Roots that double cannot part: lists of their places.
   [[nodiscard]] std::vector<std::vector<std::size_t>> find_together(const Roots<double>& roots) const;
+  [[nodiscard]] std::pair<std::size_t, std::size_t> poles_of(const std::vector<std::size_t>& members,
+                                                             const Roots<double>& roots) const;
   bool part_together(const std::vector<std::size_t>& members, Roots<double>& roots);
   template <class S>
   void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,

@@ -53,6 +53,8 @@ class Stepper {
   virtual void evaluate(double t, Point& point) = 0;
   /// Puts accelerations into a point that evaluate() has made at t, where they are missing.
   virtual void accelerate(double /*t*/, Point& /*point*/) {}
+  /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.
+  virtual void know_energy(Point& /*point*/) const {}
   /// The same as evaluate and accelerate, but as cheap as the engine has it: of fixed steps between their
   /// ends.
   virtual void interpolate(double t, Point& point) {

@@ -3,6 +3,8 @@
 //   u, v, N, T, a at t  ->  g, ut, g', ut', g'', ut'' of one contact       contact/motion.hpp
 #pragma once
 
+#include <optional>
+
 #include "contact/motion.hpp"
 #include "contact/slots.hpp"
 #include "motion/forcing.hpp"
@@ -10,9 +12,17 @@
 namespace signorini {
 
 /// u, v (length n) and forces (N_1, T_1, N_2, ...) at one time.
+/// Of the structure without its contacts.
+struct StructureEnergy {
+  double kinetic = 0.0, elastic = 0.0;
+};
+
 struct Point {
   Vector u, v, forces;
   Vector a = {};  ///< empty where it is not needed
+  /// Of u and v, where the engine knows it to more digits than v^T M v and u^T K u have: of a fine mesh these
+  /// are sums of terms far greater than they.
+  std::optional<StructureEnergy> energy = {};
 
   [[nodiscard]] double N(std::size_t k) const { return forces[static_cast<Eigen::Index>(normal_slot(k))]; }
   [[nodiscard]] double T(std::size_t k) const { return forces[static_cast<Eigen::Index>(tangent_slot(k))]; }

@@ -42,8 +42,7 @@ void Auditor::add(const Works& works) {
   }
 }
 
-void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& forcing) {
-  const Point point{decision.u, decision.v, decision.jet.forces.col(0)};
+void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point) {
   for (std::size_t k = 0; k < peaks_.size(); ++k)
     at_start_.push_back({model_.contacts[k].normal.dot(point.u),
                          slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
@@ -120,8 +119,8 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
 
 Energy Auditor::stored(const Mode& mode, const Point& point) const {
   Energy e;
-  e.kinetic = 0.5 * structure_.quadratic(structure_.m, point.v.data());
-  e.elastic = 0.5 * structure_.quadratic(structure_.k, point.u.data());
+  e.kinetic = point.energy ? point.energy->kinetic : 0.5 * structure_.quadratic(structure_.m, point.v.data());
+  e.elastic = point.energy ? point.energy->elastic : 0.5 * structure_.quadratic(structure_.k, point.u.data());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     ContactMotion m;

@@ -22,8 +22,8 @@ class Auditor {
   /// Adds what a stretch of the motion has brought and lost.
   void add(const Works& works);
 
-  /// first: the states that were guessed before the decision.
-  void begin(const Decision& decision, const Mode& first, const Forcing& forcing);
+  /// first: the states that were guessed before the decision; point: its motion.
+  void begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point);
   /// Contacts at the end of a step or after an event.
   void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
   void equilibrium(double t, double residual);

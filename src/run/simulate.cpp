@@ -101,7 +101,7 @@ class Loop {
     report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
     warn_of_gain();
     if (observer_) observer_->begin({0.0, 0.0, {}, false, guessed, decision_, forcing_, forcing_, model_.v0});
-    auditor_.begin(decision_, guessed, forcing_);
+    auditor_.begin(decision_, guessed, forcing_, decided_point());
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
     take_decision(std::nullopt);
     return true;
@@ -263,12 +263,18 @@ class Loop {
     return jumps;
   }
 
+  [[nodiscard]] Point decided_point() const {
+    Point point{decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
+    engine_->know_energy(point);
+    return point;
+  }
+
   /// From here on the motion is that of the decision; a row asked for at t_ shows it.
   /// changed: contacts whose states or velocities have; absent: perhaps all.
   void take_decision(const std::optional<std::vector<std::size_t>>& changed) {
     if (decision_.undecided) ++report_.undecided;
     if (decision_.forgiven > 0.0 && !report_.forgiven_at) report_.forgiven_at = t_;
-    point_ = {decision_.u, decision_.v, decision_.jet.forces.col(0), decision_.jet.a()};
+    point_ = decided_point();
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
     if (const double next = samples_.next(); next <= t_) {

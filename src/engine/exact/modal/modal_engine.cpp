@@ -173,6 +173,18 @@ ModalPoint ModalEngine::at(double t) const {
   return point;
 }
 
+/// 1/2 (q'^2 + omega^2 q^2): no terms that cancel.
+StructureEnergy ModalEngine::energy_of(const Vector& q, const Vector& rate) const {
+  return {0.5 * rate.squaredNorm(), 0.5 * basis_.square().dot(q.cwiseAbs2())};
+}
+
+void ModalEngine::know_energy(Point& point) const {
+  if (!flow_) return;
+  const bool same = modal_ && q_.size() > 0 && point.u == end_.u && point.v == end_.v;
+  point.energy =
+      same ? energy_of(q_, rate_) : energy_of(basis_.amplitudes(point.u), basis_.amplitudes(point.v));
+}
+
 /// u, v, forces and, where they are wanted, a; keeps q of the end of the step.
 void ModalEngine::fill(const ModalPoint& z, Point& point, bool accelerations) {
   Vector q, rate, change;
@@ -185,6 +197,7 @@ void ModalEngine::fill(const ModalPoint& z, Point& point, bool accelerations) {
   }
   point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
   flow_->forces(z, point);
+  point.energy = energy_of(q, rate);
   if (&point == &end_) {
     q_ = std::move(q);
     rate_ = std::move(rate);
@@ -192,7 +205,10 @@ void ModalEngine::fill(const ModalPoint& z, Point& point, bool accelerations) {
 }
 
 void ModalEngine::evaluate(double t, Point& point) {
-  if (!modal_) return taylor_.evaluate(t, point);
+  if (!modal_) {
+    point.energy.reset();
+    return taylor_.evaluate(t, point);
+  }
   if (t == t_)
     point = end_;
   else

@@ -24,6 +24,7 @@ class ModalEngine final : public Stepper {
   /// Without accelerations inside of a step: a third of the work.
   void evaluate(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
+  void know_energy(Point& point) const override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
@@ -49,6 +50,7 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] Step give_way();
   [[nodiscard]] std::string follow(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
+  [[nodiscard]] StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
   void fill(const ModalPoint& z, Point& point, bool accelerations);
   struct Fall {
     double off = 0.0, blur = 0.0;  // times

@@ -181,7 +181,11 @@ void run_all(WorkStudy& study, const WorkRequest& request, const ProgressLine& p
   progress.say("reference");
   study.find_reference();
   if (study.report().interrupted) return;
-  const std::vector<WorkPoint> plan = work_points(request.ranges);
+  std::vector<WorkPoint> plan = work_points(request.ranges);
+  const auto& series = study.series();
+  if (series && std::any_of(plan.begin(), plan.end(),
+                            [&](const WorkPoint& point) { return point.engine == series->engine; }))
+    plan.insert(plan.begin(), *series);
   for (std::size_t i = 0; i < plan.size() && !study.report().interrupted; ++i) {
     progress.say(fmt::format("{} ({} of {})", plan[i].name(), i + 1, plan.size()));
     study.add(plan[i]);

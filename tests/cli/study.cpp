@@ -191,3 +191,46 @@ TEST_CASE("cli study: --force removes neither the scene nor what others put ther
     shell.write("d/study.json", "{}");
   }
 }
+
+TEST_CASE("cli study: exact in modes is measured against its series, as long as those are affordable") {
+  const Shell shell;
+  const std::string scene = SIGNORINI_MODELS "/pipeline.toml";
+  const auto study = [&](const char* limit, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"study",   scene,       "--set", "run.t_end=0.02", "--engines",
+                                      "exact",   "--repeats", "1",     "--no-plots",     "--quiet",
+                                      "--force", "-o",        "s",     "--time-limit",   limit};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ending ending = shell.run(words);
+    CHECK(ending.code == 0);
+    return json::parse(shell.read("s/study.json"));
+  };
+  const json both = study("60");
+  CHECK(both["reference"] == "exact run.flow=taylor");
+  REQUIRE(both["rows"].size() == 2);
+  CHECK(both["rows"][1]["setting"] == "");
+  const double error = both["rows"][1]["errors"]["event_time"]["value"].get<double>();
+  CHECK(error > 0.0);
+  CHECK(error < 1e-12);
+
+  const json alone = study("1e-3");
+  CHECK(alone["reference"] == "exact");
+  CHECK(alone["rows"].size() == 1);
+  CHECK(has(alone["notes"].dump(), "exact run.flow=taylor is left out: it would take"));
+
+  const json asked = study("60", {"--set", "run.flow=modal"});
+  CHECK(asked["reference"] == "exact");
+  CHECK(asked["rows"].size() == 1);
+}
+
+TEST_CASE("cli study: what would take many time limits is named, not tried") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const Ending ending = shell.run({"study", "belt.toml", "--engines", "exact,newmark", "--dt", "1e-2,1e-10",
+                                   "--repeats", "1", "--no-plots", "--time-limit", "20"});
+  CHECK(ending.code == 0);
+  const json rows = json::parse(shell.read("belt-study/study.json"))["rows"];
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[1]["outcome"] == "done");
+  CHECK(rows[2]["outcome"] == "too slow");
+  CHECK(has(rows[2]["reason"].get<std::string>(), "not tried: it would take about"));
+}

@@ -13,6 +13,8 @@
 #include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "result/csv_read.hpp"
+#include "run/choose_flow.hpp"
+#include "run/expected.hpp"
 #include "study/reduction/find_cutoff.hpp"
 #include "study/speed/decades.hpp"
 
@@ -27,6 +29,11 @@ constexpr double last_digits = 1e-15;
 
 /// The reader takes no tolerance below.
 constexpr double tightest_rtol = 1e-14;
+
+/// What is expected to take so many time limits is not tried: expectations are right by order of magnitude.
+constexpr double hopeless = 30.0;
+
+constexpr const char* flow_key = "run.flow";
 
 /// A run counts as a reference for so many time limits.
 constexpr double patience = 10.0;
@@ -128,6 +135,13 @@ WorkStudy::Prepared WorkStudy::prepare(const WorkPoint& point) const {
   return {std::move(scene), std::move(model)};
 }
 
+/// Expected; nothing for what has run.
+double WorkStudy::seconds_of(const WorkPoint& point) const {
+  if (recorded_.contains(point.name())) return 0.0;
+  const Prepared run = prepare(point);
+  return expected(run.model, run.scene.run).effort.seconds;
+}
+
 /// Each run is recorded once. Errors: SceneError, UsageError of a varied key, FileError.
 const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkLimits& limits) {
   const auto found = recorded_.find(point.name());
@@ -195,8 +209,40 @@ void WorkStudy::doubt_reference(const WorkPoint& point) {
                     decided, until));
 }
 
+/// Nothing where `exact` follows the series anyhow, where a key of the command line says which flow, or where the
+/// series would take too long, which is noted.
+std::optional<WorkPoint> WorkStudy::series_of_exact() {
+  WorkPoint series;
+  series.engine = to_string(references[0]);
+  const auto says_flow = [](const std::vector<Override>& list) {
+    return std::any_of(list.begin(), list.end(), [](const Override& o) { return o.path == flow_key; });
+  };
+  if (says_flow(request_.settings(series.engine)) ||
+      std::any_of(request_.ranges.varied.begin(), request_.ranges.varied.end(), says_flow))
+    return std::nullopt;
+  try {
+    const Prepared run = prepare(series);
+    if (!choose_flow(run.model, run.scene.run).modal) return std::nullopt;
+    series.varied = {{flow_key, "taylor"}};
+    const double seconds = expected(run.model, run.scene.run).effort.by_series;
+    if (seconds <= request_.limits.seconds) return series;
+    report_.notes.push_back(
+        fmt::format("{} is left out: it would take {} s, more than the time limit of {:g} s", series.name(),
+                    about_seconds(seconds), request_.limits.seconds));
+  } catch (const SceneError&) {  // told when `exact` itself is tried
+  }
+  return std::nullopt;
+}
+
 bool WorkStudy::choose_reference() {
   std::string why_not;
+  if (const auto series = series_of_exact()) {
+    if (try_reference(*series, why_not)) {
+      series_ = series;
+      return true;
+    }
+    report_.notes.push_back(series->name() + " is not the reference: " + why_not);
+  }
   WorkPoint exact;
   exact.engine = to_string(references[0]);
   if (try_reference(exact, why_not)) return true;
@@ -248,7 +294,8 @@ void WorkStudy::find_reference() {
   }
   WorkPoint exact;
   exact.engine = to_string(references[0]);
-  if (report_.reference == exact.name() && !report_.interrupted) doubt_reference(exact);
+  const WorkPoint& reference = series_.value_or(exact);
+  if (report_.reference == reference.name() && !report_.interrupted) doubt_reference(reference);
   take_ranges();
 }
 
@@ -269,6 +316,12 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
   WorkRow row;
   row.point = point;
   try {
+    if (const double seconds = seconds_of(point); seconds > hopeless * request_.limits.seconds) {
+      row.outcome = "too slow";
+      row.reason = fmt::format("not tried: it would take {} s", about_seconds(seconds));
+      report_.rows.push_back(std::move(row));
+      return report_.rows.back();
+    }
     const Recorded& recorded = record(point, request_.limits);
     row.directory = recorded.directory;
     const ComparedRun run = read_compared_run(recorded.directory, point.name());

@@ -4,8 +4,9 @@
 //   for (const WorkPoint& point : work_points(request.ranges)) study.add(point);
 //   study.time_all(...);       // round by round, so that a slow minute of the machine meets all alike
 //
-// The reference is `exact`, or where that refuses the scene or stops early the tightest setting of `ida`, one
-// decade on. What `exact` itself is known to is measured: the same run with all masses changed in their last
+// The reference is `exact`; where that follows modes, and its Taylor series is expected within the time limit, the
+// series, which shares no flow with them; where `exact` refuses the scene or stops early, the tightest setting of
+// `ida`, one decade on. What `exact` itself is known to is measured: the same run with all masses changed in their last
 // digits. From where such a change decides the sequence of events on, nothing is compared. Rigid contacts
 // without a capture_velocity get that of the scene's own tolerance in all runs: else every run would solve a
 // problem of its own.
@@ -16,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,8 @@ class WorkStudy {
   const WorkRow& add(const WorkPoint& point);
   /// `before` is told each run's name. A row is repeated until it took ten seconds, at least once.
   void time_all(const std::function<void(const WorkRow&, std::size_t round)>& before);
+  /// The series of `exact`, where they are the reference: a run beside those that were asked for.
+  [[nodiscard]] const std::optional<WorkPoint>& series() const { return series_; }
 
   [[nodiscard]] const WorkReport& report() const { return report_; }
 
@@ -79,8 +83,10 @@ class WorkStudy {
     bool too_slow = false;
   };
   [[nodiscard]] Prepared prepare(const WorkPoint& point) const;
+  [[nodiscard]] double seconds_of(const WorkPoint& point) const;
   const Recorded& record(const WorkPoint& point, const WorkLimits& limits);
   bool choose_reference();
+  [[nodiscard]] std::optional<WorkPoint> series_of_exact();
   bool try_reference(const WorkPoint& point, std::string& why_not);
   void doubt_reference(const WorkPoint& point);
   void take_ranges();
@@ -94,6 +100,7 @@ class WorkStudy {
   std::map<std::string, Recorded> recorded_;
   ComparedRun reference_, again_;  // again_: `exact` with masses changed in their last digits
   bool doubted_ = false;
+  std::optional<WorkPoint> series_;
 };
 
 }  // namespace signorini

@@ -16,7 +16,17 @@ namespace signorini {
 #define SIGNORINI_WIDE_LANES
 #endif
 
-/// Four doubles, which need not lie at an address that is a multiple of more than eight bytes.
-using Four = double __attribute__((vector_size(32), aligned(8)));
+/// Four doubles, at any address of doubles.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+template <class T>
+[[gnu::always_inline]] inline const T& lanes_at(const double* from) {
+  return *reinterpret_cast<const T*>(from);
+}
+template <class T>
+[[gnu::always_inline]] inline T& lanes_at(double* to) {
+  return *reinterpret_cast<T*>(to);
+}
+[[gnu::always_inline]] inline double sum_of_lanes(const Four& a) { return (a[0] + a[1]) + (a[2] + a[3]); }
 
 }  // namespace signorini

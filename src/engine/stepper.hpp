@@ -51,6 +51,10 @@ class Stepper {
   [[nodiscard]] virtual Step advance() = 0;
   /// The solution at begin <= t <= end of the last step.
   virtual void evaluate(double t, Point& point) = 0;
+  /// Entries of u and v that glimpses are asked for, beside those of contacts.
+  virtual void watch(const std::vector<int>& /*dofs*/) {}
+  /// The same as evaluate, of the watched entries of u and v; others may be no numbers.
+  virtual void glimpse(double t, Point& point) { evaluate(t, point); }
   /// Puts accelerations into a point that evaluate() has made at t, where they are missing.
   virtual void accelerate(double /*t*/, Point& /*point*/) {}
   /// Puts the energy of the structure into a point that a decision has made, where the engine knows it better.

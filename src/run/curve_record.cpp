@@ -35,6 +35,13 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
       std::clamp(most_values / (columns_.size() + energy_columns.size() + 2), fewest_rows, most_rows);
 }
 
+std::vector<int> CurveRecord::dofs() const {
+  std::vector<int> list;
+  for (const Column& column : columns_)
+    if (column.dof >= 0) list.push_back(column.dof);
+  return list;
+}
+
 bool CurveRecord::needs(double t) const { return t - last_ >= t_end_ / most_intervals || t >= t_end_; }
 
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {

@@ -19,6 +19,8 @@ class CurveRecord {
   CurveRecord(const Model& model, double t_end, const Recorder& recorder);
 
   [[nodiscard]] bool wanted() const { return wanted_; }
+  /// Entries of u that rows are made of, where u is the physical one.
+  [[nodiscard]] std::vector<int> dofs() const;
   /// Does a line need a row at t, where nothing happens?
   [[nodiscard]] bool needs(double t) const;
   /// Time of the last row; infinite where none is wanted.

@@ -86,7 +86,13 @@ class Loop {
     return stop(refusal.reason);
   }
 
+  /// What pictures show of the motion inside of steps.
+  void watch() {
+    if (!model_.reduction && !model_.basis) engine_->watch(curves_.dofs());
+  }
+
   bool start() {
+    watch();
     Instant now;
     now.u = model_.u0;
     now.v = model_.v0;
@@ -178,7 +184,7 @@ class Loop {
     }
     response_.inside(*engine_, step.begin, step.end);
     for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
-      engine_->evaluate(t, point_);
+      engine_->glimpse(t, point_);
       if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
       motion_.add(t, auditor_, forcing_, decision_.mode, point_);
       if (curves_.needs(t)) add_curves(t, step.end);

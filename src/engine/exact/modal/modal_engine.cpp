@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/rounding.hpp"
 #include "engine/exact/modal/damped_flow.hpp"
@@ -30,6 +31,7 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
   else
     flow_ = std::make_unique<DampedFlow>(model, basis_, t_end);
+  of_contacts_ = rows_of({});
 }
 
 void ModalEngine::say_fallback(double t, const std::string& why) {
@@ -104,10 +106,15 @@ double ModalEngine::sharpen(std::size_t slot) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
     t_ = part.begin + part.length;
-    fill(now_, end_, true);
-    const Fall fall = fall_of(slot, end_);
+    Motion reached = motion(now_, true);
+    Point point;
+    fill_rows(of_contacts_, now_, reached, point);
+    const Fall fall = fall_of(slot, point);
     const bool sharp = std::abs(fall.off) <= std::max(0.25 * resolution_at(t_, 0.0), fall.blur);
-    if (i == most_corrections || sharp) return fall.blur;
+    if (i == most_corrections || sharp) {
+      fill(now_, std::move(reached), end_);
+      return fall.blur;
+    }
     part.length = std::max(0.0, part.length + fall.off);
     flow_->advance(part.at, part.length, now_);
   }
@@ -159,7 +166,7 @@ Step ModalEngine::advance() {
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
-  if (step.kind != Step::Kind::event) fill(now_, end_, true);
+  if (step.kind != Step::Kind::event) fill(now_, motion(now_, true), end_);
   return step;
 }
 
@@ -185,23 +192,61 @@ void ModalEngine::know_energy(Point& point) const {
       same ? energy_of(q_, rate_) : energy_of(basis_.amplitudes(point.u), basis_.amplitudes(point.v));
 }
 
-/// u, v, forces and, where they are wanted, a; keeps q of the end of the step.
-void ModalEngine::fill(const ModalPoint& z, Point& point, bool accelerations) {
-  Vector q, rate, change;
-  flow_->motion(z, q, rate, accelerations ? &change : nullptr);
-  if (accelerations) {
-    basis_.motions({&q, &rate, &change}, {&point.u, &point.v, &point.a});
+ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations) const {
+  Motion m;
+  flow_->motion(z, m.q, m.rate, accelerations ? &m.change : nullptr);
+  return m;
+}
+
+/// u, v, a where there is one, and forces; keeps q of the end of the step.
+void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
+  if (motion.change.size() > 0) {
+    basis_.motions({&motion.q, &motion.rate, &motion.change}, {&point.u, &point.v, &point.a});
   } else {
-    basis_.motions({&q, &rate}, {&point.u, &point.v});
+    basis_.motions({&motion.q, &motion.rate}, {&point.u, &point.v});
     point.a.resize(0);
   }
   point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
   flow_->forces(z, point);
-  point.energy = energy_of(q, rate);
+  point.energy = energy_of(motion.q, motion.rate);
   if (&point == &end_) {
-    q_ = std::move(q);
-    rate_ = std::move(rate);
+    q_ = std::move(motion.q);
+    rate_ = std::move(motion.rate);
   }
+}
+
+/// Of all contacts and some more.
+ModalEngine::Rows ModalEngine::rows_of(std::vector<int> dofs) const {
+  for (const Contact& contact : model_.contacts)
+    for (const Combination* form : {&contact.normal, &contact.tangent, &contact.body_tangent()})
+      for (const auto& [dof, factor] : form->terms) dofs.push_back(dof);
+  std::sort(dofs.begin(), dofs.end());
+  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+  RowMatrix shapes = basis_.shapes()(dofs, Eigen::all);
+  return {std::move(dofs), std::move(shapes)};
+}
+
+/// The same of a few rows, digit by digit; the others are no numbers.
+void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const {
+  Vector u, v, a;
+  const bool accelerations = motion.change.size() > 0;
+  if (accelerations)
+    thin_product(rows.shapes, {&motion.q, &motion.rate, &motion.change}, {&u, &v, &a});
+  else
+    thin_product(rows.shapes, {&motion.q, &motion.rate}, {&u, &v});
+  const auto put = [&](const Vector& some, Vector& all) {
+    all.setConstant(model_.size(), std::numeric_limits<double>::quiet_NaN());
+    all(rows.dofs) = some;
+  };
+  put(u, point.u);
+  put(v, point.v);
+  if (accelerations)
+    put(a, point.a);
+  else
+    point.a.resize(0);
+  point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  flow_->forces(z, point);
+  point.energy = energy_of(motion.q, motion.rate);
 }
 
 void ModalEngine::evaluate(double t, Point& point) {
@@ -209,10 +254,22 @@ void ModalEngine::evaluate(double t, Point& point) {
     point.energy.reset();
     return taylor_.evaluate(t, point);
   }
-  if (t == t_)
+  if (t == t_) {
     point = end_;
-  else
-    fill(at(t), point, false);
+    return;
+  }
+  const ModalPoint z = at(t);
+  fill(z, motion(z, false), point);
+}
+
+void ModalEngine::watch(const std::vector<int>& dofs) {
+  if (flow_) watched_ = rows_of(dofs);
+}
+
+void ModalEngine::glimpse(double t, Point& point) {
+  if (!modal_ || t == t_ || watched_.dofs.empty()) return evaluate(t, point);
+  const ModalPoint z = at(t);
+  fill_rows(watched_, z, motion(z, false), point);
 }
 
 void ModalEngine::accelerate(double t, Point& point) {
@@ -220,10 +277,9 @@ void ModalEngine::accelerate(double t, Point& point) {
 }
 
 void ModalEngine::interpolate(double t, Point& point) {
-  if (modal_ && t != t_)
-    fill(at(t), point, true);
-  else
-    evaluate(t, point);
+  if (!modal_ || t == t_) return evaluate(t, point);
+  const ModalPoint z = at(t);
+  fill(z, motion(z, true), point);
 }
 
 void ModalEngine::integrate(double from, double to, Works& works) {

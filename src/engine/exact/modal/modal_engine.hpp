@@ -23,6 +23,8 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] Step advance() override;
   /// Without accelerations inside of a step: a third of the work.
   void evaluate(double t, Point& point) override;
+  void watch(const std::vector<int>& dofs) override;
+  void glimpse(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
   void know_energy(Point& point) const override;
   void interpolate(double t, Point& point) override;
@@ -51,7 +53,19 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] std::string follow(const Segment& segment);
   [[nodiscard]] ModalPoint at(double t) const;
   [[nodiscard]] StructureEnergy energy_of(const Vector& q, const Vector& rate) const;
-  void fill(const ModalPoint& z, Point& point, bool accelerations);
+  /// Amplitudes of the open modes; change: empty where no accelerations are wanted.
+  struct Motion {
+    Vector q, rate, change;
+  };
+  [[nodiscard]] Motion motion(const ModalPoint& z, bool accelerations) const;
+  /// Entries of u, and their rows of Phi.
+  struct Rows {
+    std::vector<int> dofs;
+    RowMatrix shapes;
+  };
+  [[nodiscard]] Rows rows_of(std::vector<int> dofs) const;
+  void fill(const ModalPoint& z, Motion&& motion, Point& point);
+  void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const;
   struct Fall {
     double off = 0.0, blur = 0.0;  // times
   };
@@ -62,6 +76,7 @@ class ModalEngine final : public Stepper {
   const Model& model_;
   const Structure& structure_;
   OpenBasis basis_;
+  Rows watched_, of_contacts_;
   std::unique_ptr<ModalFlow> flow_;  // null without open modes
   ExactEngine taylor_;
   TurningPoints turning_;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "contact/law.hpp"
+#include "engine/exact/modal/pair_lanes.hpp"
 
 namespace signorini {
 namespace {
@@ -159,65 +159,20 @@ ModalWorks::Lanes ModalWorks::lanes(const Stretch& s, const std::vector<std::siz
   return lanes;
 }
 
-namespace {
-
-using Two = Eigen::Array2d;
-
-template <class T>
-T read(const double* from) {
-  if constexpr (std::is_same_v<T, double>)
-    return *from;
-  else
-    return Eigen::Map<const T>(from);
-}
-template <class T>
-void write(const T& value, double* to) {
-  if constexpr (std::is_same_v<T, double>)
-    *to = value;
-  else
-    Eigen::Map<T>{to} = value;
-}
-
-/// `integrals` of mode k with mode i, or (T = Two) with modes i and i + 1, d = l_i - l_k, e as in mode_pairs.hpp:
-///   rates = -e ( 2 alpha l_k l_i [yy] + alpha (l_k + l_i) [rr] + d (l_k [yr] - l_i [ry]) )
-///   mixed =  e ( l_i (d + 2 alpha^2) [yy] + d [rr] - 2 alpha (l_k [yr] - l_i [ry]) )
-/// Returns -x_k^T x_i rates; [yy] and mixed are written.
-template <class T>
-T meet(const ModalWorks::Lanes& a, double alpha, Eigen::Index k, Eigen::Index i, const double* shared,
-       double* yy_out, double* mixed_out) {
-  const double lk = a.l[k], y0 = a.y0[k], r0 = a.r0[k], y1 = a.y1[k], r1 = a.r1[k];
-  const T l = read<T>(&a.l[i]), at_begin = read<T>(&a.y0[i]), at_end = read<T>(&a.y1[i]);
-  const T rate0 = read<T>(&a.r0[i]), rate1 = read<T>(&a.r1[i]);
-  const T d = l - lk, both = l + lk, e = 1.0 / (d * d + (2.0 * alpha * alpha) * both);
-  const T yy = y1 * at_end - y0 * at_begin, pulled = l * yy, rr = r1 * rate1 - r0 * rate0;
-  const T turned = lk * (y1 * rate1 - y0 * rate0) - l * (r1 * at_end - r0 * at_begin);
-  write<T>(yy, yy_out + i);
-  write<T>(e * ((d + 2.0 * alpha * alpha) * pulled + d * rr - (2.0 * alpha) * turned), mixed_out + i);
-  return read<T>(shared + i) * ((2.0 * alpha * lk) * pulled + (alpha * both) * rr + d * turned);
-}
-
-}  // namespace
-
 /// All modes that oscillate with all before them.
 void ModalWorks::add_oscillating(const Lanes& lanes, Sums& sums) const {
   const ModePairs& pairs = state_->pairs;
   const Eigen::Index n = lanes.l.size();
+  const ModeEnds ends{lanes.l.data(), lanes.y0.data(), lanes.r0.data(), lanes.y1.data(), lanes.r1.data()};
   Eigen::ArrayXd own(pairs.known() ? 0 : n), yy(n), mixed(n);
   for (Eigen::Index k = 1; k < n; ++k) {
     if (lanes.y0[k] == 0.0 && lanes.y1[k] == 0.0 && lanes.r0[k] == 0.0 && lanes.r1[k] == 0.0) continue;
     if (!pairs.known()) pairs_of_mode(state_->spectrum, alpha_, k, own.data());
     const double* shared = pairs.known() ? pairs.of(k) : own.data();
-    Two lost = Two::Zero();
-    Eigen::Index i = 0;
-    for (; i + 2 <= k; i += 2) lost += meet<Two>(lanes, alpha_, k, i, shared, yy.data(), mixed.data());
-    if (i < k) lost[0] += meet<double>(lanes, alpha_, k, i, shared, yy.data(), mixed.data());
-    sums.rates -= 2.0 * lost.sum();
-    for (const std::size_t c : slipping_) {
-      const Eigen::Map<const Eigen::ArrayXd> normal(state_->normal[c].real.data(), n),
-          tangent(state_->tangent[c].real.data(), n);
-      sums.crossed[c] += normal[k] * (tangent.head(k) * mixed.head(k)).sum() +
-                         tangent[k] * (normal.head(k) * (yy - mixed).head(k)).sum();
-    }
+    sums.rates -= 2.0 * meet_before(ends, alpha_, k, shared, yy.data(), mixed.data());
+    for (const std::size_t c : slipping_)
+      sums.crossed[c] += crossed_before(state_->normal[c].real.data(), state_->tangent[c].real.data(), k,
+                                        yy.data(), mixed.data());
   }
 }
 

@@ -45,6 +45,8 @@ template <class R>
   const R square = a.re * a.re + a.im * a.im;
   return square > least && square < most ? std::sqrt(square) : std::hypot(a.re, a.im);
 }
+[[nodiscard]] inline bool is_zero(double a) { return a == 0.0; }
+[[nodiscard]] inline bool is_zero(Complex a) { return a.re == 0.0 && a.im == 0.0; }
 [[nodiscard]] inline double real_part(double a) { return a; }
 [[nodiscard]] inline double real_part(Complex a) { return a.re; }
 /// What a mode adds to a real quantity: itself, or itself and its conjugate.

@@ -127,11 +127,13 @@ void Spectrum::take_seen(const Poles& poles, const Eigen::MatrixXd& u, const Eig
   home_.resize(n_);
   std::iota(home_.begin(), home_.end(), std::size_t(0));
   terms_.resize(n_ * rank_ * rank_);
+  weights_.resize(terms_.size());
   for (std::size_t i = 0; i < n_; ++i)
     for (std::size_t a = 0; a < rank_; ++a)
       for (std::size_t b = 0; b < rank_; ++b)
-        terms_[(i * rank_ + a) * rank_ + b] = v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a)) *
-                                              u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(b));
+        weights_[(a * rank_ + b) * n_ + i] = terms_[(i * rank_ + a) * rank_ + b] =
+            v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a)) *
+            u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(b));
 }
 
 void Spectrum::order_values() {

@@ -146,7 +146,8 @@ class Spectrum {
   void outside_group(const SmallLu<S>& lu, const Local<S>& local, const SmallVector<S>& right,
                      const SmallVector<S>& left, SmallVector<S>& c, SmallVector<S>& d) const;
   template <class S, class W>
-  void keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c, const SmallVector<W>& d);
+  void keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
+                    const SmallVector<W>& d_wide);
   template <class S>
   void project(const Roots<S>& roots, const Eigen::VectorXd& q, bool form, std::vector<S>& z) const;
   void project(const Eigen::VectorXd& q, bool form, Amplitudes& z) const;
@@ -164,6 +165,9 @@ class Spectrum {
   void of_form_written(const Eigen::VectorXd& form, Amplitudes& row) const;
   void from_modes_written(const std::vector<const Amplitudes*>& z,
                           const std::vector<Eigen::VectorXd*>& q) const;
+  template <class S>
+  void cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
+              std::vector<S>& out) const;
   [[nodiscard]] Eigen::VectorXd seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
                                             std::size_t k) const;
   void part_close_roots();
@@ -188,6 +192,7 @@ class Spectrum {
   Poles poles_;
   Eigen::MatrixXd u_, v_;
   std::vector<double> terms_;                                // v_i u_i^T, rank^2 numbers a pole
+  std::vector<double> weights_;                              // the same, n numbers a place of the matrix
   std::vector<std::size_t> home_, group_begin_, group_end_;  // groups: equal poles
   Roots<double> real_;
   Roots<Complex> pairs_;

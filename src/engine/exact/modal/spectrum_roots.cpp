@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <complex>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "engine/exact/modal/pole_lanes.hpp"
 
 namespace signorini {
 namespace {
@@ -149,6 +151,31 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
   return change;
 }
 
+/// The same in lanes.
+template <>
+Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
+  for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = Complex(1.0);
+  if (local.count == 0) {
+    local.first = group_begin_[home];
+    local.count = group_end_[home] - local.first;
+  }
+  const auto n = static_cast<std::ptrdiff_t>(n_);
+  const std::unique_ptr<double[]> lists(new double[4 * n_]);
+  double *re = lists.get(), *im = re + n, *square_re = im + n, *square_im = square_re + n;
+  inverse_distances(poles_.base.data(), poles_.tiny.data(), n, poles_.base[home], poles_.tiny[home], own, re,
+                    im);
+  std::fill_n(re + local.first, local.count, 0.0);
+  std::fill_n(im + local.first, local.count, 0.0);
+  square_all(re, im, n, square_re, square_im);
+  for (std::size_t a = 0; a < rank_; ++a)
+    for (std::size_t b = 0; b < rank_; ++b) {
+      const double* w = weights_.data() + (a * rank_ + b) * n_;
+      local.g[a][b] -= weighted(re, im, w, n);
+      local.slope[a][b] += weighted(square_re, square_im, w, n);
+    }
+  return sum_of_all(re, im, n);
+}
+
 /// tr(G0^-1 G0') + tr(S^-1 S'), the slope of log(det G0 det S); nothing where a matrix is singular.
 template <class S>
 std::optional<S> Spectrum::trace(std::size_t home, S own, Local<S>& local) const {
@@ -173,16 +200,16 @@ typename Spectrum::Correction<S> Spectrum::correction(std::size_t k, const std::
   S sum{};
   for (std::size_t i = 0; i < n_; ++i) {
     const S f = (own - offset[i]) + poles_.between(home, home_[i]);
-    const bool apart = size_of(f) > 0.0;
+    const bool apart = !is_zero(f);
     if (i >= local.first && i < local.first + local.count) {
       if (i != k && apart) sum -= inverse(f);
       continue;
     }
-    const S one = inverse(own + poles_.between(home, i));
+    const S from_pole = own + poles_.between(home, i);
     if (i == k)
-      sum += one;
+      sum += inverse(from_pole);
     else if (apart)  // 1/(l - D_i) - 1/(l - l_i), whose terms nearly cancel
-      sum += shift[i] * one * inverse(f);
+      sum += shift[i] * inverse(from_pole * f);
   }
   return {inverse(poles + *slope), inverse(sum + *slope)};
 }
@@ -303,7 +330,6 @@ bool Spectrum::part_kinds(const std::vector<Complex>& offset) {
 template bool Spectrum::search(std::vector<double>&);
 template bool Spectrum::search(std::vector<Complex>&);
 template double Spectrum::gather(std::size_t, double, Local<double>&) const;
-template Complex Spectrum::gather(std::size_t, Complex, Local<Complex>&) const;
 template Spectrum::Wide Spectrum::gather(std::size_t, Wide, Local<Wide>&) const;
 template void Spectrum::group_matrix(const SmallLu<Wide>&, Wide, std::size_t, Local<Wide>&) const;
 template SmallMatrix<Spectrum::Wide> Spectrum::group_slope(const SmallLu<Wide>&, const Local<Wide>&) const;

@@ -1,6 +1,8 @@
 // The vectors of a spectrum, and products of them.
 #include "engine/exact/modal/spectrum.hpp"
 
+#include "engine/exact/modal/pole_lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +16,26 @@ constexpr std::size_t most_neighbours = 6;
 constexpr double alike = 1e-5;  // relative distance of eigenvalues from which on c and h lose five digits
 
 }  // namespace
+
+/// X's or Y's, of what is seen: side small / (D - l).
+template <class S>
+void Spectrum::cauchy(const Roots<S>& roots, std::size_t k, const S* small, const Eigen::MatrixXd& side,
+                      std::vector<S>& out) const {
+  out.resize(n_);
+  const std::size_t home = roots.home[k];
+  if constexpr (std::is_same_v<S, double>) {
+    cauchy_vector(poles_.base.data(), poles_.tiny.data(), static_cast<std::ptrdiff_t>(n_), poles_.base[home],
+                  poles_.tiny[home], roots.offset[k], small, side.data(), static_cast<std::ptrdiff_t>(rank_),
+                  out.data());
+  } else {
+    for (std::size_t i = 0; i < n_; ++i) {
+      S sum{};
+      for (std::size_t a = 0; a < rank_; ++a)
+        sum += small[a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
+      out[i] = sum * inverse(S(poles_.between(i, home)) - roots.offset[k]);
+    }
+  }
+}
 
 /// c = -G0^-1 V^T right, d = -G0^-T U^T left: what null vectors of a group are outside it.
 template <class S>
@@ -54,7 +76,6 @@ void Spectrum::find_vectors(Roots<S>& roots) {
         own = polished(home, own, local);
       else
         (void)gather(home, own, local);
-      roots.offset[k] = static_cast<S>(own);
       const SmallLu<W> lu(local.g, rank_);
       group_matrix(lu, own, home, local);
       SmallVector<W> right{}, left{}, c{}, d{};
@@ -66,49 +87,44 @@ void Spectrum::find_vectors(Roots<S>& roots) {
   }
 }
 
-/// Scaled to |x| = 1 and y^T x = 1.
+/// Scaled to |x| = 1 and y^T x = 1, of the vectors that offset, c and d make once they are rounded.
 template <class S, class W>
-void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c,
-                            const SmallVector<W>& d) {
-  const auto square_of = [](W a) {
-    const auto size = static_cast<double>(size_of(a));
+void Spectrum::keep_vectors(Roots<S>& roots, std::size_t k, W own, const SmallVector<W>& c_wide,
+                            const SmallVector<W>& d_wide) {
+  const auto square_of = [](S a) {
+    const double size = size_of(a);
     return size * size;
   };
+  roots.offset[k] = static_cast<S>(own);
+  SmallVector<S> c{}, d{};
+  for (std::size_t a = 0; a < rank_; ++a) {
+    c[a] = static_cast<S>(c_wide[a]);
+    d[a] = static_cast<S>(d_wide[a]);
+  }
+  std::vector<S> x, y;
+  cauchy(roots, k, c.data(), u_, x);
+  cauchy(roots, k, d.data(), v_, y);
   double x_square = 0.0, y_square = 0.0;
-  W product{};
+  S product{};
   for (std::size_t i = 0; i < n_; ++i) {
-    const W one = inverse(W(poles_.between(i, roots.home[k])) - own);
-    W x{}, y{};
-    for (std::size_t a = 0; a < rank_; ++a) {
-      x += c[a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-      y += d[a] * v_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-    }
-    x *= one;
-    y *= one;
-    x_square += square_of(x);
-    y_square += square_of(y);
-    product += x * y;
+    x_square += square_of(x[i]);
+    y_square += square_of(y[i]);
+    product += x[i] * y[i];
   }
   const double x_size = std::sqrt(x_square), y_size = std::sqrt(y_square);
-  condition_ = std::max(condition_, x_size * y_size / static_cast<double>(size_of(product)));
-  const W to_right = W(1.0 / x_size), to_left = inverse(product) * x_size;
+  condition_ = std::max(condition_, x_size * y_size / size_of(product));
+  const S to_right = S(1.0 / x_size), to_left = inverse(product) * x_size;
   for (std::size_t a = 0; a < rank_; ++a) {
-    roots.right[k * rank_ + a] = static_cast<S>(c[a] * to_right);
-    roots.left[k * rank_ + a] = static_cast<S>(d[a] * to_left);
+    roots.right[k * rank_ + a] = c[a] * to_right;
+    roots.left[k * rank_ + a] = d[a] * to_left;
   }
 }
 
-/// X's or Y's, of what is seen.
 Eigen::VectorXd Spectrum::seen_vector(const std::vector<double>& small, const Eigen::MatrixXd& side,
                                       std::size_t k) const {
-  Eigen::VectorXd x(static_cast<Eigen::Index>(n_));
-  for (std::size_t i = 0; i < n_; ++i) {
-    double sum = 0.0;
-    for (std::size_t a = 0; a < rank_; ++a)
-      sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-    x[static_cast<Eigen::Index>(i)] = sum / (poles_.between(i, real_.home[k]) - real_.offset[k]);
-  }
-  return x;
+  std::vector<double> x;
+  cauchy(real_, k, small.data() + k * rank_, side, x);
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(n_));
 }
 
 /// Vectors of eigenvalues that nearly coincide are right but for each other: Y := (1 - E) Y with E = Y X
@@ -135,13 +151,9 @@ void Spectrum::find_squares() {
     using S = typename std::decay_t<decltype(roots.offset)>::value_type;
     S sum{};
     double beside = 1.0;  // |x|, of which the unseen modes may have most: they are nearly parallel then
-    for (std::size_t i = 0; i < n_; ++i) {
-      S entry{};
-      for (std::size_t a = 0; a < rank_; ++a)
-        entry += roots.right[k * rank_ + a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-      entry *= inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]);
-      sum += entry * entry;
-    }
+    std::vector<S> x;
+    cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
+    for (const S& entry : x) sum += entry * entry;
     for (std::size_t j = 0; j < unseen_.size(); ++j) {
       const S entry = moved(roots, k, j, unseen_poles_[j]);
       sum += entry * entry;
@@ -192,21 +204,18 @@ void Spectrum::find_products() {
     using S = typename std::decay_t<decltype(left)>::value_type;
     left = roots.right;
     right.assign(roots.size() * rank_, S(0.0));
+    std::vector<S> x;
     for (std::size_t k = 0; k < roots.size(); ++k) {
-      const auto add = [&](const S& entry, const Eigen::MatrixXd& u, Eigen::Index row) {
-        for (std::size_t a = 0; a < rank_; ++a)
-          right[k * rank_ + a] += entry * u(row, static_cast<Eigen::Index>(a));
-      };
-      for (std::size_t i = 0; i < n_; ++i) {
-        S entry{};
-        for (std::size_t a = 0; a < rank_; ++a)
-          entry +=
-              roots.right[k * rank_ + a] * u_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-        add(entry * inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]), u_,
-            static_cast<Eigen::Index>(i));
+      cauchy(roots, k, roots.right.data() + k * rank_, u_, x);
+      for (std::size_t a = 0; a < rank_; ++a) {
+        const double* column = u_.data() + a * n_;
+        S sum{};
+        for (std::size_t i = 0; i < n_; ++i) sum += x[i] * column[i];
+        for (std::size_t j = 0; j < unseen_.size(); ++j)
+          sum += moved(roots, k, j, unseen_poles_[j]) *
+                 u_unseen_(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(a));
+        right[k * rank_ + a] = sum;
       }
-      for (std::size_t j = 0; j < unseen_.size(); ++j)
-        add(moved(roots, k, j, unseen_poles_[j]), u_unseen_, static_cast<Eigen::Index>(j));
     }
   };
   fill(pairs_, c_pair, h_pair);
@@ -228,6 +237,10 @@ void Spectrum::find_products() {
             u_unseen_(static_cast<Eigen::Index>(order_[p] - real_.size()), static_cast<Eigen::Index>(a));
 }
 
+template void Spectrum::cauchy(const Roots<double>&, std::size_t, const double*, const Eigen::MatrixXd&,
+                               std::vector<double>&) const;
+template void Spectrum::cauchy(const Roots<Complex>&, std::size_t, const Complex*, const Eigen::MatrixXd&,
+                               std::vector<Complex>&) const;
 template void Spectrum::find_vectors(Roots<double>&);
 template void Spectrum::find_vectors(Roots<Complex>&);
 

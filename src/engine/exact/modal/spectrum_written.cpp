@@ -14,13 +14,9 @@ template <class S>
 void Spectrum::entries(const Roots<S>& roots, std::size_t k, const std::vector<S>& small,
                        const Eigen::MatrixXd& side, std::vector<S>& out) const {
   out.assign(seen_.size() + unseen_.size(), S(0.0));
-  for (std::size_t i = 0; i < n_; ++i) {
-    S sum{};
-    for (std::size_t a = 0; a < rank_; ++a)
-      sum += small[k * rank_ + a] * side(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(a));
-    out[static_cast<std::size_t>(seen_[i])] =
-        sum * inverse(S(poles_.between(i, roots.home[k])) - roots.offset[k]);
-  }
+  std::vector<S> seen;
+  cauchy(roots, k, small.data() + k * rank_, side, seen);
+  for (std::size_t i = 0; i < n_; ++i) out[static_cast<std::size_t>(seen_[i])] = seen[i];
 }
 
 void Spectrum::write_out() {

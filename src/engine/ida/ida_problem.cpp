@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "base/wide_lanes.hpp"
 #include "contact/friction.hpp"
 #include "motion/equilibrium.hpp"
 
@@ -19,6 +20,35 @@ constexpr double local_part = 0.2;
 // limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
 
+const Four& four(const double* p) { return *reinterpret_cast<const Four*>(p); }
+Four& four(double* p) { return *reinterpret_cast<Four*>(p); }
+
+/// r = y' - v,  u = y - step r
+SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y, const double* v,
+                                     const double* yp, double* r, double* u) {
+  std::size_t i = 0;
+  for (; i + 3 < n; i += 4) {
+    const Four off = four(yp + i) - four(v + i);
+    four(r + i) = off;
+    four(u + i) = four(y + i) - step * off;
+  }
+  for (; i < n; ++i) {
+    r[i] = yp[i] - v[i];
+    u[i] = y[i] - step * r[i];
+  }
+}
+
+/// w = factor / (rtol |y| + atol)
+SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor, const double* atol,
+                                const double* y, double* w) {
+  std::size_t i = 0;
+  for (; i + 3 < n; i += 4) {
+    const Four size = four(y + i) < 0.0 ? -four(y + i) : four(y + i);
+    four(w + i) = four(factor + i) / (rtol * size + four(atol + i));
+  }
+  for (; i < n; ++i) w[i] = factor[i] / (rtol * std::abs(y[i]) + atol[i]);
+}
+
 }  // namespace
 
 IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tolerance& tolerance)
@@ -28,7 +58,8 @@ IdaProblem::IdaProblem(const Model& model, const Structure& structure, const Tol
       linear_(model, structure, layout_),
       tolerance_(tolerance),
       momentum_(model, structure),
-      forces_(layout_.massive < layout_.dofs ? static_cast<std::size_t>(layout_.dofs) : 0) {
+      forces_(layout_.massive < layout_.dofs ? static_cast<std::size_t>(layout_.dofs) : 0),
+      u_(static_cast<std::size_t>(layout_.dofs)) {
   const auto size = static_cast<std::size_t>(layout_.size());
   atol_.assign(size, tolerance.force);
   std::vector<std::size_t> group(size, 2 * model.contacts.size());
@@ -133,10 +164,8 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   double* forces = all_massive ? r + n : forces_.data();
   if (all_massive) {
     const double *v = y + n, *a = yp + n;
-    for (std::size_t i = 0; i < n; ++i) {
-      r[i] = yp[i] - v[i];
-      momentum_.put(i, a[i], v[i], y[i] - step * r[i]);
-    }
+    shift_back(n, step, y, v, yp, r, u_.data());
+    momentum_.put(a, v, u_.data());
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       const int v = layout_.velocity[i];
@@ -168,8 +197,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
 }
 
 void IdaProblem::weights(const double* y, double rate, double* w) const {
-  for (std::size_t i = 0; i < atol_.size(); ++i)
-    w[i] = factor_[i] / (tolerance_.rtol * std::abs(y[i]) + atol_[i]);
+  weigh(atol_.size(), tolerance_.rtol, factor_.data(), atol_.data(), y, w);
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     // kn g and kt (ut - p) are differences of large numbers: no tolerance below their rounding can be met.
     const Contact& contact = model_.contacts[k];
@@ -212,27 +240,6 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
   for (const Massless& own : massless_) {
     limit(own.dof, part * length);
     for (const auto& [unknown, factor] : own.forces) limit(unknown, part * factor * greatest);
-  }
-}
-
-void IdaProblem::guards(double t, const double* y, const double* yp, double* g) const {
-  const Scales& scale = model_.scales;
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const ContactMotion m = motion(k, t, y, yp);
-    for (std::size_t i = 0; i < guards_per_contact; ++i) {
-      const std::size_t slot = guard_slot(k, i);
-      const GuardStart& guard = segment_.decision->guards[slot];
-      // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
-      if (guard.kind == Guard::none || guard.form.an != 0.0 || !watch_->armed(slot)) {
-        g[slot] = 1.0;
-        continue;
-      }
-      // O(1), so that IDA's products of guard values do not underflow
-      const double unit = guard.kind == Guard::closing   ? scale.displacement
-                          : guard.kind == Guard::sliding ? scale.velocity
-                                                         : scale.force;
-      g[slot] = guard.form.value(m) / unit;
-    }
   }
 }
 

@@ -1,0 +1,104 @@
+#include "engine/ida/step_newton.hpp"
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+
+namespace signorini {
+namespace {
+
+StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
+
+}  // namespace
+
+StepNewton::StepNewton(IdaProblem& problem, void* ida, N_Vector like, SUNContext context)
+    : problem_(problem), ida_(ida), solver_(SUNNonlinSolNewEmpty(context)), change_(N_VClone(like)) {
+  solver_->content = this;
+  SUNNonlinearSolver_Ops ops = solver_->ops;
+  ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_ROOTFIND; };
+  ops->solve = [](SUNNonlinearSolver s, N_Vector, N_Vector e, N_Vector w, realtype tolerance,
+                  booleantype setup,
+                  void* memory) { return newton_of(s).solve(e, w, tolerance, setup != 0, memory); };
+  // F and solves are called where they are; IDA may offer its own.
+  ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
+  ops->setlsetupfn = [](SUNNonlinearSolver s, SUNNonlinSolLSetupFn f) {
+    newton_of(s).setup_ = f;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->setctestfn = [](SUNNonlinearSolver s, SUNNonlinSolConvTestFn f, void* data) {
+    newton_of(s).test_ = f;
+    newton_of(s).test_data_ = data;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->setmaxiters = [](SUNNonlinearSolver s, int most) {
+    newton_of(s).most_iterations_ = most;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->getnumiters = [](SUNNonlinearSolver s, long* count) {
+    *count = newton_of(s).iterations_;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->getcuriter = [](SUNNonlinearSolver s, int* iteration) {
+    *iteration = newton_of(s).iteration_;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->getnumconvfails = [](SUNNonlinearSolver s, long* count) {
+    *count = newton_of(s).failures_;
+    return SUN_NLS_SUCCESS;
+  };
+  ops->free = [](SUNNonlinearSolver) { return SUN_NLS_SUCCESS; };
+}
+
+StepNewton::~StepNewton() {
+  SUNNonlinSolFreeEmpty(solver_);
+  N_VDestroy(change_);
+}
+
+int StepNewton::solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory) {
+  iterations_ = failures_ = 0;
+  int result = iterate(e, weights, tolerance, setup, false, memory);
+  if (result == SUN_NLS_SUCCESS) return result;
+  ++failures_;
+  if (result < 0 || setup) return result;
+  // With the Jacobian of another step: once more with its own.
+  N_VConst(0.0, e);
+  result = iterate(e, weights, tolerance, true, true, memory);
+  if (result != SUN_NLS_SUCCESS) ++failures_;
+  return result;
+}
+
+int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful,
+                        void* memory) {
+  double t = 0.0, cj = 0.0;
+  N_Vector y_predicted = nullptr, yp_predicted = nullptr, y = nullptr, yp = nullptr, r = nullptr;
+  void* data = nullptr;
+  IDAGetNonlinearSystemData(ida_, &t, &y_predicted, &yp_predicted, &y, &yp, &r, &cj, &data);
+  double* const change = NV_DATA_S(change_);
+  for (iteration_ = 0; iteration_ < most_iterations_; ++iteration_) {
+    const bool first = iteration_ == 0;
+    if (!first) {
+      N_VLinearSum(1.0, y_predicted, 1.0, e, y);
+      N_VLinearSum(1.0, yp_predicted, cj, e, yp);
+    } else if (setup) {
+      N_VScale(1.0, y_predicted, y);
+      N_VScale(1.0, yp_predicted, yp);
+    }
+    N_Vector at = first ? y_predicted : y, slope = first ? yp_predicted : yp;
+    problem_.residual(t, 1.0 / cj, NV_DATA_S(at), NV_DATA_S(slope), change);
+    ++residuals_;
+    if (first && setup) {
+      booleantype current = SUNFALSE;
+      if (const int result = setup_(doubtful ? SUNTRUE : SUNFALSE, &current, memory);
+          result != SUN_NLS_SUCCESS)
+        return result;
+    }
+    problem_.linear().solve(change, change);
+    ++iterations_;
+    N_VLinearSum(1.0, e, -1.0, change_, e);
+    if (const int result = test_(solver_, e, change_, tolerance, weights, test_data_);
+        result != SUN_NLS_CONTINUE)
+      return result;
+  }
+  return SUN_NLS_CONV_RECVR;
+}
+
+}  // namespace signorini

@@ -30,8 +30,8 @@ void Live::event(const Event& event) {
 bool Live::progress(double t) {
   reached_ = t;
   const bool go_on = next_.progress(t) && !Interrupt::asked();
-  const auto now = std::chrono::steady_clock::now();
-  if (show_progress_ && now >= next_line_) {
+  if (!show_progress_) return go_on;
+  if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
     next_line_ = now + std::chrono::milliseconds(100);
     progress_line(fmt::format("t = {:.6g} of {:.6g} {}, {:.0f} %, {} events", t, t_end_, model_.units.time,
                               t_end_ > 0.0 ? 100.0 * t / t_end_ : 0.0, count_));

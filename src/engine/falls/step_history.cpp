@@ -3,7 +3,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/wide_lanes.hpp"
+
 namespace signorini {
+namespace {
+
+using Kept = std::array<const double*, max_degree + 1>;  // values so many steps back
+
+template <class T>
+[[gnu::always_inline]] inline const T& together(const double* p) {
+  return *reinterpret_cast<const T*>(p);
+}
+
+template <class T>
+[[gnu::always_inline]] inline void look_at(const Kept& rows, int order, double twice_bend, int degree,
+                                           const double* weights, std::size_t s, double* bent, double* mean) {
+  const T last = together<T>(rows[0] + s);
+  T change{}, sum{};
+  for (int b = 1; b <= order; ++b) {
+    const T off = together<T>(rows[z(b)] + s) - last, far = off < 0.0 ? -off : off;
+    change = change < far ? far : change;
+  }
+  for (int b = 0; b <= degree; ++b) sum += weights[b] * together<T>(rows[z(b)] + s);
+  *reinterpret_cast<T*>(bent + s) = twice_bend * change;
+  *reinterpret_cast<T*>(mean + s) = sum;
+}
+
+/// bent = 2 bend max_b |f_b - f_0|,  mean = sum_b weight_b f_b  of n scalars
+SIGNORINI_WIDE_LANES void look_at_all(const Kept& rows, int order, double twice_bend, int degree,
+                                      const double* weights, std::size_t n, double* bent, double* mean) {
+  std::size_t s = 0;
+  for (; s + 3 < n; s += 4) look_at<Four>(rows, order, twice_bend, degree, weights, s, bent, mean);
+  for (; s < n; ++s) look_at<double>(rows, order, twice_bend, degree, weights, s, bent, mean);
+}
+
+}  // namespace
+
 double* StepHistory::restart(double t) {
   filled_ = 1;
   for (int b = 0; b <= max_degree; ++b) slot_[z(b)] = b;
@@ -25,6 +60,10 @@ void StepHistory::prepare(int order) {
   prepare(of_powers_, filled_ - 1);
   same_ = order >= of_powers_.degree;
   if (!same_) prepare(of_order_, order);
+  Kept rows{};
+  for (int b = 0; b < filled_; ++b) rows[z(b)] = values_.data() + z(slot_[z(b)]) * scalars_;
+  look_at_all(rows, of_order().degree, 2.0 * of_order().bend, of_powers_.degree, of_powers_.integral.data(),
+              scalars_, bent_.data(), mean_.data());
 }
 
 void StepHistory::prepare(Basis& basis, int degree) const {
@@ -58,20 +97,6 @@ void StepHistory::prepare(Basis& basis, int degree) const {
     for (int b = 1; b <= degree; ++b) sum += std::abs(basis.to_bernstein[z(i)][z(b)]);
     basis.bend = std::max(basis.bend, sum);
   }
-}
-
-bool StepHistory::clearly_positive(std::size_t s) const {
-  const double last = value(0, s);
-  double change = 0.0;
-  for (int b = 1; b <= of_order().degree; ++b) change = std::max(change, std::abs(value(b, s) - last));
-  // Twice, so that the rounding of the sums has no part in it.
-  return last > 2.0 * of_order().bend * change;
-}
-
-double StepHistory::integral(std::size_t s) const {
-  double sum = 0.0;
-  for (int b = 0; b <= of_powers_.degree; ++b) sum += of_powers_.integral[z(b)] * value(b, s);
-  return (times_[0] - times_[1]) * sum;
 }
 
 Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {

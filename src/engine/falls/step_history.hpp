@@ -17,7 +17,8 @@ namespace signorini {
 
 class StepHistory {
  public:
-  explicit StepHistory(std::size_t scalars) : scalars_(scalars), values_((max_degree + 1) * scalars) {}
+  explicit StepHistory(std::size_t scalars)
+      : scalars_(scalars), values_((max_degree + 1) * scalars), bent_(scalars), mean_(scalars) {}
 
   /// Forgets everything and starts at t; returns the place for the scalars' values.
   double* restart(double t);
@@ -29,9 +30,9 @@ class StepHistory {
   void prepare(int order);
   /// True: the polynomial of scalar i is positive, for the last value exceeds what the others can bend it by.
   /// False says nothing.
-  [[nodiscard]] bool clearly_positive(std::size_t i) const;
+  [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > bent_[i]; }
   /// Integral of power i over the whole last step.
-  [[nodiscard]] double integral(std::size_t i) const;
+  [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
   /// The polynomial of scalar i on the last step.
   [[nodiscard]] Bernstein polynomial(std::size_t i) const { return through(of_order(), i); }
   /// The same of a power.
@@ -60,6 +61,9 @@ class StepHistory {
 
   std::size_t scalars_;
   std::vector<double> values_;
+  // Of all scalars on the last step: twice what older values can bend its polynomial by (so that the rounding of
+  // the sums has no part in it), and as a power its mean.
+  std::vector<double> bent_, mean_;
   std::array<int, max_degree + 1> slot_{};        // slot_[b]: where the values b steps back are kept
   std::array<double, max_degree + 1> times_{};    // times_[b]: t_n-b
   std::array<double, max_degree + 1> lengths_{};  // of the step that ended at times_[b]

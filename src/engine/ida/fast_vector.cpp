@@ -171,15 +171,27 @@ SIGNORINI_WIDE_LANES int linear_sums(int count, double a, N_Vector* x, double b,
 SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   const Index n = NV_LENGTH_S(x_vector);
   const double *x = NV_DATA_S(x_vector), *w = NV_DATA_S(w_vector);
-  Four s{};
+  // Four sums of four lanes: one would wait for itself.
+  Four s0{}, s1{}, s2{}, s3{};
   Index j = 0;
+  for (; j + 15 < n; j += 16) {
+    const Four p0 = lanes<Four>(x + j) * lanes<Four>(w + j),
+               p1 = lanes<Four>(x + j + 4) * lanes<Four>(w + j + 4),
+               p2 = lanes<Four>(x + j + 8) * lanes<Four>(w + j + 8),
+               p3 = lanes<Four>(x + j + 12) * lanes<Four>(w + j + 12);
+    s0 += p0 * p0;
+    s1 += p1 * p1;
+    s2 += p2 * p2;
+    s3 += p3 * p3;
+  }
   for (; j + 3 < n; j += 4) {
     const Four p = lanes<Four>(x + j) * lanes<Four>(w + j);
-    s += p * p;
+    s0 += p * p;
   }
-  double first = s[0];
-  for (; j < n; ++j) first += (x[j] * w[j]) * (x[j] * w[j]);
-  return std::sqrt((first + s[1] + s[2] + s[3]) / static_cast<double>(n));
+  double rest = 0.0;
+  for (; j < n; ++j) rest += (x[j] * w[j]) * (x[j] * w[j]);
+  const Four s = (s0 + s1) + (s2 + s3);
+  return std::sqrt(((s[0] + s[1]) + (s[2] + s[3]) + rest) / static_cast<double>(n));
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
   if (all_massive) {
     const double *v = y + n, *a = yp + n;
     shift_back(n, step, y, v, yp, r, u_.data());
-    momentum_.put(a, v, u_.data());
+    for (std::size_t i = 0; i < n; ++i) momentum_.put(i, a[i], v[i], u_[i]);
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       const int v = layout_.velocity[i];

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "base/wide_lanes.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
 #include "engine/exact/modal/settle_guard.hpp"
 
@@ -131,7 +132,7 @@ double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& know
 }
 
 /// taylor_of_mode for all slow real modes at once, term by term.
-void ModalProof::expand_real(const ModalPoint& at) {
+SIGNORINI_WIDE_LANES void ModalProof::expand_real(const ModalPoint& at) {
   const double* l = oscillators_->real().data();
   const double square = h_ * h_, *z = at.z.real.data(), *rate = at.rate.real.data();
   double* first = coefficients_.data();

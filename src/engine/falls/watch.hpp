@@ -4,9 +4,9 @@
 //   not armed  g started at zero and rises; armed once g >= level, an event once g <= -level
 //   level      re_arm_tolerances times the local error tolerance of g
 //
-// On a step of IDA the solution is a polynomial of degree q <= 5, so is every guard, and its Bernstein coefficients
-// prove that it stays positive or show where it does not: two crossings inside one step are not missed, as they
-// are by who looks for changes of sign between its ends. IDA's own search for roots is therefore left out.
+// IDA reports only changes of sign between the ends of a step. On a step the solution is a polynomial
+// of degree q <= 5, so is every guard, and its Bernstein coefficients prove that it stays positive or
+// show where it does not: two crossings inside one step are not missed.
 #pragma once
 
 #include "engine/falls/arming.hpp"

@@ -75,9 +75,12 @@ struct BdfIntegrator::Memory {
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return friction_varies(c); }))
       IDASetNonlinConvCoef(ida, sharp_newton);
+    IDASetNoInactiveRootWarn(ida);
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
                     [](const Contact& c) { return c.takes_impulses(); }))
       start_part = first_step_part_of_flights;
+    directions.assign(problem.slots(), -1);
+    found.assign(problem.slots(), 0);
   }
   ~Memory() {
     IDAFree(&ida);
@@ -105,6 +108,12 @@ struct BdfIntegrator::Memory {
     m->problem.weights(NV_DATA_S(y), h > 0.0 ? 1.0 / h : 0.0, NV_DATA_S(w));
     return 0;
   }
+  static int roots(realtype t, N_Vector y, N_Vector yp, realtype* g, void* self) {
+    auto* m = static_cast<Memory*>(self);
+    ++m->guard_evaluations;
+    m->problem.guards(t, NV_DATA_S(y), NV_DATA_S(yp), g);
+    return 0;
+  }
   static int jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* self,
                       N_Vector, N_Vector, N_Vector) {
     auto* m = static_cast<Memory*>(self);
@@ -128,6 +137,10 @@ struct BdfIntegrator::Memory {
     // Surfaces move in the guards alone, so the error test does not see them; their polynomials must.
     const double shaking = segment.forcing->surface_omega();
     IDASetMaxStep(ida, shaking > 0.0 ? surface_step / shaking : 0.0);
+    // A fresh root problem: IDA would keep guards switched off that were zero in the last segment.
+    IDARootInit(ida, 0, nullptr);
+    IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
+    if (!directions.empty()) IDASetRootDirection(ida, directions.data());
     t_previous = jet.t;
     reported_end = jet.t;
   }
@@ -184,12 +197,24 @@ struct BdfIntegrator::Memory {
     counted.solves = iterations;
     c.factorisations = problem.linear().klu().factorisations;
     c.refactorisations = problem.linear().klu().refactorisations;
+    c.guard_evaluations = guard_evaluations;
     for (std::size_t order = 0; order < steps_by_order.size(); ++order) {
       if (steps_by_order[order] == 0) continue;
       c.steps += steps_by_order[order];
       c.steps_by_order[static_cast<int>(order)] += steps_by_order[order];
       steps_by_order[order] = 0;
     }
+  }
+
+  /// After a root that was no event IDA stops at the further roots of its step and at its end, which have been
+  /// handed on already with all that their polynomials show: on to the next step.
+  int leave_step(int flag, double far, double& t) {
+    for (double end = 0.0; flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN;
+         flag = IDASolve(ida, far, &t, y, yp, IDA_ONE_STEP)) {
+      IDAGetCurrentTime(ida, &end);
+      if (end > reported_end) break;
+    }
+    return flag;
   }
 
   IdaProblem problem;
@@ -201,12 +226,16 @@ struct BdfIntegrator::Memory {
   std::unique_ptr<StepNewton> newton;
   double start_part = first_step_part;
   double first = 0.0;  // step of the segment
+  std::vector<int> directions;
   Segment segment;
   std::string message;
   double unit_of_time;
-  double t_previous = 0.0;                            // beginning of the last accepted step
-  double reported_end = 0.0;                          // end of the last step that was returned
-  double held_time = 0.0;                             // time of what y and yp hold
+  double t_previous = 0.0;    // beginning of the last accepted step
+  double reported_end = 0.0;  // end of the last step that was returned
+  double held_time = 0.0;     // time of what y and yp hold
+  bool rooted = false;        // the last step that was returned ended at a root
+  std::vector<int> found;
+  long guard_evaluations = 0;
   std::array<long, max_degree + 1> steps_by_order{};  // since the last count
   Counters counted;                                   // what IDA has counted since its last restart
 };
@@ -225,6 +254,7 @@ void BdfIntegrator::start(const Segment& segment, const Watch& watch) {
   m_->problem.start(segment, watch);
   m_->begin(m_->first_step());
   m_->counted = Counters{};
+  m_->rooted = false;
   ++counters_.restarts;
 }
 
@@ -234,6 +264,7 @@ BdfStep BdfIntegrator::advance() {
   // A far tout: in one-step mode it only bounds IDA's own choice of a first step.
   const double far = m_->segment.end + (m_->segment.end - m_->t_previous) + std::abs(m_->segment.end);
   int flag = IDASolve(m_->ida, far, &t, m_->y, m_->yp, IDA_ONE_STEP);
+  if (flag >= 0 && m_->rooted) flag = m_->leave_step(flag, far, t);
   const bool first = m_->reported_end == m_->segment.decision->jet.t;
   double h0 = 0.0;
   for (int retry = 0; flag < 0 && first && retry < most_retries; ++retry) {
@@ -263,6 +294,16 @@ BdfStep BdfIntegrator::advance() {
   ++m_->steps_by_order[static_cast<std::size_t>(step.order)];
   // y' as IDA returns it is no velocity of massless degrees of freedom yet: evaluate() makes it one.
   m_->held_time = m_->massless() ? std::numeric_limits<double>::quiet_NaN() : t;
+  m_->rooted = flag == IDA_ROOT_RETURN;
+  if (m_->rooted) {
+    step.kind = BdfStep::Kind::root;
+    step.root = t;
+    std::vector<int>& found = m_->found;
+    IDAGetRootInfo(m_->ida, found.data());
+    for (std::size_t slot = 0; slot < found.size(); ++slot)
+      if (found[slot] != 0)
+        step.fired.push_back({contact_of_guard(slot), m_->segment.decision->guards[slot].kind});
+  }
   return step;
 }
 

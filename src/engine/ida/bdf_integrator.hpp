@@ -19,8 +19,10 @@ namespace signorini {
 
 /// A step of IDA, before anybody has looked inside it.
 struct BdfStep {
-  enum class Kind { accepted, failed } kind = Kind::accepted;
+  enum class Kind { accepted, root, failed } kind = Kind::accepted;
   double begin = 0.0, end = 0.0;  ///< of the accepted step
+  double root = 0.0;              ///< Kind::root: where a guard fell, begin < root <= end
+  std::vector<Fired> fired;       ///< Kind::root
   double length = 0.0;            ///< of the step, free of the rounding of its ends
   int order = 1;                  ///< degree of the solution's polynomial on the step
   std::string reason;             ///< Kind::failed

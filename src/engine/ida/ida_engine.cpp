@@ -46,7 +46,6 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
 
 /// Guards and powers at the end of a step, for its polynomials.
 void IdaEngine::fill(double t, const Point& point, double* out) {
-  ++counters.guard_evaluations;
   const Decision& decision = *segment_.decision;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactMotion m = motion_of(model_.contacts[k], k, *segment_.forcing, t, point);
@@ -160,6 +159,14 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
   std::vector<Located> candidates;
   for (const Fall& fall : watch_.check(history_, 1.0))
     candidates.push_back({fall.slot, step.begin + fall.x * h});
+  for (const Fired& fired : step.fired)
+    for (std::size_t i = 0; i < guards_per_contact; ++i) {
+      const std::size_t slot = guard_slot(fired.contact, i);
+      if (guards[slot].kind != fired.guard) continue;
+      const auto same = std::find_if(candidates.begin(), candidates.end(),
+                                     [&](const Located& c) { return c.slot == slot; });
+      if (same == candidates.end()) candidates.push_back({slot, step.root});
+    }
   std::erase_if(candidates, [&](const Located& c) {
     if (!only_touches(c.slot, (c.time - step.begin) / h)) return false;
     watch_.wait(c.slot, allowance(c.slot));
@@ -179,7 +186,7 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
         locate(bdf_, consistent_, segment_, model_, c.slot, step.begin, step.end, c.time, resolution);
     if (!first || time < first->time) first = Located{c.slot, time};
   }
-  ++counters.rolled_back;
+  if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;
   return first;
 }
 

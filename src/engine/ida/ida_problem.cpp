@@ -243,6 +243,27 @@ void IdaProblem::widen_massless(const double* y, double* w) const {
   }
 }
 
+void IdaProblem::guards(double t, const double* y, const double* yp, double* g) const {
+  const Scales& scale = model_.scales;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const ContactMotion m = motion(k, t, y, yp);
+    for (std::size_t i = 0; i < guards_per_contact; ++i) {
+      const std::size_t slot = guard_slot(k, i);
+      const GuardStart& guard = segment_.decision->guards[slot];
+      // IDA interpolates no accelerations; a guard with one is left to the polynomial check.
+      if (guard.kind == Guard::none || guard.form.an != 0.0 || !watch_->armed(slot)) {
+        g[slot] = 1.0;
+        continue;
+      }
+      // O(1), so that IDA's products of guard values do not underflow
+      const double unit = guard.kind == Guard::closing   ? scale.displacement
+                          : guard.kind == Guard::sliding ? scale.velocity
+                                                         : scale.force;
+      g[slot] = guard.form.value(m) / unit;
+    }
+  }
+}
+
 void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
   const auto o = static_cast<Eigen::Index>(order);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout_.dofs); ++i) {

@@ -1,4 +1,4 @@
-// ida_problem.hpp: residual and error weights that IDA calls; no solver state.
+// ida_problem.hpp: residual, error weights and root functions that IDA calls; no solver state.
 //
 //   r1 = u' - v,   r2 = M v' + C v + K (u - r1/cj) - P + n N + t T,   rows of contacts at u - r1/cj
 //
@@ -29,6 +29,8 @@ class IdaProblem {
   [[nodiscard]] double imbalance(double t, const double* y, const double* yp) const;
   /// Error weights; see below. rate: of the clock, 1/h; 0 before the first step is known.
   void weights(const double* y, double rate, double* w) const;
+  /// Scaled guards, one a slot; masked ones are +1.
+  void guards(double t, const double* y, const double* yp, double* g) const;
   /// y^(order) from a jet.
   void fill(const Jet& jet, std::size_t order, double* y) const;
   void read(const double* y, const double* yp, Point& point) const;

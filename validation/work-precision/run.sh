@@ -1,10 +1,10 @@
 #!/bin/bash
-# Tables and pictures of validation/work-precision: time over error of every engine on six scenes.
+# Tables and pictures of validation/work-precision: time over error of every engine on eight scenes.
 #
 #   validation/work-precision/run.sh [PROGRAM]     PROGRAM: default build/release/signorini
 #
 # Writes NAME.md and NAME.png beside itself; all files of the studies are in out/, which is removed first.
-# One run at a time, on an idle machine; some fifteen minutes.
+# One run at a time, on an idle machine; some twenty minutes.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -23,7 +23,9 @@ study() { # NAME SCENE [OPTION...]
   cp "$out/$name/plots/work-precision.png" "$here/$name.png"
 }
 
-study pipeline models/pipeline.toml --rtol 1e-4:1e-10 --dt 1e-3:1e-7 --time-limit 120
+study pipeline models/pipeline.toml --rtol 1e-4:1e-10 --dt 1e-3:1e-6 --time-limit 120
+study pipeline-201 models/pipeline.toml --set members.1.elements=[16,50] --rtol 1e-4,1e-6,1e-8 --dt 1e-3:1e-6 --repeats 1
+study pipeline-801 models/pipeline.toml --set members.1.elements=[66,200] --rtol 1e-4,1e-6 --dt 1e-3:1e-6 --repeats 2
 study belt models/belt.toml
 study den-hartog models/den-hartog.toml
 study chain models/chain.toml --dt 1e-2:1e-5

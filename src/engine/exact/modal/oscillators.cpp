@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
-#include "base/wide_lanes.hpp"
 
 namespace signorini {
 namespace {
@@ -62,8 +61,7 @@ Oscillators::Oscillators(const Spectrum& spectrum, double alpha)
 
 /// by_series for the first `count` real modes, a block at a time: term by term, until a majorant of the last
 /// one of the block says that no more is to come.
-SIGNORINI_WIDE_LANES void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time,
-                                                      ModalPoint& to) const {
+void Oscillators::slow_by_series(const Amplitudes& p, std::size_t count, double time, ModalPoint& to) const {
   constexpr std::size_t width = 8;
   const double square = time * time;
   for (std::size_t begin = 0; begin < count; begin += width) {

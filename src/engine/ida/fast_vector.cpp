@@ -16,26 +16,16 @@ constexpr int most = 6;  // vectors of a linear combination: order 5 has six dif
 
 using Index = sunindextype;
 
-/// T: Four, or double for what is left at the end.
-template <class T>
-[[gnu::always_inline]] inline const T& lanes(const double* p) {
-  return *reinterpret_cast<const T*>(p);
-}
-template <class T>
-[[gnu::always_inline]] inline T& lanes(double* p) {
-  return *reinterpret_cast<T*>(p);
-}
-
-/// z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
+/// T: Four, or double for what is left at the end. z_j = sum_i f_i x_ij. z may be x_0; later ones are distinct from it.
 template <class T, int count>
 [[gnu::always_inline]] inline void combined(const double* f, const double* const* x, Index j, double* z) {
-  T sum = f[0] * lanes<T>(x[0] + j);
-  if constexpr (count > 1) sum += f[1] * lanes<T>(x[1] + j);
-  if constexpr (count > 2) sum += f[2] * lanes<T>(x[2] + j);
-  if constexpr (count > 3) sum += f[3] * lanes<T>(x[3] + j);
-  if constexpr (count > 4) sum += f[4] * lanes<T>(x[4] + j);
-  if constexpr (count > 5) sum += f[5] * lanes<T>(x[5] + j);
-  lanes<T>(z + j) = sum;
+  T sum = f[0] * lanes_at<T>(x[0] + j);
+  if constexpr (count > 1) sum += f[1] * lanes_at<T>(x[1] + j);
+  if constexpr (count > 2) sum += f[2] * lanes_at<T>(x[2] + j);
+  if constexpr (count > 3) sum += f[3] * lanes_at<T>(x[3] + j);
+  if constexpr (count > 4) sum += f[4] * lanes_at<T>(x[4] + j);
+  if constexpr (count > 5) sum += f[5] * lanes_at<T>(x[5] + j);
+  lanes_at<T>(z + j) = sum;
 }
 
 template <int count>
@@ -89,11 +79,11 @@ SIGNORINI_WIDE_LANES void linear_sum(double a, N_Vector x_vector, double b, N_Ve
   double* z = NV_DATA_S(z_vector);
   Index j = 0;
   if (a == 1.0) {  // every sum of IDA's steps
-    for (; j + 3 < n; j += 4) lanes<Four>(z + j) = lanes<Four>(x + j) + b * lanes<Four>(y + j);
+    for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = lanes_at<Four>(x + j) + b * lanes_at<Four>(y + j);
     for (; j < n; ++j) z[j] = x[j] + b * y[j];
     return;
   }
-  for (; j + 3 < n; j += 4) lanes<Four>(z + j) = a * lanes<Four>(x + j) + b * lanes<Four>(y + j);
+  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = a * lanes_at<Four>(x + j) + b * lanes_at<Four>(y + j);
   for (; j < n; ++j) z[j] = a * x[j] + b * y[j];
 }
 
@@ -106,7 +96,7 @@ SIGNORINI_WIDE_LANES void scale(double c, N_Vector x_vector, N_Vector z_vector) 
     return;
   }
   Index j = 0;
-  for (; j + 3 < n; j += 4) lanes<Four>(z + j) = c * lanes<Four>(x + j);
+  for (; j + 3 < n; j += 4) lanes_at<Four>(z + j) = c * lanes_at<Four>(x + j);
   for (; j < n; ++j) z[j] = c * x[j];
 }
 
@@ -118,13 +108,13 @@ void constant(double c, N_Vector z_vector) {
 /// x_0j += e_j, then x_ij += x_(i-1)j.
 template <class T, int count>
 [[gnu::always_inline]] inline void cascaded(const double* e, double* const* x, Index j) {
-  T sum = lanes<T>(e + j) + lanes<T>(x[0] + j);
-  lanes<T>(x[0] + j) = sum;
-  if constexpr (count > 1) lanes<T>(x[1] + j) = sum += lanes<T>(x[1] + j);
-  if constexpr (count > 2) lanes<T>(x[2] + j) = sum += lanes<T>(x[2] + j);
-  if constexpr (count > 3) lanes<T>(x[3] + j) = sum += lanes<T>(x[3] + j);
-  if constexpr (count > 4) lanes<T>(x[4] + j) = sum += lanes<T>(x[4] + j);
-  if constexpr (count > 5) lanes<T>(x[5] + j) = sum += lanes<T>(x[5] + j);
+  T sum = lanes_at<T>(e + j) + lanes_at<T>(x[0] + j);
+  lanes_at<T>(x[0] + j) = sum;
+  if constexpr (count > 1) lanes_at<T>(x[1] + j) = sum += lanes_at<T>(x[1] + j);
+  if constexpr (count > 2) lanes_at<T>(x[2] + j) = sum += lanes_at<T>(x[2] + j);
+  if constexpr (count > 3) lanes_at<T>(x[3] + j) = sum += lanes_at<T>(x[3] + j);
+  if constexpr (count > 4) lanes_at<T>(x[4] + j) = sum += lanes_at<T>(x[4] + j);
+  if constexpr (count > 5) lanes_at<T>(x[5] + j) = sum += lanes_at<T>(x[5] + j);
 }
 
 /// IDA's x = [phi_q, ..., phi_0], z = [e, phi_q, ..., phi_1].
@@ -175,17 +165,17 @@ SIGNORINI_WIDE_LANES double wrms_norm(N_Vector x_vector, N_Vector w_vector) {
   Four s0{}, s1{}, s2{}, s3{};
   Index j = 0;
   for (; j + 15 < n; j += 16) {
-    const Four p0 = lanes<Four>(x + j) * lanes<Four>(w + j),
-               p1 = lanes<Four>(x + j + 4) * lanes<Four>(w + j + 4),
-               p2 = lanes<Four>(x + j + 8) * lanes<Four>(w + j + 8),
-               p3 = lanes<Four>(x + j + 12) * lanes<Four>(w + j + 12);
+    const Four p0 = lanes_at<Four>(x + j) * lanes_at<Four>(w + j),
+               p1 = lanes_at<Four>(x + j + 4) * lanes_at<Four>(w + j + 4),
+               p2 = lanes_at<Four>(x + j + 8) * lanes_at<Four>(w + j + 8),
+               p3 = lanes_at<Four>(x + j + 12) * lanes_at<Four>(w + j + 12);
     s0 += p0 * p0;
     s1 += p1 * p1;
     s2 += p2 * p2;
     s3 += p3 * p3;
   }
   for (; j + 3 < n; j += 4) {
-    const Four p = lanes<Four>(x + j) * lanes<Four>(w + j);
+    const Four p = lanes_at<Four>(x + j) * lanes_at<Four>(w + j);
     s0 += p * p;
   }
   double rest = 0.0;

@@ -20,17 +20,14 @@ constexpr double local_part = 0.2;
 // limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
 
-const Four& four(const double* p) { return *reinterpret_cast<const Four*>(p); }
-Four& four(double* p) { return *reinterpret_cast<Four*>(p); }
-
 /// r = y' - v,  u = y - step r
 SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y, const double* v,
                                      const double* yp, double* r, double* u) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four off = four(yp + i) - four(v + i);
-    four(r + i) = off;
-    four(u + i) = four(y + i) - step * off;
+    const Four off = lanes_at<Four>(yp + i) - lanes_at<Four>(v + i);
+    lanes_at<Four>(r + i) = off;
+    lanes_at<Four>(u + i) = lanes_at<Four>(y + i) - step * off;
   }
   for (; i < n; ++i) {
     r[i] = yp[i] - v[i];
@@ -43,8 +40,8 @@ SIGNORINI_WIDE_LANES void weigh(std::size_t n, double rtol, const double* factor
                                 const double* y, double* w) {
   std::size_t i = 0;
   for (; i + 3 < n; i += 4) {
-    const Four size = four(y + i) < 0.0 ? -four(y + i) : four(y + i);
-    four(w + i) = four(factor + i) / (rtol * size + four(atol + i));
+    const Four size = lanes_at<Four>(y + i) < 0.0 ? -lanes_at<Four>(y + i) : lanes_at<Four>(y + i);
+    lanes_at<Four>(w + i) = lanes_at<Four>(factor + i) / (rtol * size + lanes_at<Four>(atol + i));
   }
   for (; i < n; ++i) w[i] = factor[i] / (rtol * std::abs(y[i]) + atol[i]);
 }

@@ -87,6 +87,9 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
   run.facts.title = report.title.empty() ? report.scene : report.title;
   run.facts.outcome = "done";
   run.facts.units = report.units;
+  std::vector<std::string> labels;
+  for (const Line& line : lines) labels.push_back(line.label);
+  run.legend = room_for(labels);
   const int count = static_cast<int>(axes.size());
   const Canvas canvas = canvas_of(run.look, 90 + panel_height * count, false);
   std::string s = begin_script(run, {"work-precision",

@@ -1,5 +1,7 @@
 #include "motion/taylor.hpp"
 
+#include "motion/column_lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -83,10 +85,14 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
   double* u_k2 = series.u.data() + static_cast<std::size_t>(order + 2) * n;
   double *x = x_.data(), *y = work_.data();
   const double *from_u = mode.from_u.data(), *from_v = mode.from_v.data();
-  for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
-  for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
-    const double u = u_k[j], v = to_velocity * u_k1[j];
-    for (std::size_t i = 0; i < size; ++i) y[i] += from_u[i] * u + from_v[i] * v;
+  if constexpr (fixed_size == 0) {
+    both_products(from_u, from_v, size, n, u_k, u_k1, to_velocity, y);
+  } else {
+    for (std::size_t i = 0; i < size; ++i) y[i] = 0.0;
+    for (std::size_t j = 0; j < n; ++j, from_u += size, from_v += size) {
+      const double u = u_k[j], v = to_velocity * u_k1[j];
+      for (std::size_t i = 0; i < size; ++i) y[i] += from_u[i] * u + from_v[i] * v;
+    }
   }
   if (order == 0 || forcing.varies()) {
     for (std::size_t i = 0; i < size; ++i) x[i] = 0.0;

@@ -321,7 +321,7 @@ t_end = 0.15
 output_dt = 0.02
 initial = "static"
 [damping]
-alpha = 4.0
+alpha = 12.0
 [sections.pipe]
 EA = 9.0e6
 EI = 2.0e4

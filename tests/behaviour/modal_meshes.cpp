@@ -39,3 +39,22 @@ TEST_CASE("modes: the balance closes on a fine mesh, where u^T K u has lost six 
   const Audit audit = pipeline("[34, 98]", "0.1", "modal").report.audit;
   CHECK(audit.energy.value < 1e-12 * audit.energy_scale);
 }
+
+TEST_CASE("modes: with next to no damping works are those of the series, in other modes") {
+  for (const char* share : {"0", "1e-8", "1e-6", "1e-3", "0.01"}) {
+    CAPTURE(share);
+    const auto run = [&](const char* flow) {
+      const Scene scene = read_scene(SIGNORINI_MODELS "/pipeline.toml", {{"damping.alpha_over_omega1", share},
+                                                                         {"run.engine", "exact"},
+                                                                         {"run.flow", flow},
+                                                                         {"run.t_end", "0.03"}});
+      return simulate(build_model(scene), scene.run);
+    };
+    const Result modes = run("modal"), series = run("taylor");
+    CHECK(modes.report.method.flow_reason == "as given: complex modes");
+    const Audit &a = modes.report.audit, &b = series.report.audit;
+    CHECK(a.energy.value < 1e-9 * a.energy_scale);  // most, 7.6e-10, at 1e-3: roots 0 and -alpha lie close
+    CHECK(std::abs(a.final.friction - b.final.friction) < 1e-9 * a.energy_scale);
+    CHECK(std::abs(a.final.damping - b.final.damping) < 1e-9 * a.energy_scale);
+  }
+}

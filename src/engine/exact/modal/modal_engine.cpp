@@ -198,6 +198,13 @@ ModalEngine::Motion ModalEngine::motion(const ModalPoint& z, bool accelerations)
   return m;
 }
 
+/// Forces and energy, where u and v are known.
+void ModalEngine::fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const {
+  point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  flow_->forces(z, point);
+  point.energy = energy_of(motion.q, motion.rate);
+}
+
 /// u, v, a where there is one, and forces; keeps q of the end of the step.
 void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
   if (motion.change.size() > 0) {
@@ -206,9 +213,7 @@ void ModalEngine::fill(const ModalPoint& z, Motion&& motion, Point& point) {
     basis_.motions({&motion.q, &motion.rate}, {&point.u, &point.v});
     point.a.resize(0);
   }
-  point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
-  flow_->forces(z, point);
-  point.energy = energy_of(motion.q, motion.rate);
+  fill_rest(z, motion, point);
   if (&point == &end_) {
     q_ = std::move(motion.q);
     rate_ = std::move(motion.rate);
@@ -244,9 +249,7 @@ void ModalEngine::fill_rows(const Rows& rows, const ModalPoint& z, const Motion&
     put(a, point.a);
   else
     point.a.resize(0);
-  point.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
-  flow_->forces(z, point);
-  point.energy = energy_of(motion.q, motion.rate);
+  fill_rest(z, motion, point);
 }
 
 void ModalEngine::evaluate(double t, Point& point) {

@@ -65,6 +65,7 @@ class ModalEngine final : public Stepper {
   };
   [[nodiscard]] Rows rows_of(std::vector<int> dofs) const;
   void fill(const ModalPoint& z, Motion&& motion, Point& point);
+  void fill_rest(const ModalPoint& z, const Motion& motion, Point& point) const;
   void fill_rows(const Rows& rows, const ModalPoint& z, const Motion& motion, Point& point) const;
   struct Fall {
     double off = 0.0, blur = 0.0;  // times

@@ -125,6 +125,8 @@ class Spectrum {
     std::size_t first = 0, count = 0;
   };
   template <class S>
+  void begin_local(std::size_t home, Local<S>& local) const;
+  template <class S>
   S gather(std::size_t home, S own, Local<S>& local) const;
   template <class S>
   std::optional<S> trace(std::size_t home, S own, Local<S>& local) const;

@@ -104,14 +104,18 @@ void Spectrum::group_matrix(const SmallLu<S>& lu, S own, std::size_t home, Local
   }
 }
 
+template <class S>
+void Spectrum::begin_local(std::size_t home, Local<S>& local) const {
+  for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
+  if (local.count > 0) return;
+  local.first = group_begin_[home];
+  local.count = group_end_[home] - local.first;
+}
+
 /// G0, its slope and sum 1/(l - D_i) over the poles outside the group of `home`, which is returned.
 template <class S>
 S Spectrum::gather(std::size_t home, S own, Local<S>& local) const {
-  for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = S(1.0);
-  if (local.count == 0) {
-    local.first = group_begin_[home];
-    local.count = group_end_[home] - local.first;
-  }
+  begin_local(home, local);
   const std::size_t squares = rank_ * rank_;
   S poles{};
   for (std::size_t i = 0; i < n_; ++i) {
@@ -154,11 +158,7 @@ SmallMatrix<S> Spectrum::group_slope(const SmallLu<S>& lu, const Local<S>& local
 /// The same in lanes.
 template <>
 Complex Spectrum::gather(std::size_t home, Complex own, Local<Complex>& local) const {
-  for (std::size_t a = 0; a < rank_; ++a) local.g[a][a] = Complex(1.0);
-  if (local.count == 0) {
-    local.first = group_begin_[home];
-    local.count = group_end_[home] - local.first;
-  }
+  begin_local(home, local);
   const auto n = static_cast<std::ptrdiff_t>(n_);
   const std::unique_ptr<double[]> lists(new double[4 * n_]);
   double *re = lists.get(), *im = re + n, *square_re = im + n, *square_im = square_re + n;

@@ -35,7 +35,8 @@ namespace signorini {
 /// Bounds of the errors of history.csv; empty where nothing was recorded.
 struct HistoryErrors {
   std::vector<double> t;  ///< of the rows, as far as both runs have them
-  std::size_t width = 0;  ///< columns: those of the model, then N and T of each contact where asked for
+  std::size_t width =
+      0;  ///< columns: those of the model, then N and T of each contact, and outputs, where asked for
   /// By rows; infinite from `Certificate::until` on. Units: those of the columns.
   std::vector<double> bounds;
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
@@ -79,7 +80,7 @@ struct CertifyOptions {
   RoundListener listener = {};  ///< of the run's own decisions
   /// Asked now and then, on the calling thread, while companions are waited for; false ends them.
   std::function<bool()> go_on = [] { return true; };
-  bool forces = false;  ///< bounds of N and T at the output times, too
+  bool forces = false;  ///< bounds of N, T and outputs at the output times, too
 };
 
 /// As simulate(), with a companion beside it where settings.certify asks for one; the run itself is the same

@@ -63,10 +63,15 @@ struct MotionRow {
   ContactSample sample;
 };
 
-/// curves.csv: displacements and energies as a picture needs them.
+/// A row of curves.csv.
+struct CurvePoint {
+  double t = 0.0, value = 0.0;
+};
+
+/// curves.csv: displacements and energies as a picture needs them, each with times of its own.
 struct Curves {
-  std::vector<std::string> names;         ///< "t" first
-  std::vector<std::vector<double>> rows;  ///< a value a name; t ascends, and may repeat
+  std::vector<std::string> names;
+  std::vector<std::vector<CurvePoint>> points;  ///< a list a name; t ascends, and may repeat
 };
 
 /// What whoever follows a run may change in it.
@@ -175,6 +180,23 @@ struct Method {
   std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and why
 };
 
+/// A law that an instant, or the motion between two, breaks (src/witness/witness.hpp).
+struct Violation {
+  double t = 0.0;
+  std::string event;  ///< type of the contact's event; "start", "load", "between", or "" for another contact
+  int contact = -1;   ///< -1: of the structure
+  std::string law;    ///< "momentum", "restitution", ...
+  double value = 0.0, limit = 0.0;
+  Unit unit = {};      ///< of value and limit
+  bool grave = false;  ///< nothing that was recorded, and no tolerance, explains it: the run ends there
+};
+
+/// What the witness of a run has found.
+struct Testimony {
+  long checked = 0, violated = 0;     ///< instants and stretches that were checked; violations, all of them
+  std::vector<Violation> violations;  ///< the first hundred
+};
+
 /// Everything about a run but its rows.
 struct Report {
   Outcome outcome;
@@ -188,6 +210,7 @@ struct Report {
   long undecided = 0;  ///< decisions that rounding left open: the states that fail least were taken
   /// When the first of them took states that fail by more than their rounding; empty: never.
   std::optional<double> forgiven_at;
+  Testimony witness;
   std::vector<std::string> warnings;  ///< one sentence each
   double wall_time = 0.0;             ///< s, integration without reading and assembling
 };

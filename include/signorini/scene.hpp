@@ -133,10 +133,11 @@ struct StageSpec {
 
 /// Where a run stood: everything that its motion goes on from.
 struct SavedState {
-  std::string run;                                      ///< directory
-  std::vector<std::pair<std::string, double>> motions;  ///< by the names of Dof: displacement, velocity
-  std::vector<std::pair<std::string, double>> shears;   ///< T of contacts by name
-  std::vector<std::pair<std::string, int>> slips;       ///< -1, 0, 1: which way contacts slip, by name
+  std::string run;  ///< directory
+  std::vector<std::pair<std::string, double>>
+      motions;  ///< by name: displacements, velocities (scene/saved_state.hpp)
+  std::vector<std::pair<std::string, double>> shears;  ///< T of contacts by name
+  std::vector<std::pair<std::string, int>> slips;      ///< -1, 0, 1: which way contacts slip, by name
   struct Own {
     std::string contact;
     std::size_t state = 0;  ///< of its law
@@ -180,8 +181,8 @@ struct CutoffTrial {
   double cutoff_omega = 0.0;  ///< rad per time
   int modes = 0;              ///< kept
   double missed = 0.0;        ///< relative, what the modes left out would have added (study/reduction)
-  double moved = 0.0;         ///< relative, greatest difference of displacements from the trial before
-  double error = 0.0;         ///< missed, times what the trial before was off by beside what it missed
+  double moved = 0.0;         ///< relative, greatest difference of displacements from the next trial; 0: none
+  double error = 0.0;         ///< moved, plus what the next trial may be off by; missed where there is none
 };
 
 /// Modes up to the cutoff are kept, of the others their static compliance (model/reduce/reduction.hpp).

@@ -11,9 +11,11 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// What an error of a column may be from one step; columns beyond the model's are forces.
+/// What an error of a column may be from one step; columns beyond the model's are forces, then outputs, which
+/// have no tolerance of their own.
 double tolerance_of(const Model& model, std::size_t index, double greatest, const Tolerance& t) {
   if (!(t.rtol > 0.0)) return rounding::of_few * greatest;
+  if (index >= model.columns.size() + 2 * model.contacts.size()) return t.rtol * greatest;
   if (index >= model.columns.size()) return t.rtol * greatest + t.force;
   const Column& column = model.columns[index];
   const bool rotation = model.turns(column);
@@ -42,8 +44,9 @@ class ColumnOf {
 std::vector<bool> rows_at_events(const std::vector<double>& t, const std::vector<TimedEvent>& events,
                                  const std::vector<double>& errors) {
   std::vector<bool> at(t.size(), false);
-  for (std::size_t i = 0; i < events.size() && !std::isnan(errors[i]); ++i) {
+  for (std::size_t i = 0; i < events.size(); ++i) {
     const double off = errors[i];
+    if (std::isnan(off)) continue;
     for (auto row =
              static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), events[i].t - off) - t.begin());
          row < t.size() && t[row] <= events[i].t + off; ++row)

@@ -22,6 +22,7 @@
 #include "run/engines.hpp"
 #include "run/expected.hpp"
 #include "run/observer.hpp"
+#include "run/run_witness.hpp"
 
 namespace signorini {
 namespace {
@@ -56,6 +57,13 @@ class QuietThread {
   std::thread thread_;
 };
 
+std::optional<Track::Objection> objection_of(const Report& report, const Model& model,
+                                             const std::string& where = "") {
+  if (report.witness.violations.empty()) return std::nullopt;
+  const Violation& first = report.witness.violations.front();
+  return Track::Objection{first.t, where + sentence_of(first, model)};
+}
+
 /// What a companion leaves open.
 class FirstGraze final : public MotionObserver {
  public:
@@ -86,7 +94,12 @@ class CompanionTask {
 
   [[nodiscard]] double wall_time() const { return report_.wall_time; }
   [[nodiscard]] Track track() {
-    Track track{std::move(tracker_.events), report_.outcome.t, "", report_.forgiven_at, grazes_.first};
+    Track track{std::move(tracker_.events),
+                report_.outcome.t,
+                "",
+                report_.forgiven_at,
+                grazes_.first,
+                objection_of(report_, run_.model, "in the companion, ")};
     if (!failure_.empty()) {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
@@ -182,7 +195,8 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   std::vector<std::string> names;
   for (const Contact& contact : model.contacts) names.push_back(contact.name);
   for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
-  const Track track{std::move(own.events), report.outcome.t, "", report.forgiven_at};
+  const Track track{std::move(own.events),      report.outcome.t, "", report.forgiven_at, {},
+                    objection_of(report, model)};
   Verdict verdict = judge(track, tracks, plan.factor, names);
   BoundSettings settings{plan.factor, tolerance_of(model, run)};
   if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
@@ -227,6 +241,8 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   }
   const double most_steps = run.certify == Certify::yes ? std::numeric_limits<double>::infinity()
                                                         : std::max(least_steps, patience * plan.steps);
+  if (options.forces)
+    for (CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
   Tracker own(model, options.forces, &recorder);
   Companions companions(std::move(plan.runs), most_steps, options.forces);
   result.report = simulate(model, settings, own, options.listener);

@@ -54,8 +54,11 @@ class Judge {
 
   Verdict verdict() {
     deviation_.assign(run_.events.size(), 0.0);
+    uncertainty_.clear();
+    for (const TimedEvent& event : run_.events) uncertainty_.push_back(event.uncertainty);
     const std::vector<Rows> own = by_contact(run_.events, names_.size());
     for (const Track& companion : companions_) pair(own, companion);
+    share();
     grow();
     Verdict result;
     settle(result);
@@ -78,6 +81,8 @@ class Judge {
         horizon_.at(
             *track->forgiven_at,
             fmt::format("at t = {:.9g} rounding left several states of contacts open", *track->forgiven_at));
+    for (const Track* track : {&run_, &companion})
+      if (track->objection) horizon_.at(track->objection->t, track->objection->sentence);
     if (const auto& graze = companion.graze)
       horizon_.at(
           graze->t,
@@ -105,6 +110,7 @@ class Judge {
     if (same(*a, *b) && factor_ * change <= 0.5 * since) {
       if (!flies_or_rests(*a, *b, past)) return false;
       deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
+      uncertainty_[own[i]] = std::max(uncertainty_[own[i]], b->uncertainty);
       return true;
     }
     if (same(*a, *b)) {
@@ -137,6 +143,18 @@ class Judge {
                        to_string(event.to));
   }
 
+  /// What changes beside a guard that falls does so at the time of that guard, and is as uncertain.
+  void share() {
+    const std::vector<TimedEvent>& events = run_.events;
+    for (std::size_t begin = 0, end = 0; begin < events.size(); begin = end) {
+      float greatest = 0.0F;
+      for (end = begin; end < events.size() && events[end].t == events[begin].t; ++end)
+        if (events[end].is_change()) greatest = std::max(greatest, uncertainty_[end]);
+      for (std::size_t i = begin; i < end; ++i)
+        if (events[i].is_change()) uncertainty_[i] = greatest;
+    }
+  }
+
   /// From differences to errors, in the order of time.
   void grow() {
     errors_.assign(run_.events.size(), none);
@@ -150,18 +168,24 @@ class Judge {
       last[next++ % remembered] = deviation_[i];
       const double error = factor_ * *std::max_element(last.begin(), last.end());
       spread_ = error;
-      errors_[i] += error + static_cast<double>(event.uncertainty);
+      errors_[i] += error + static_cast<double>(uncertainty_[i]);
     }
   }
 
-  /// What lies within its error of the horizon may lie beyond it.
+  /// What lies within its error of the horizon may lie beyond it. Its earliest possible time is where the certain
+  /// part ends, so that it has no such event in it, and no row that may lie behind one.
   void settle(Verdict& result) {
     result.until = run_.reached;
     if (horizon_.t < never) {
-      result.until = std::max(0.0, horizon_.t - spread_);
+      const double end = std::max(0.0, horizon_.t - spread_);
+      result.until = end;
       result.reason = horizon_.reason;
-      for (std::size_t i = 0; i < errors_.size(); ++i)
-        if (!(run_.events[i].t + errors_[i] < result.until)) errors_[i] = none;
+      for (std::size_t i = 0; i < errors_.size(); ++i) {
+        const double t = run_.events[i].t;
+        if (t + errors_[i] < end) continue;
+        if (t < end) result.until = std::min(result.until, std::max(0.0, t - errors_[i]));
+        errors_[i] = none;
+      }
     }
     const auto first = std::find_if(errors_.begin(), errors_.end(), [](double e) { return std::isnan(e); });
     if (first != errors_.end()) result.first_uncertain = static_cast<std::size_t>(first - errors_.begin());
@@ -189,14 +213,21 @@ class Judge {
   const std::vector<std::string>& names_;
   Horizon horizon_;
   std::vector<double> deviation_, errors_;
-  double spread_ = 0.0;  // c D where the sequence ends to be certain
+  std::vector<float> uncertainty_;  // of a run's event or of its partner, if that is less sharp
+  double spread_ = 0.0;             // c D where the sequence ends to be certain
 };
+
+/// No less than x.
+float rounded_up(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
+}
 
 }  // namespace
 
 TimedEvent timed(const Event& event) {
   return {event.t,
-          static_cast<float>(event.t_uncertainty.value_or(0.0)),
+          rounded_up(event.t_uncertainty.value_or(0.0)),
           event.contact,
           event.type,
           event.from,

@@ -1,7 +1,8 @@
 // judge.hpp: from the events of a run and of its companions to what is certain (signorini/certify.hpp).
 //
 //   D_k = greatest |t - t'| over the last five events, all contacts and companions
-//   t_error = c D_k + uncertainty + 2 eps t
+//   t_error = c D_k + uncertainty + 2 eps t        uncertainty: the event's own, or that of its partner if greater; the
+//                                                      greatest of all changes at the same instant
 //
 // The sequence ends to be certain where neighbours of one contact have
 //
@@ -14,6 +15,8 @@
 //
 // Both runs may decide such a thing alike, and wrongly. Or where a guard came back into the companion's tolerance
 // and left it without a fall (engine/falls/grazes.hpp), or rounding left several states open.
+//
+// An event with t + t_error beyond that end, less c D, is not certain; `until` is the least t - t_error of these.
 //
 // Events of jumps of loads happen at a time that is known: their error is rounding, and D knows nothing of
 // them.
@@ -51,6 +54,12 @@ struct TimedEvent {
 
 /// Events in order, and how far the run came.
 struct Track {
+  /// The first violation that the witness of a run has found.
+  struct Objection {
+    double t = 0.0;
+    std::string sentence;
+  };
+
   std::vector<TimedEvent> events;
   double reached = 0.0;
   std::string stop;  ///< why it reached no more; empty at t_end
@@ -58,6 +67,7 @@ struct Track {
   std::optional<double> forgiven_at = {};
   /// Of a companion: what it leaves open, it cannot tell of the run.
   std::optional<Graze> graze = {};
+  std::optional<Objection> objection = {};
 };
 
 struct Verdict {

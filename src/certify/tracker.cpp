@@ -1,5 +1,7 @@
 #include "certify/tracker.hpp"
 
+#include <algorithm>
+
 namespace signorini {
 
 void Tracker::event(const Event& event) {
@@ -13,10 +15,26 @@ void Tracker::sample(const Sample& sample) {
     const Vector& vector = column.velocity ? *sample.v : *sample.u;
     rows.values.push_back(column.dof < 0 ? 0.0 : vector[column.dof]);
   }
-  if (forces_)
+  if (all_) {
     for (const ContactSample& contact : sample.contacts)
       rows.values.insert(rows.values.end(), {contact.N, contact.T});
+    // The outputs of a time come after its sample, unless they are those that came last.
+    if (last_time_ == sample.t)
+      rows.values.insert(rows.values.end(), last_outputs_.begin(), last_outputs_.end());
+    else
+      rows.values.resize(rows.t.size() * rows.width, std::numeric_limits<double>::quiet_NaN());
+  }
   if (next_ != nullptr) next_->sample(sample);
+}
+
+void Tracker::response(double t, const std::vector<double>& values) {
+  if (all_ && values.size() == model_.outputs.size()) {
+    last_time_ = t;
+    last_outputs_ = values;
+    if (!rows.t.empty() && rows.t.back() == t)
+      std::copy(values.begin(), values.end(), rows.values.end() - static_cast<std::ptrdiff_t>(values.size()));
+  }
+  if (next_ != nullptr) next_->response(t, values);
 }
 
 void Tracker::frame(const Sample& sample) {

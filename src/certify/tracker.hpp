@@ -15,7 +15,7 @@
 
 namespace signorini {
 
-/// Columns of history.csv, row by row; then N and T of each contact where they are wanted.
+/// Columns of history.csv, row by row; then N and T of each contact, and the outputs, where they are wanted.
 struct KeptRows {
   std::size_t width = 0;
   std::vector<double> t, values;
@@ -35,9 +35,10 @@ class Leash {
 class Tracker : public Recorder {
  public:
   /// Both must outlive it; without a recorder nothing is passed on.
-  explicit Tracker(const Model& model, bool forces, Recorder* next = nullptr)
-      : model_(model), forces_(forces), next_(next) {
-    rows.width = model.columns.size() + (forces ? 2 * model.contacts.size() : 0);
+  /// `all`: forces and outputs, too.
+  explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
+      : model_(model), all_(all), next_(next) {
+    rows.width = model.columns.size() + (all ? 2 * model.contacts.size() + model.outputs.size() : 0);
   }
 
   void event(const Event& event) override;
@@ -48,9 +49,7 @@ class Tracker : public Recorder {
   void curves(const Curves& curves) override {
     if (next_ != nullptr) next_->curves(curves);
   }
-  void response(double t, const std::vector<double>& values) override {
-    if (next_ != nullptr) next_->response(t, values);
-  }
+  void response(double t, const std::vector<double>& values) override;
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;
@@ -61,8 +60,10 @@ class Tracker : public Recorder {
 
  private:
   const Model& model_;
-  bool forces_;
+  bool all_;
   Recorder* next_;
+  double last_time_ = std::numeric_limits<double>::quiet_NaN();  // of the outputs that came last
+  std::vector<double> last_outputs_;
   double steps_ = 0.0;
 };
 

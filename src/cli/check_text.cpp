@@ -244,26 +244,33 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);
   const Effort& effort = cost.effort;
+  const std::string measured =
+      cost.trials.empty() ? "" : fmt::format("expected, by its first steps: {}\n", trial_text(cost.trials));
   std::string exact =
-      cost.exact ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
-                 : "";
+      cost.exact && cost.trials.empty()
+          ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
+          : "";
   if (!method.flow.empty()) {
     exact += fmt::format("      flow {} ({}): by series {} s", method.flow, method.flow_reason,
                          about_seconds(effort.by_series));
-    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s\n", about_seconds(effort.by_modes)) : "\n";
+    exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", about_seconds(effort.by_modes)) : "";
+    exact += ", by a rule of thumb\n";
   }
-  if (!(effort.steps > 0.0)) return text + "      the number of steps is not known beforehand\n" + exact;
+  if (!(effort.steps > 0.0))
+    return text + "      the number of steps is not known beforehand\n" + exact + measured;
   const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
   if (steps)
-    return text + fmt::format("      {:.3g} steps in its period; {} steps, {}\n", effort.steps_per_period,
-                              rough(effort.steps), time);
+    return text +
+           fmt::format("      {:.3g} steps in its period; {} steps, {}\n", effort.steps_per_period,
+                       rough(effort.steps), time) +
+           measured;
   return text +
          fmt::format(
              "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
              "order of\n"
              "      magnitude, usually too high where the highest modes stay quiet\n",
              effort.steps_per_period, rough(effort.steps), time) +
-         exact;
+         exact + measured;
 }
 
 }  // namespace

@@ -230,6 +230,7 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
   if (by_engine(options)) check_outputs(limits, read_scene(options.sources.front()).outputs);
   const fs::path path = output_directory(options);
   check_folder(path, compare_folder(), options.force, by_engine(options) ? options.sources.front() : "");
+  if (by_engine(options) && !options.quiet) print_patterns(options.sources.front(), options.settings);
   Outcomes outcomes =
       by_engine(options) ? run_engines(options, path, command_line) : read_directories(options, path);
   if (outcomes.interrupted) {

@@ -115,6 +115,8 @@ std::string compare_text(const ComparisonReport& report) {
   for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
     text += fmt::format("\n{} against {}\n", report.comparisons[i].name, reference.name);
     text += "  sequence: " + sequence(report, i) + "\n";
+    if (const std::string rows = rows_compared(report.comparisons[i]); !rows.empty())
+      text += "  rows compared: " + rows + "\n";
     for (const std::string& note : report.comparisons[i].notes) text += "  note: " + note + "\n";
     text += difference_table(report, i);
   }

@@ -1,6 +1,7 @@
 // signorini fit: keys of a scene from measured event times or columns.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -32,11 +33,16 @@ const OwnedFolder& fit_folder() {
 std::string text_of(const Fit& fit, const Measurements& measured) {
   Table table({"key", "start", "fitted", "sigma"}, {false, true, true, true});
   for (const FittedKey& key : fit.keys)
-    table.row({key.path, number(key.start), fmt::format("{:.9g}", key.value), number(key.sigma)});
-  return table.str() + fmt::format("\n{} numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(),
-                                   fit.iterations, fit.runs, fit.reason,
-                                   measured.has_sigma ? "chi squared" : "sum of squares",
-                                   number(fit.chi_squared));
+    table.row({key.path, number(key.start), std::isfinite(key.value) ? fmt::format("{:.9g}", key.value) : "-",
+               std::isfinite(key.sigma) ? number(key.sigma) : "-"});
+  return table.str() +
+         fmt::format("\n{} numbers, {} steps, {} runs: {}; {} {}\n", measured.rows.size(), fit.iterations,
+                     fit.runs, fit.reason, measured.has_sigma ? "chi squared" : "sum of squares",
+                     number(fit.chi_squared)) +
+         (std::isfinite(fit.probability)
+              ? fmt::format("{} degrees of freedom, as great by chance with a probability of {:.2g}\n",
+                            fit.freedom, fit.probability)
+              : "");
 }
 
 /// A column that the run has not is told with the file that has it.
@@ -56,6 +62,10 @@ ExitCode run_fit(const FitOptions& options) {
   const fs::path path = directory_of(options, "-fit");
   check_folder(path, fit_folder(), options.force, options.scene);
   const Measurements measured = read_measurements(options.data);
+  if (!options.quiet) {
+    print_patterns(options.scene, options.settings);
+    print_patterns(options.scene, options.settings, "--parameter", options.parameters);
+  }
   std::optional<Interrupt> interrupt(std::in_place);
   const Fit result = fitted(options, measured);
   const bool interrupted = Interrupt::asked();
@@ -69,7 +79,7 @@ ExitCode run_fit(const FitOptions& options) {
     print_error("interrupted; what was found is kept in " + path.string());
     return ExitCode::interrupted;
   }
-  if (!result.converged) print_error("the fit has not settled: " + result.reason);
+  for (const std::string& doubt : result.doubts) print_error("the fit has not converged: " + doubt);
   return result.converged ? ExitCode::done : ExitCode::stopped;
 }
 
@@ -80,7 +90,9 @@ void add_fit(Program& program) {
   CLI::App* command =
       program.app.add_subcommand("fit", "find keys of a scene from measured event times or columns");
   add_scene(*command, *options);
-  command->add_option("DATA", options->data, "event_index,t[,sigma] or t,COLUMN,...[,sigma] (CSV)")
+  command
+      ->add_option("DATA", options->data,
+                   "CSV with t and any of event_index, contact, event, COLUMN..., sigma")
       ->required();
   add_keyed_options(*command, *options, "a key of the scene to find", "an earlier fit", "-fit", "fit.json");
   command->callback([&program, options] { program.action = [options] { return run_fit(*options); }; });

@@ -23,6 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int no_program = 127, no_reason = 126;  // as a shell has them
+constexpr int no_end = 124;                       // as timeout has it
 constexpr std::chrono::seconds patience{60};      // a picture takes a second or two
 constexpr std::size_t most_said = 1 << 16;
 constexpr std::size_t most_contacts = 24;  // a sixth of a second each; displacements are of as many nodes
@@ -96,9 +97,8 @@ Ended run_gnuplot(const std::filesystem::path& script) {
   kill(-child, SIGKILL);
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
-  return {no_reason, said.size() > most_said
-                         ? "it said more than 64 kB and was ended"
-                         : fmt::format("not done after {} s, and ended", patience.count())};
+  return {no_end, said.size() > most_said ? "it said more than 64 kB and was ended"
+                                          : fmt::format("not done after {} s, and ended", patience.count())};
 }
 
 }  // namespace
@@ -113,12 +113,22 @@ std::vector<std::filesystem::path> first_ones(const std::vector<std::filesystem:
 }
 
 Drawing draw(const std::vector<std::filesystem::path>& scripts) {
+  Drawing drawing;
+  std::size_t failed = 0;
   for (const auto& script : scripts) {
     const Ended ended = run_gnuplot(script);
     if (ended.code == no_program) return {Drawing::Kind::no_gnuplot, ""};
-    if (ended.code != 0) return {Drawing::Kind::failed, script.string() + ": " + ended.said};
+    if (ended.code == 0) continue;
+    if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.said};
+    if (ended.code == no_end)
+      return drawing;  // of the program, not of the picture: the next would not end either
   }
-  return {};
+  if (failed > 1)
+    drawing.message +=
+        fmt::format("\n{} of {} pictures failed; the others are drawn", failed, scripts.size());
+  else if (failed == 1 && scripts.size() > 1)
+    drawing.message += "\nthe other pictures are drawn";
+  return drawing;
 }
 
 std::string draw_pictures(const std::filesystem::path& directory,
@@ -136,7 +146,7 @@ std::string draw_pictures(const std::filesystem::path& directory,
   if (drawing.kind == Drawing::Kind::no_gnuplot)
     return "pictures: no gnuplot on PATH; its scripts are in " + folder + later + "\n";
   print_note("gnuplot failed: " + drawing.message);
-  return "";
+  return first.size() > 1 ? "pictures: " + folder + "/*.png and *.svg, as far as they could be drawn\n" : "";
 }
 
 }  // namespace signorini::cli

@@ -17,7 +17,7 @@ struct Drawing {
 [[nodiscard]] std::vector<std::filesystem::path> first_ones(
     const std::vector<std::filesystem::path>& scripts);
 
-/// Runs each script in its own folder.
+/// Runs each script in its own folder; one that fails stops no other, and the message is that of the first.
 [[nodiscard]] Drawing draw(const std::vector<std::filesystem::path>& scripts);
 
 /// Draws DIR/plots and returns the line that says where the pictures are, with `later` where there is no

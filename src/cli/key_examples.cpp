@@ -57,12 +57,16 @@ them is taken, and a warning names the contacts; another warns of flutter, an os
 (looked for up to 400 degrees of freedom).
 
 `initial = { run = "DIR", t = 3.2 }` goes on from a state that the run in DIR kept in its states.csv: displacements and
-velocities of all degrees of freedom and of supports that `acceleration` drives, the shears of contacts and which of them
-slip. Its t_end and its `frames` are kept. The units must be the same, and the structure should: what differs is warned of;
-loads and motions may be others. Scales, and tolerances and `capture_velocity` with them, are those of that run, so that
-the events of two halves are those of the whole. Time begins at 0 again: `shift = -3.2` takes a history along.
+velocities of all degrees of freedom and of supports that `acceleration` drives, motions of surfaces, the shears of contacts,
+which of them slip, and how far their dashpots are deformed. Its t_end and its `frames` are kept. The units must be the same,
+and the structure should: what differs is warned of; loads, motions and temperatures may be others. Scales, and tolerances
+and `capture_velocity` with them, and the damping of `alpha_over_omega1` are those of that run, so that the events of two
+halves are those of the whole. A reduced model goes on from the amplitudes that the displacements have; a cutoff that
+`tolerance` asks for is looked for again. Time begins at 0 again: `shift = -3.2` takes a history along.
 
-Otherwise displacements and velocities are as given, and zero where they are not:
+Otherwise displacements and velocities are as given, and zero where they are not. Degrees of freedom without mass follow
+the forces on them: a velocity given there is not used, nor is a displacement without a damper, a dashpot or friction there. A
+warning names such values, with their lines.
 
 ```toml
 [run]
@@ -124,9 +128,9 @@ tolerance = 1e-6
 
 It begins with a few modes, runs, and drives the modes left out with the loads and contact forces of that run: what their
 inertia would have added at contacts and named nodes, relative to the greatest displacement there, is `missed`. What is missed
-would have changed contact forces in turn, and shifted events: so trials are compared, and `error` is `missed` times
-what the trial before turned out to be off by beside what it missed. While that is above the tolerance it runs again with
-more modes, two times at least. The run that is kept has the cutoff that was found; summary.json tells what was tried.
+changes contact forces in turn, shifts events and may change their sequence. So each trial is compared with a run of at
+least twice the cutoff, and `error` is their difference plus the error that this finer run may still have. The first trial
+whose error is within the tolerance gives the cutoff. If none is, all modes are kept. summary.json lists all trials.
 
 Contacts with law `rigid`, sliders that stick rigidly and contacts with dashpots need mass where they act, so the
 static shapes that belong to them keep theirs, and bring frequencies above the cutoff.)"},

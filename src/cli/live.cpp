@@ -27,9 +27,21 @@ void Live::event(const Event& event) {
   if (last_.size() > shown_last) last_.pop_front();
 }
 
+void Live::advise(double t) {
+  constexpr double quiet_time = 2.0;  // s
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (s < quiet_time) return;
+  const auto ask = std::exchange(advice_, nullptr);
+  const std::string note = ask(s * t_end_ / t);
+  if (note.empty()) return;
+  if (line_shown_) progress_line("");
+  print_note(note);
+}
+
 bool Live::progress(double t) {
   reached_ = t;
   const bool go_on = next_.progress(t) && !Interrupt::asked();
+  if (advice_ && go_on && t > 0.0) advise(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
     next_line_ = now + std::chrono::milliseconds(100);

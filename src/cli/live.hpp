@@ -9,6 +9,9 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/interrupt.hpp"
@@ -34,6 +37,8 @@ class Live : public Recorder {
   void curves(const Curves& curves) override { next_.curves(curves); }
   void response(double t, const std::vector<double>& values) override { next_.response(t, values); }
   bool progress(double t) override;
+  /// Asked once, after two seconds, with the seconds that the run will take in all: a note, or nothing.
+  void when_long(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
 
   /// At most this many are shown in full; of more, the first and the last ones.
   static constexpr std::size_t most_shown = 40, shown_first = 20, shown_last = 10;
@@ -43,6 +48,8 @@ class Live : public Recorder {
   [[nodiscard]] double reached() const { return reached_; }
 
  private:
+  void advise(double t);
+
   Interrupt interrupt_;
   Recorder& next_;
   const Model& model_;
@@ -53,6 +60,8 @@ class Live : public Recorder {
   std::deque<Event> last_;    // the last shown_last
   long count_ = 0;
   double reached_ = 0.0;
+  std::function<std::string(double)> advice_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace signorini::cli

@@ -9,6 +9,7 @@
 #include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
 #include "run/expected.hpp"
+#include "run/trial.hpp"
 
 namespace signorini::cli {
 
@@ -237,8 +238,14 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
     return text + "why ida: " + report.method.reason.substr(automatic.size()) + "\n";
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
-  // Only where it would be quicker than what the run took.
-  if (const std::optional<double> exact = exact_instead(model, chosen); exact && *exact < report.wall_time)
+  // Only where it would be quicker than what the run took: by its first steps, where that is worth a trial.
+  std::optional<double> exact = exact_instead(model, chosen);
+  constexpr double long_run = 1.0, share = 0.02;  // s, and of what the run took
+  if (exact && report.wall_time > long_run) {
+    exact = seconds_by_trial(model, run, Engine::exact, share * report.wall_time);
+    if (*exact == 0.0) exact.reset();
+  }
+  if (exact && *exact < report.wall_time)
     text += fmt::format("exact would take {} s (--engine exact)\n", about_seconds(*exact));
   return text;
 }

@@ -11,11 +11,12 @@
 #include "cli/report.hpp"
 #include "cli/settings.hpp"
 #include "cli/terminal.hpp"
+#include "model/modes/frequencies.hpp"
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
 #include "result/trace_writer.hpp"
 #include "run/choose_engine.hpp"
-#include "run/expected.hpp"
+#include "run/trial.hpp"
 #include "signorini/certify.hpp"
 #include "study/reduction/find_cutoff.hpp"
 
@@ -85,6 +86,22 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
          "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n";
 }
 
+/// What would be quicker than a run that is expected to take `seconds` in all. Empty: nothing, or not by much.
+std::string what_is_quicker(const Scene& scene, const Model& model, double seconds) {
+  constexpr double time_of_trial = 0.2;  // s
+  const Engine own = choose_engine(model, scene.run).engine;
+  std::vector<double> cutoffs;
+  if (!scene.reduction) {
+    const auto modes =
+        lowest_frequencies(model.mass, model.damping, model.stiffness,
+                           hold_contacts(model.contacts, std::vector<bool>(model.contacts.size(), true)), 1)
+            .modes;
+    const double cutoff = modes.empty() ? 0.0 : cutoff_to_try(modes.front().omega, model.omega_max);
+    if (cutoff > 0.0) cutoffs.push_back(cutoff);
+  }
+  return quicker(trials(scene, model, own, cutoffs, time_of_trial), own, seconds);
+}
+
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
   if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
@@ -94,20 +111,19 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const fs::path path = directory_of(options);
   const Scene scene = find_cutoff(read_scene(options.scene, changes), [] { return !Interrupt::asked(); });
   const Model model = build_model(scene);
+  if (!options.quiet) print_patterns(options.scene, options.settings);
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;
   if (trace) listener = [&](const Round& round) { trace->write(round); };
   RunDirectory directory(path, scene, model, {options.force, command_line});
 
-  RunSpec chosen = scene.run;
-  chosen.engine = choose_engine(model, scene.run).engine;
-  if (const std::string warning = warn_of_patience(model, chosen, options.scene); !warning.empty())
-    print_warnings(options, {warning});
   CertifiedReport certified;
   const Report& report = certified.report;
   std::string events;
   {
     Live live(directory, model, scene.run.t_end, !options.quiet, !plain);
+    if (!options.quiet && stderr_is_terminal())
+      live.when_long([&](double seconds) { return what_is_quicker(scene, model, seconds); });
     try {
       certified = simulate_certified(model, scene.run, live, {listener, [] { return !Interrupt::asked(); }});
     } catch (const FileError& error) {

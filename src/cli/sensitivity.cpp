@@ -190,6 +190,11 @@ ExitCode run(const SensitivityOptions& options) {
   const fs::path path = directory_of(options, "-sensitivity");
   check_folder(path, sensitivity_folder(), options.force, options.scene);
   const SceneReader read = reader_of(options.scene, changes);
+  if (!options.quiet) {
+    print_patterns(options.scene, options.settings);
+    print_patterns(options.scene, options.settings, "--parameter", options.parameters);
+    print_patterns(options.scene, options.settings, "--sigma", options.sigmas);
+  }
   std::optional<Interrupt> interrupt(std::in_place);
   Stoppable recorder;
   const Sensitivities s = sensitivities(read, paths, &recorder, {options.losses, options.discrete});

@@ -7,6 +7,7 @@
 
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
+#include "scene/overrides.hpp"
 
 namespace signorini::cli {
 
@@ -58,6 +59,24 @@ TableStyle table_style_of(const std::string& style, const OutputOptions& options
   if (result != TableStyle::plain && options.json)
     throw UsageError("--table: stands beside --json, expected one of the two");
   return result;
+}
+
+void print_patterns(const std::string& scene, const std::vector<std::string>& settings,
+                    const std::string& option, const std::vector<std::string>& given) {
+  const auto note = [&](const std::vector<Override>& before, const std::string& path,
+                        const std::string& text) {
+    if (const std::string met = tables_met_in(scene, before, path); !met.empty())
+      print_note(text + ": " + met);
+  };
+  std::vector<Override> before;
+  for (Override& change : overrides_of(settings)) {
+    const std::string text = text_of(change);
+    if (const std::size_t colon = change.path.find(':'); colon < change.path.find('.'))
+      change.path.erase(0, colon + 1);  // of one engine
+    if (option.empty()) note(before, change.path, text);
+    before.push_back(change);
+  }
+  for (const std::string& text : given) note(before, text.substr(0, text.find('=')), option + " " + text);
 }
 
 std::vector<Override> overrides_of(const std::vector<std::string>& settings) {

@@ -32,6 +32,11 @@ void add_table_option(CLI::App& command, std::string& style);
 /// Adds --set PATH=VALUE to a subcommand; `settings` must outlive parsing.
 void add_settings(CLI::App& command, std::vector<std::string>& settings);
 
+/// Notes on stderr, how many tables each of these with a * met. `given` are PATH or PATH=VALUE and stand behind `option`.
+/// Without an option: the settings themselves, each after those before it. Errors: those of the file and of settings.
+void print_patterns(const std::string& scene, const std::vector<std::string>& settings,
+                    const std::string& option = "", const std::vector<std::string>& given = {});
+
 /// Errors: UsageError for one without "=".
 [[nodiscard]] std::vector<Override> overrides_of(const std::vector<std::string>& settings);
 

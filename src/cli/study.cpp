@@ -200,6 +200,10 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
   check(options);
   const TableStyle style = table_style_of(options.table, options);
   WorkRequest request = request_of(options, command_line);
+  if (!options.quiet) {
+    print_patterns(options.scene, options.settings);
+    print_patterns(options.scene, options.settings, "--vary", options.varied);
+  }
   const fs::path path = request.directory;
   check_folder(path, study_folder(), options.force, options.scene);
   if (options.dt) request.ranges.dt = parse_decades("--dt", *options.dt);

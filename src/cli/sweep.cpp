@@ -93,6 +93,8 @@ std::string text_of_state(const Scene& scene) {
   for (const auto& [name, value] : state.motions) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.shears) text += fmt::format("{}={} ", name, value);
   for (const auto& [name, value] : state.slips) text += fmt::format("{}={} ", name, value);
+  for (const SavedState::Own& own : state.own)
+    text += fmt::format("{}={},{} ", own.contact, own.state, own.memory);
   if (state.scales)
     for (const double scale : *state.scales) text += fmt::format("{} ", scale);
   return text;
@@ -267,6 +269,11 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
 ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& command_line) {
   const SweepSpec spec = specify(options);
   check_overlaps(options.scene, spec.vary, overrides_of(options.settings));
+  if (!options.quiet) {
+    print_patterns(options.scene, options.settings);
+    print_patterns(options.scene, options.settings, "--vary", options.varied);
+    print_patterns(options.scene, options.settings, "--sample", options.samples);
+  }
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
   std::vector<std::size_t> tasks;

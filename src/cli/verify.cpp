@@ -84,6 +84,7 @@ ExitCode run(const VerifyOptions& options) {
   check_folder(path, verify_folder(), options.force, options.scene);
   const Scene scene = find_cutoff(read_scene(options.scene, changes));
   const Model model = build_model(scene);
+  if (!options.quiet) print_patterns(options.scene, options.settings);
   VerifyRequest request;
   request.run = scene.run;
   request.dt = scene.run.dt;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"
+#include "decide/release.hpp"
 #include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
@@ -28,6 +30,12 @@ std::vector<std::size_t> contacts_of(const std::vector<Failure>& failed) {
   std::vector<std::size_t> result;
   for (const Failure& f : failed) result.push_back(f.contact);
   return result;
+}
+
+std::vector<std::size_t> every_contact(const Model& model) {
+  std::vector<std::size_t> all(model.contacts.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
 }
 
 /// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.
@@ -65,7 +73,10 @@ struct Decider::Course {
   Findings found;
   std::vector<std::size_t> undecided;  // blocks that rounding cannot decide: their states stay
   bool blurred = false;
-  std::vector<MotionJet> so_far = {};  // up to the instant; empty where no limit has rested
+  std::vector<MotionJet> so_far = {};       // up to the instant; empty where no limit has rested
+  std::optional<std::size_t> touched = {};  // in this round, by parts without mass that move at once
+  double touched_ut = 0.0;                  // its ut there, less that at the end of the way
+  Eigen::VectorXd held = {};                // what holds the mode tried last; Decision::captures
 };
 
 Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
@@ -88,7 +99,7 @@ bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course)
   if (!d.system) return false;
   d.u = instant.u;
   d.v = instant.v;
-  hold(model_, *d.system, forcing, instant.t, d.u, d.v);
+  course.held = hold(model_, *d.system, forcing, instant.t, d.u, d.v);
   d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets);
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
@@ -118,10 +129,14 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   // not decide what comes next.
   instant.u = d.u;
   instant.v = d.v;
+  course.found.capture(every_contact(model_), std::exchange(course.held, {}));
   course.mode = instant.mode;
   if (!instant.jump) return {};
   follow_forcing(model_, instant, before, course.after, d.before, course.mode);
-  return evaluate(course.after, course.mode, course) ? Refusal{} : dependent_rows();
+  do {  // ends: each round one more sticks
+    if (!evaluate(course.after, course.mode, course)) return dependent_rows();
+  } while (turn_back(model_, d.before, course.jets, course.mode));
+  return {};
 }
 
 /// Which guards fail in the mode that was evaluated. before: it is that of the motion up to the instant.
@@ -142,11 +157,41 @@ void Decider::look(Course& course, bool before) {
   listener_(round);
 }
 
+/// Where parts without mass move at once into a contact, it is touched on the way, at the part x of it,
+/// (1 - x) g + x g' = 0: from there on it slips or sticks, and its dashpot holds it there. Nothing: it is not.
+std::optional<double> Decider::touched_at(const Failure& f, const Course& course) const {
+  if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
+  const Contact& contact = model_.contacts[f.contact];
+  const double from = contact.gap_at(course.instant.u), to = contact.gap_at(course.decision.u);
+  if (!(to < 0.0 && to < from)) return std::nullopt;
+  return from > 0.0 ? from / (from - to) : 0.0;
+}
+
+/// Of several that are touched on the way the first closes; after that it is another way.
+void Decider::touch_first(Course& course) const {
+  const Failure* first = nullptr;
+  double at = 0.0;
+  for (const Failure& f : course.failed)
+    if (const auto x = touched_at(f, course); x && (first == nullptr || *x < at)) {
+      first = &f;
+      at = *x;
+    }
+  if (first == nullptr) return;
+  const std::size_t c = first->contact;
+  std::erase_if(course.failed, [&](const Failure& f) { return f.contact != c && touched_at(f, course); });
+  const Vector way = course.decision.u - course.instant.u;
+  course.touched_ut = model_.contacts[c].tangent.dot(way) * (at - 1.0);
+  course.touched = c;
+  if (model_.contacts[c].normal_damping > 0.0) course.instant.u += at * way;
+}
+
 /// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
 std::vector<Block> Decider::react(Course& course) const {
   Findings& found = course.found;
   std::vector<bool> jointly(blocks_.size(), false);
   std::vector<std::size_t> turning;
+  course.touched.reset();
+  touch_first(course);
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
@@ -160,6 +205,8 @@ std::vector<Block> Decider::react(Course& course) const {
         found.known[c].sliding.zeros = 1;
       if (slips && found.known[c].sliding.zeros > 0) turning.push_back(c);
       course.mode[c] = next_state(contact, course.mode[c], f.guard, course.jets[c]);
+      if (course.touched == c)  // elastic first; its limit decides whether it slips
+        course.mode[c] = {state_at_rest(contact), course.jets[c].motion[0].ut + course.touched_ut};
       continue;
     }
     jointly[block_of_[c]] = true;
@@ -193,7 +240,8 @@ void Decider::stop(const std::vector<std::size_t>& turning, Course& course) cons
   for (std::size_t i = 0; i < turning.size(); ++i)
     fixed.push_back({tangent_place(i), &model_.contacts[turning[i]].tangent,
                      course.after.surface(turning[i], course.instant.t, 1)});
-  if (!settled(fixed, course.instant.v)) settle(delassus(model_, *system, turning), fixed, course.instant.v);
+  if (!settled(fixed, course.instant.v))
+    course.found.capture(turning, settle(delassus(model_, *system, turning), fixed, course.instant.v));
 }
 
 /// All combinations of states of a block, where no other way leads to one that holds.
@@ -242,6 +290,27 @@ bool Decider::blur(Course& course) {
   return true;
 }
 
+/// No combination of states holds: what is without mass may leave the contact in question. False: it cannot, or
+/// has before.
+bool Decider::release(std::size_t block, Course& course) {
+  std::vector<std::size_t> circling;
+  for (const Failure& f : course.failed)
+    if (block_of_[f.contact] == block) circling.push_back(f.contact);
+  if (circling.size() != 1) return false;
+  const std::size_t c = circling.front();
+  std::vector<std::size_t>& before = course.decision.released;
+  if (std::find(before.begin(), before.end(), c) != before.end()) return false;
+  auto u = released(systems_, jets_, course.after, course.instant, course.mode, c);
+  if (!u) return false;
+  before.push_back(c);
+  course.instant.u = std::move(*u);
+  const Contact& contact = model_.contacts[c];
+  course.mode[c] = {let_go(contact, contact.gap_at(course.instant.u)), 0.0};
+  course.found.known[c] = {};
+  course.seen.clear();
+  return true;
+}
+
 /// Where modes repeat: zeros were told by one sample of rounding, and by the clock, perhaps too sharply; then
 /// sliders may have to be decided together; then rounding cannot tell, and all combinations are weighed.
 Refusal Decider::leave_circle(Course& course) {
@@ -259,7 +328,8 @@ Refusal Decider::leave_circle(Course& course) {
         std::find(circling.begin(), circling.end(), block_of_[f.contact]) == circling.end())
       circling.push_back(block_of_[f.contact]);
   for (const std::size_t block : circling)
-    if (Refusal why = enumerate(block, course)) return why;
+    if (Refusal why = enumerate(block, course))
+      if (!release(block, course)) return why;
   return {};
 }
 
@@ -346,7 +416,10 @@ bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardSta
 void Decider::finish(Course& course) const {
   Decision& d = course.decision;
   d.consistent = true;
+  course.found.capture(every_contact(model_), course.held);
+  d.captures = course.found.captures;
   d.departures = course.found.departures;
+  d.unresolved = course.found.unresolved;
   d.slides_after = slides(course.after, d);
   for (std::size_t c = 0; c < course.mode.size(); ++c) {
     const MotionJet& jet = course.jets[c];
@@ -447,6 +520,7 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
     return std::move(d);
   }
   d.consistent = true;
+  d.captures = course.held;
   for (const MotionJet& jet : course.jets) d.after.push_back(jet.motion[0]);
   d.before = d.after;
   d.slides_after = d.slides_before = slides(forcing, d);

@@ -51,6 +51,8 @@ class Decider {
   [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
+  [[nodiscard]] std::optional<double> touched_at(const Failure& f, const Course& course) const;
+  void touch_first(Course& course) const;
   [[nodiscard]] std::vector<Block> react(Course& course) const;
   void stop(const std::vector<std::size_t>& turning, Course& course) const;
   [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);
@@ -58,6 +60,7 @@ class Decider {
   [[nodiscard]] Refusal propose(Course& course);
   [[nodiscard]] Refusal try_next(Course& course);
   static bool blur(Course& course);
+  [[nodiscard]] bool release(std::size_t block, Course& course);
   [[nodiscard]] Refusal leave_circle(Course& course);
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);

@@ -37,20 +37,27 @@ struct Decision {
   Jet jet;
   std::vector<ContactMotion> before, after;  ///< one a contact
   std::vector<BodySlide> slides_before, slides_after;
-  std::vector<GuardStart> guards;    ///< guards_per_contact a contact
-  std::vector<Crossing> crossings;   ///< of the contacts visited
-  std::vector<bool> visited;         ///< contacts that changed state in between, one a contact
-  std::vector<bool> jumped;          ///< contacts whose N or T jumps
-  std::vector<Impulse> impulses;     ///< one a contact, where rigid contacts were hit; else empty
-  std::vector<double> departures;    ///< Findings::departures
-  double impact_loss = 0.0;          ///< energy that the impacts dissipate
-  double impact_surface_work = 0.0;  ///< that moving surfaces do in them
-  bool impact_gains = false;         ///< an impact gained energy (Newton's law with friction)
+  std::vector<GuardStart> guards;     ///< guards_per_contact a contact
+  std::vector<Crossing> crossings;    ///< of the contacts visited
+  std::vector<bool> visited;          ///< contacts that changed state in between, one a contact
+  std::vector<bool> jumped;           ///< contacts whose N or T jumps
+  std::vector<std::size_t> released;  ///< contacts that parts without mass left at once (release.hpp)
+  std::vector<Impulse> impulses;      ///< one a contact, where rigid contacts were hit; else empty
+  std::vector<double> departures;     ///< Findings::departures
+  double impact_loss = 0.0;           ///< energy that the impacts dissipate
+  double impact_surface_work = 0.0;   ///< that moving surfaces do in them
+  bool impact_gains = false;          ///< an impact gained energy (Newton's law with friction)
   /// Rounding could not tell: the states that fail least were taken, or rest goes on at the limit of
   /// friction.
   bool undecided = false;
+  /// A flight faster than capture_velocity was taken as rest, since the clock does not resolve it, or as landed, since
+  /// it is lower than the rounding of its data.
+  bool unresolved = false;
   double forgiven = 0.0;  ///< by how many of their roundings those states fail
   int rounds = 0;
+  /// Impulses along n and t, slots as those of forces, that no law of impact knows: what stays is set to rest, and what
+  /// rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
+  Eigen::VectorXd captures = {};
 };
 
 }  // namespace signorini

@@ -33,8 +33,8 @@ bool settled(const std::vector<Fixed>& fixed, const Vector& v) {
                      [&](const Fixed& f) { return f.value - f.form->dot(v) == 0.0; });
 }
 
-void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
-  if (settled(fixed, v)) return;
+Eigen::VectorXd settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
+  if (settled(fixed, v)) return {};
   const auto count = static_cast<Eigen::Index>(fixed.size());
   std::vector<Eigen::Index> rows;
   for (const Fixed& f : fixed) rows.push_back(f.row);
@@ -44,7 +44,9 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     const Fixed& f = fixed[static_cast<std::size_t>(i)];
     miss[i] = f.value - f.form->dot(v);
   }
-  v += effect * least_squares(W, miss);
+  Eigen::VectorXd impulses = Eigen::VectorXd::Zero(d.W.rows());
+  impulses(rows) = least_squares(W, miss);
+  v += effect * impulses(rows);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const Fixed& f = fixed[i];
     const bool both = i + 1 < fixed.size() && f.row % 2 == 0 && fixed[i + 1].row == f.row + 1;
@@ -53,6 +55,7 @@ void settle(const Delassus& d, const std::vector<Fixed>& fixed, Vector& v) {
     else
       set_exactly(*f.form, f.value, v);
   }
+  return impulses;
 }
 
 }  // namespace signorini

@@ -26,8 +26,8 @@ struct Fixed {
 /// v has these velocities exactly.
 [[nodiscard]] bool settled(const std::vector<Fixed>& fixed, const Vector& v);
 /// v with these velocities to the last digit, by the smallest change in the norm of M: what computed v has
-/// them to the rounding of an elimination only.
-void settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
+/// them to the rounding of an elimination only. Returns the impulses that do it, one a row of `delassus`; empty: none.
+Eigen::VectorXd settle(const Delassus& delassus, const std::vector<Fixed>& fixed, Vector& v);
 
 [[nodiscard]] Delassus delassus(const Model& model, const ModeSystem& system,
                                 const std::vector<std::size_t>& contacts);

@@ -5,12 +5,11 @@
 
 #include "base/rounding.hpp"
 #include "contact/motion.hpp"
-#include "contact/transition.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double same_speed = 1e-12;  // of two pieces of a history where they meet smoothly
+constexpr double same_value = 1e-12;  // of two pieces of a history where they meet smoothly
 
 }  // namespace
 
@@ -34,17 +33,37 @@ Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vect
       s.state = state_at_rest(contact);
       if (contact.tangential_stiffness) {
         s.anchor = slip_of(contact, m.ut, contact.initial_shear);
-        if (contact.initial_slip != 0)
-          s.state = contact.initial_slip > 0 ? State::slip_plus : State::slip_minus;
-      } else if (contact.sticks_rigidly()) {
-        const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
-        if (std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))
-          s.state = slip_along(m.vt);
       }
+      const double size = std::abs(forcing.surface(c, t, 1)) + contact.tangent.magnitude(v);
+      if (contact.sticks_rigidly() &&
+          std::abs(m.vt) > rounding::of_many * size + forcing.surface_rounding(c, t))
+        s.state = slip_along(m.vt);
+      else if (contact.has_friction() && contact.initial_slip != 0)
+        s.state = contact.initial_slip > 0 ? State::slip_plus : State::slip_minus;
     }
     mode.push_back(s);
   }
   return mode;
+}
+
+bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
+               const std::vector<MotionJet>& after, Mode& mode) {
+  bool turned = false;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const int sign = slip_sign(mode[c].state);
+    if (contact.own || sign == 0 || !contact.tangential_stiffness) continue;
+    const bool massless = std::any_of(
+        contact.tangent.terms.begin(), contact.tangent.terms.end(),
+        [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
+    if (!massless) continue;
+    const double p = slip_of(contact, before[c]), slip = slip_of(contact, after[c].motion[0]) - p;
+    const ContactMotion& noise = after[c].noise[0];
+    if (!(-sign * slip > 2.0 * (noise.ut + noise.T / *contact.tangential_stiffness))) continue;
+    mode[c] = {State::stick, p};
+    turned = true;
+  }
+  return turned;
 }
 
 void follow_forcing(const Model& model, const Instant& instant, const Forcing& before, const Forcing& after,
@@ -54,13 +73,6 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
     const Contact& contact = model.contacts[c];
     if (contact.own) continue;
     ContactState& s = mode[c];
-    const bool massless = std::any_of(
-        contact.tangent.terms.begin(), contact.tangent.terms.end(),
-        [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
-    // Where ut itself may jump, the slip of that instant is found as in statics: from the anchor that the
-    // motion before has left, elastic first, then slip in the direction in which the limit is exceeded.
-    if (massless && slip_sign(s.state) != 0 && contact.tangential_stiffness)
-      s = {State::stick, slip_of(contact, motion[c])};
     if (contact.has_spring() || (contact.takes_impulses() && s.is_open())) continue;
     ContactMotion m;
     set_place(contact, instant.u, after.surface(c, t, 0), m);
@@ -72,7 +84,7 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
     // Smooth tables meet to the rounding of their pieces: no jump.
     const double speed = std::abs(after.surface(c, t, 1)) + std::abs(before.surface(c, t, 1));
     double surface_jump = after.surface(c, t, 1) - before.surface(c, t, 1);
-    if (std::abs(surface_jump) <= same_speed * (speed + model.scales.velocity)) surface_jump = 0.0;
+    if (std::abs(surface_jump) <= same_value * (speed + model.scales.velocity)) surface_jump = 0.0;
     const bool moves =
         std::abs(m.vt) > rounding::of_many * (std::abs(after.surface(c, t, 1)) + std::abs(surface_jump)) +
                              after.surface_rounding(c, t);
@@ -84,7 +96,8 @@ void follow_forcing(const Model& model, const Instant& instant, const Forcing& b
     const int sign = slip_sign(s.state);
     if (contact.tangential_stiffness) {
       // T is continuous when the compression jumps up: below its new limit the contact sticks.
-      if (sign != 0 && after.pressing(c, t, 0) > before.pressing(c, t, 0))
+      const double now = after.pressing(c, t, 0), then = before.pressing(c, t, 0);
+      if (sign != 0 && now - then > same_value * (std::abs(now) + std::abs(then)))
         s = {State::stick, slip_of(contact, m.ut, motion[c].T)};
     } else if (contact.sticks_rigidly() && surface_jump != 0.0 && moves) {
       s.state = slip_along(m.vt);

@@ -6,6 +6,7 @@
 //   stick        ends where the surface's velocity jumps away from t . v, unless an element lies between
 #pragma once
 
+#include "contact/transition.hpp"
 #include "decide/instant.hpp"
 #include "motion/forcing.hpp"
 
@@ -14,6 +15,12 @@ namespace signorini {
 /// A first guess of the states from displacements and velocities at the start.
 [[nodiscard]] Mode first_mode(const Model& model, const Forcing& forcing, double t, const Vector& u,
                               const Vector& v);
+
+/// Where ut itself may jump, on parts without mass, the slip of that instant is found as in statics. What slips goes
+/// on as long as p moves along its slip, from the motion before to that in `mode` after. What would go back sticks
+/// where it was, elastic first; its limits decide the rest. True: one more sticks.
+[[nodiscard]] bool turn_back(const Model& model, const std::vector<ContactMotion>& before,
+                             const std::vector<MotionJet>& after, Mode& mode);
 
 /// Changes the states in `mode` where the forcing is not smooth. motion: just before, one a contact.
 void follow_forcing(const Model& model, const Instant& instant, const Forcing& before, const Forcing& after,

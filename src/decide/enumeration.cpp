@@ -118,10 +118,12 @@ double Enumeration::condition(const std::vector<std::size_t>& contacts, Mode mod
   std::vector<Eigen::Index> rows;  // those of forces that there are
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = model_.contacts[contacts[i]];
-    if (contact.has_gap()) rows.push_back(normal_place(i));
-    if (contact.has_friction()) rows.push_back(tangent_place(i));
+    if (contact.takes_impulses()) rows.push_back(normal_place(i));
+    if (contact.has_friction() && (contact.takes_impulses() || contact.sticks_rigidly()))
+      rows.push_back(tangent_place(i));
     mode[contacts[i]] = {State::open, 0.0};
   }
+  if (rows.empty()) return 1.0;
   const ModeSystemPtr system = systems_.of(mode);
   if (!system) return std::numeric_limits<double>::quiet_NaN();
   CoulombProblem problem;

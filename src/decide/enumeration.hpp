@@ -46,7 +46,8 @@ class Enumeration {
                                                   const Block& block, const std::vector<Choice>& choices,
                                                   const std::vector<KnownGuards>& known, const Mode& mode);
 
-  /// Of W of the forces that these contacts can bear, all of them open. NaN: unknown.
+  /// Of W of the forces that these contacts can bear, all of them open; those of contact elements follow from
+  /// displacements, and have no part in it. NaN: unknown.
   [[nodiscard]] double condition(const std::vector<std::size_t>& contacts, Mode mode);
 
  private:

@@ -122,7 +122,7 @@ void Impacts::come_to_rest(const Forcing& forcing, double t, const std::vector<s
     fixed.push_back({along_t, &model_.contacts[c].tangent, forcing.surface(c, t, 1)});
     impact.impulses[c].sticks = true;
   }
-  settle(hit.d, fixed, impact.v);
+  impact.settled = settle(hit.d, fixed, impact.v);
 }
 
 /// Impulses and energies.

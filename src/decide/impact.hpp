@@ -26,6 +26,8 @@ struct Impulse {
   bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
   double normal = 0.0, tangent = 0.0;
   bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
+  int strikes = 0;                     ///< of how many impacts, one after the other, it is the sum
+  int turn = 0;                        ///< its last impact among those of the instant, from 1; 0: it has none
   /// Its rebound over capture_velocity; less than one: it was captured. NaN: it has none.
   double rebound = std::numeric_limits<double>::quiet_NaN();
 };
@@ -37,6 +39,8 @@ struct Impact {
   double loss = 0.0;              ///< energy that it dissipates
   double surface_work = 0.0;      ///< work of moving surfaces
   bool gains = false;             ///< the loss is negative: Newton's law with friction does that at times
+  /// Impulses that make known velocities exact, rows as those of Delassus; empty: none.
+  Eigen::VectorXd settled = {};
 };
 
 class Impacts {

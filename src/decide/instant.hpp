@@ -16,6 +16,7 @@ namespace signorini {
 struct Fired {
   std::size_t contact = 0;
   Guard guard = Guard::none;
+  bool unseen = false;  ///< it began at zero, and was never seen above its rounding
 };
 
 struct Instant {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/rounding.hpp"
 
@@ -13,19 +14,45 @@
 namespace signorini {
 namespace {
 
+double norm_of(const Combination& form) {
+  double squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) squared += factor * factor;
+  return std::sqrt(squared);
+}
+
 /// The rounding of a form of the velocities, |form| |v| whatever the angle between them. Where all of them are
 /// held at zero, what is left of them is the rounding of corrections, square against the motion of the rest.
 double rounding_of(const Combination& form, const Vector& v) {
   const double rest = rounding::eps * v.norm();
-  double form_squared = 0.0, v_squared = 0.0;
-  for (const auto& [dof, factor] : form.terms) {
-    form_squared += factor * factor;
-    v_squared += v[dof] * v[dof];
-  }
-  return rounding::of_many * std::sqrt(form_squared) * (std::sqrt(v_squared) + rest);
+  double v_squared = 0.0;
+  for (const auto& [dof, factor] : form.terms) v_squared += v[dof] * v[dof];
+  return rounding::of_many * norm_of(form) * (std::sqrt(v_squared) + rest);
+}
+
+/// -sum of impulse times mean velocity, of what was captured since `before`. twice: velocities before and after, added.
+double loss_of(const Model& model, const Block& touching, const Eigen::VectorXd& before,
+               const Eigen::VectorXd& now, const Vector& twice) {
+  double loss = 0.0;
+  if (now.size() == 0) return loss;
+  for (const std::size_t c : touching)
+    for (const auto& [slot, form] : {std::pair{normal_place(c), &model.contacts[c].normal},
+                                     std::pair{tangent_place(c), &model.contacts[c].tangent}}) {
+      const double impulse = now[slot] - (before.size() > 0 ? before[slot] : 0.0);
+      if (impulse != 0.0) loss -= 0.5 * impulse * form->dot(twice);
+    }
+  return loss;
 }
 
 }  // namespace
+
+void Findings::capture(const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses) {
+  if (impulses.size() == 0) return;
+  if (captures.size() == 0) captures.setZero(static_cast<Eigen::Index>(2 * known.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    captures[normal_place(contacts[i])] += impulses[normal_place(i)];
+    captures[tangent_place(contacts[i])] += impulses[tangent_place(i)];
+  }
+}
 
 Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity)
     : model_(systems.model()),
@@ -42,6 +69,10 @@ double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const 
          forcing.surface_rounding(c, instant.t) + instant.slow;
 }
 
+double Touching::slowest_flight(std::size_t c) const {
+  return model_.contacts[c].capture_velocity.value_or(capture_velocity_);
+}
+
 /// A contact with g = 0 that is pulled back stays where its flight would be shorter than the clock resolves.
 /// It is low where the lift is below capture_velocity, or the flight lower than the rounding of its gap and
 /// nobody knows such flights. fell: its acceleration towards the ground before; where all that touch fall freely
@@ -55,7 +86,7 @@ Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, do
   const double rounding =
       instant.blur * noise.vn + rounding_of(contact.normal, instant.v) + instant.resolution * std::abs(pull);
   if (!(pull > 0.0)) return {m.vn <= rounding ? Departure::How::stays : Departure::How::leaves};
-  double low = contact.capture_velocity.value_or(capture_velocity_);
+  double low = slowest_flight(c);
   if (!instant.knows_low_flights)
     low = std::max(low, std::sqrt(2.0 * pull * std::max(noise.gap, std::abs(m.gap))));
   const double ratio = m.vn / (rounding + low);
@@ -63,14 +94,26 @@ Touching::Departure Touching::departure(std::size_t c, const MotionJet& free, do
   return {m.vn <= rounding + low ? Departure::How::low : Departure::How::leaves, ratio};
 }
 
-/// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot
-/// lets N jump, T stays continuous: the element sticks at it unless its limit has fallen below.
-void Touching::follow_velocity(const Instant& instant, const Forcing& after, const Block& block,
-                               const std::vector<ContactMotion>& before, Mode& mode) const {
+/// Does a dashpot let the compression of a contact jump up, by n . (v+ - v-)? What a solve leaves of the velocities
+/// of those that no impulse reaches is rounding of all that jump.
+bool Touching::presses_harder(std::size_t c, const Vector& before, const Vector& after) const {
+  const Contact& contact = model_.contacts[c];
+  if (!(contact.normal_damping > 0.0)) return false;
+  const double rounding = rounding_of(contact.normal, before) + rounding_of(contact.normal, after) +
+                          rounding::of_many * norm_of(contact.normal) * (after - before).norm();
+  return gap_rate(contact, after) - gap_rate(contact, before) < -rounding;
+}
+
+/// After an impact: sliders that stick rigidly slip as soon as their slip rate is not zero. Where a dashpot lets
+/// |N| jump up T stays continuous, below its new limit: the element sticks at it. Where |N| jumps down T follows its
+/// limit; where N does not jump the slip goes on as long as its own guard holds.
+void Touching::follow_velocity(const Instant& instant, const Vector& before, const Forcing& after,
+                               const Block& block, const std::vector<ContactMotion>& motion,
+                               Mode& mode) const {
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
-    if (contact.tangential_stiffness && contact.normal_damping > 0.0 && slip_sign(mode[c].state) != 0)
-      mode[c] = {State::stick, slip_of(contact, before[c])};
+    if (contact.tangential_stiffness && slip_sign(mode[c].state) != 0 && presses_harder(c, before, instant.v))
+      mode[c] = {State::stick, slip_of(contact, motion[c])};
     if (contact.has_gap() || !contact.sticks_rigidly() || mode[c].is_open()) continue;
     const double vt = along_surface(contact, instant.v, after.surface(c, instant.t, 1));
     if (std::abs(vt) > rounding_of_slide(c, after, instant)) mode[c].state = slip_along(vt);
@@ -96,7 +139,7 @@ bool Touching::settle_resting(Instant& instant, const Forcing& forcing, const Mo
     found.known[c].sliding.zeros = 1;
   }
   if (settled(fixed, instant.v)) return false;
-  settle(delassus(model_, free, met.contacts), fixed, instant.v);
+  found.capture(met.contacts, settle(delassus(model_, free, met.contacts), fixed, instant.v));
   return true;
 }
 
@@ -121,12 +164,22 @@ bool Touching::slide_anew(const Instant& instant, const Forcing& forcing, const 
 /// What rounding has carried into g and g'. da, that of g'', gives dv = t da in all velocities since the
 /// beginning and du = t^2/2 da in displacements. When the contact touched last g and g' were known exactly;
 /// since then, for the time s, dv has moved g, da g', and du both through the stiffness of the structure: by
-/// du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency.
+/// du min(1, (w s)^2/2) and du w min(1, w s), w the highest frequency. That is a bound, and where it is of no use, in
+/// stiff structures after long times, velocities that differ by capture_velocity are others all the same.
 Touching::Carried Touching::carried_by(std::size_t c, double da, const Instant& instant) const {
   if (instant.touched.empty()) return {};
   const double t = instant.t, s = t - instant.touched[c], w = model_.omega_max, du = 0.5 * t * t * da;
   const double angle = std::min(1.0, w * s);
-  return {t * da * s + du * 0.5 * angle * angle, da * s + du * w * angle};
+  return {std::min(t * da * s + du * 0.5 * angle * angle, capture_velocity_ * s),
+          std::min(da * s + du * w * angle, capture_velocity_)};
+}
+
+/// A flight begins with g = 0, so what it has risen since is known to the sum that g is, of data that are doubles;
+/// where it never touched the data themselves are known to some roundings.
+double Touching::rounding_of_gap(std::size_t c, double of_data, const Instant& instant) const {
+  const bool flew = !instant.touched.empty() && instant.touched[c] > 0.0;
+  const Contact& contact = model_.contacts[c];
+  return flew ? rounding::of_few * (contact.normal.magnitude(instant.u) + std::abs(contact.gap)) : of_data;
 }
 
 Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet>& jets,
@@ -143,12 +196,15 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
     // clock.
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
-    if (mode[c].is_open() && !instant.has_fired(c, Guard::closing) && !fell &&
-        !is_zero(m.gap, noise.gap + carried.gap, m.vn))
-      continue;
+    const bool above = mode[c].is_open() && !instant.has_fired(c, Guard::closing) &&
+                       !is_zero(m.gap, rounding_of_gap(c, noise.gap, instant) + carried.gap, m.vn);
+    if (above && !fell) continue;
+    met.unresolved = met.unresolved || (above && m.gap > 0.0);
     met.contacts.push_back(c);
     met.apart = met.apart || m.gap != 0.0;
-    met.hit = met.hit || (mode[c].is_open() && m.vn < 0.0 && !is_zero(m.vn, noise.vn + carried.rate, m.an));
+    // Whatever has been carried there, what closes faster than a rebound that would not rest is a hit.
+    const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
+    met.hit = met.hit || (mode[c].is_open() && m.vn < -(noise.vn + unsure));
   }
   return met;
 }
@@ -157,8 +213,9 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
                          Findings& found, Decision& decision, Mode& mode) {
   const Impact result = impacts_.solve(forcing, instant.t, mode, met.contacts, instant.u, instant.v);
   if (result.refusal) return result.refusal;
+  const Vector before = std::exchange(instant.v, result.v);
+  found.capture(met.contacts, result.settled);
   instant.u = result.u;
-  instant.v = result.v;
   for (const std::size_t c : block) {
     found.stays[c] = found.rests[c] = false;
     found.known[c].sliding = {};
@@ -167,8 +224,14 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
   decision.impact_surface_work += result.surface_work;
   decision.impact_gains = decision.impact_gains || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(mode.size());
+  int turn = 1;
+  for (const Impulse& sum : decision.impulses) turn = std::max(turn, sum.turn + 1);
   for (const std::size_t c : met.contacts) {
     Impulse& sum = decision.impulses[c];
+    if (result.impulses[c].normal > 0.0 || !(sum.normal > 0.0)) {  // it is hit, or was not before
+      sum.strikes = sum.normal > 0.0 ? sum.strikes + 1 : 1;
+      sum.turn = turn;
+    }
     sum.hit = sum.hit || result.impulses[c].hit;
     sum.normal += result.impulses[c].normal;
     sum.tangent += result.impulses[c].tangent;
@@ -176,7 +239,7 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
     sum.sticks = result.impulses[c].sticks;
     sum.rebound = result.impulses[c].rebound;
   }
-  follow_velocity(instant, forcing, block, decision.before, mode);
+  follow_velocity(instant, before, forcing, block, decision.before, mode);
   return {};
 }
 
@@ -196,6 +259,8 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
       found.departures[c] = ratio;
       if (how == How::leaves || (how == How::low && instant.low_flights)) continue;
       found.grounded = found.grounded || how == How::low;
+      found.unresolved =
+          found.unresolved || (how == How::stays && slowest_flight(c) > 0.0 && m.vn > slowest_flight(c));
       found.slowest = std::max(found.slowest, m.vn);
     }
     found.stays[c] = true;
@@ -282,6 +347,7 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   for (const Block& block : blocks) {
     const Met& met = all.emplace_back(meet(instant, jets, failed, block, mode));
     found.hit = found.hit || met.hit;
+    found.unresolved = found.unresolved || met.unresolved;
     for (const std::size_t c : met.contacts) {
       found.known[c] = {};
       found.known[c].touches = true;
@@ -301,10 +367,13 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   const ModeSystemPtr system = systems_.of(mode);
   if (!system)
     return {Refusal::Kind::singular, "the equations of motion without rigid contacts are singular", {}};
+  Block touching;
+  for (const Met& met : all) touching.insert(touching.end(), met.contacts.begin(), met.contacts.end());
   std::vector<MotionJet> free;
   const Jet free_jet = jets_.make(system, forcing, instant.t, instant.u, instant.v, free);
   found.participants.clear();
   const Vector moving = instant.v;
+  const Eigen::VectorXd captured = found.captures;
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
@@ -314,7 +383,7 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
     for (; placed < found.participants.size(); ++placed) found.participants[placed].block = b;
   }
   // A contact that a neighbour's hit lifts slower than capture_velocity is stopped: the energy is lost.
-  decision.impact_loss += 0.5 * (moving - instant.v).dot(model_.mass * (moving + instant.v));
+  decision.impact_loss += loss_of(model_, touching, captured, found.captures, moving + instant.v);
   Refusal refusal = solve_levels(instant, forcing, blocks, old, found, mode);
   for (const Participant& who : found.participants) {
     found.decided[who.contact] = true;

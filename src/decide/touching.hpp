@@ -33,12 +33,16 @@ struct Findings {
   bool hit = false;                ///< the last decision began with an impact
   bool sliders = false;            ///< sliders that stick rigidly take part
   bool grounded = false;           ///< a flight was taken as rest for its height alone
+  bool unresolved = false;         ///< Decision::unresolved
   double slowest = 0.0;            ///< the greatest speed of leaving that was taken as rest
   std::vector<bool> decided;       ///< took part
   std::vector<bool> kinetic;       ///< its slip has begun: the static coefficient is gone
   std::vector<bool> stays, rests;  ///< vn, vt count as zero
   /// The speed of leaving over that below which a contact stays; NaN: nobody asked.
   std::vector<double> departures;
+  Eigen::VectorXd captures;  ///< Decision::captures; empty: none so far
+  /// Adds impulses of rows 2 i, 2 i + 1 of the i-th of these contacts; empty: none.
+  void capture(const std::vector<std::size_t>& contacts, const Eigen::VectorXd& impulses);
   std::vector<KnownGuards> known;         ///< of those that touch
   std::vector<Participant> participants;  ///< of the last decision
 };
@@ -58,10 +62,14 @@ class Touching {
   struct Met {
     Block contacts;
     bool hit = false, apart = false;  // one closes; a gap is not exactly zero
+    bool unresolved = false;          // one flies, but lower than the rounding of its data
   };
   struct Carried {
     double gap = 0.0, rate = 0.0;
   };
+  /// Of a contact: a rebound below this speed rests.
+  [[nodiscard]] double slowest_flight(std::size_t contact) const;
+  [[nodiscard]] double rounding_of_gap(std::size_t contact, double of_data, const Instant& instant) const;
   [[nodiscard]] Carried carried_by(std::size_t contact, double da, const Instant& instant) const;
   [[nodiscard]] Met meet(const Instant& instant, const std::vector<MotionJet>& jets,
                          const std::vector<Failure>& failed, const Block& block, const Mode& mode) const;
@@ -71,8 +79,9 @@ class Touching {
                    const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
   void add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                    const Mode& mode, const Decision& decision, Findings& found) const;
-  void follow_velocity(const Instant& instant, const Forcing& forcing, const Block& block,
-                       const std::vector<ContactMotion>& before, Mode& mode) const;
+  [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;
+  void follow_velocity(const Instant& instant, const Vector& before, const Forcing& after, const Block& block,
+                       const std::vector<ContactMotion>& motion, Mode& mode) const;
   [[nodiscard]] bool settle_resting(Instant& instant, const Forcing& forcing, const ModeSystem& free,
                                     const Met& met, Findings& found) const;
   [[nodiscard]] bool slide_anew(const Instant& instant, const Forcing& forcing, const Met& met,

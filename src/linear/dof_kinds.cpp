@@ -16,19 +16,6 @@ std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure) {
   return kinds;
 }
 
-std::vector<DofKind> in_mode(std::vector<DofKind> kinds, const Model& model, const std::vector<Rows>& rows) {
-  const auto damp = [&](const Combination& form) {
-    for (const auto& [dof, factor] : form.terms)
-      if (DofKind& kind = kinds[static_cast<std::size_t>(dof)]; kind == DofKind::algebraic && factor != 0.0)
-        kind = DofKind::damped;
-  };
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (rows[k].normal.vn != 0.0) damp(model.contacts[k].normal);
-    if (rows[k].tangent.vt != 0.0) damp(model.contacts[k].tangent);
-  }
-  return kinds;
-}
-
 bool has_massless(const Model& model) {
   return std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; });
 }

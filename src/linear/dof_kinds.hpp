@@ -14,11 +14,8 @@ namespace signorini {
 
 enum class DofKind : unsigned char { massive, damped, algebraic };
 
-/// By the structure alone.
+/// By the structure alone; in a mode: linear/undamped_motion.hpp.
 [[nodiscard]] std::vector<DofKind> dof_kinds(const Model& model, const Structure& structure);
-/// In a mode: the dashpot of a closed contact damps what it presses, and a row on a velocity asks for it.
-[[nodiscard]] std::vector<DofKind> in_mode(std::vector<DofKind> kinds, const Model& model,
-                                           const std::vector<Rows>& rows);
 /// Is there a degree of freedom without mass?
 [[nodiscard]] bool has_massless(const Model& model);
 

@@ -1,5 +1,7 @@
 #include "linear/structure.hpp"
 
+#include <cmath>
+
 namespace signorini {
 
 Structure::Structure(const Model& model) : size(model.size()) {
@@ -62,6 +64,16 @@ void Structure::add_product(const std::vector<double>& values, const double* x, 
     const auto end = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j) + 1]);
     for (std::size_t p = begin; p < end; ++p) r[row[p]] += values[p] * xj;
   }
+}
+
+double Structure::magnitude(const std::vector<double>& values, const double* x) const {
+  double total = 0.0;
+  for (int j = 0; j < size; ++j) {
+    const auto begin = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j)]);
+    const auto end = static_cast<std::size_t>(column_start[static_cast<std::size_t>(j) + 1]);
+    for (std::size_t p = begin; p < end; ++p) total += std::abs(values[p] * x[row[p]] * x[j]);
+  }
+  return total;
 }
 
 double Structure::quadratic(const std::vector<double>& values, const double* x) const {

@@ -26,6 +26,8 @@ struct Structure {
   [[nodiscard]] double damping_power(const double* v) const;
   /// x^T values x
   [[nodiscard]] double quadratic(const std::vector<double>& values, const double* x) const;
+  /// Sum of the magnitudes of its terms: what rounding is relative to.
+  [[nodiscard]] double magnitude(const std::vector<double>& values, const double* x) const;
   /// r += values x, for one of m, c, k
   void add_product(const std::vector<double>& values, const double* x, double* r) const;
 

@@ -11,6 +11,15 @@ class Pattern {
  public:
   explicit Pattern(int size) : columns_(static_cast<std::size_t>(size)) {}
   void add(int row, int column) { columns_[static_cast<std::size_t>(column)].insert(row); }
+  /// Each of these columns has the rows of all.
+  void unite(const std::vector<int>& columns) {
+    std::set<int> all;
+    for (const int j : columns) {
+      const std::set<int>& own = columns_[static_cast<std::size_t>(j)];
+      all.insert(own.begin(), own.end());
+    }
+    for (const int j : columns) columns_[static_cast<std::size_t>(j)] = all;
+  }
   void compress(std::vector<std::int64_t>& start, std::vector<std::int64_t>& rows) const {
     start.assign(1, 0);
     rows.clear();
@@ -57,7 +66,15 @@ Pattern pattern_of(const Model& model, const Structure& structure) {
       for (int j = 0; j < 2; ++j) pattern.add(force + i, force + j);
     force += 2;
   }
+  for (const std::vector<int>& together : undamped_together(dof_kinds(model, structure), model))
+    pattern.unite(together);
   return pattern;
+}
+
+/// Of a row of a contact, in the column of a degree of freedom with these parts of normal and tangent.
+double entry(const Form& f, double n, double t, const Weights& w) {
+  return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
+         t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
 }
 
 std::vector<std::int64_t> starts_of(const Pattern& pattern) {
@@ -90,6 +107,7 @@ std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
 SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
     : size_(structure.size + 2 * static_cast<int>(model.contacts.size())),
       structure_(structure),
+      united_(!undamped_together(dof_kinds(model, structure), model).empty()),
       column_start_(starts_of(pattern_of(model, structure))),
       row_(rows_of_pattern(pattern_of(model, structure))),
       values_(row_.size(), 0.0),
@@ -122,7 +140,31 @@ SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
   }
 }
 
-bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh) {
+std::size_t SystemMatrix::slot(int row, int column) const {
+  return position(column_start_, row_, row, column);
+}
+
+void SystemMatrix::add_column(int to, int from, double factor, const Weights& w,
+                              const std::vector<Rows>& rows) {
+  const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(from)]);
+  const auto end = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(from) + 1]);
+  for (std::size_t p = begin; p < end; ++p)
+    values_[slot(structure_.row[p], to)] +=
+        factor *
+        (w.acceleration * structure_.m[p] + w.velocity * structure_.c[p] + w.displacement * structure_.k[p]);
+  int force = structure_.size;
+  for (std::size_t k = 0; k < contacts_.size(); ++k, force += 2)
+    for (std::size_t i = 0; i < contacts_[k].dof.size(); ++i) {
+      if (contacts_[k].dof[i] != from) continue;
+      const double n = contacts_[k].n[i], t = contacts_[k].t[i];
+      values_[slot(force, to)] += factor * entry(rows[k].normal, n, t, w);
+      values_[slot(force + 1, to)] += factor * entry(rows[k].tangent, n, t, w);
+    }
+}
+
+bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
+                       const std::vector<UndampedMotion>& undamped) {
+  if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // slots that only a motion fills
   for (int j = 0; j < structure_.size; ++j) {
     const Weights& w = weights[static_cast<std::size_t>(j)];
     const auto begin = static_cast<std::size_t>(structure_.column_start[static_cast<std::size_t>(j)]);
@@ -131,10 +173,6 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
       values_[structure_slot_[p]] =
           w.acceleration * structure_.m[p] + w.velocity * structure_.c[p] + w.displacement * structure_.k[p];
   }
-  const auto entry = [](const Form& f, double n, double t, const Weights& w) {
-    return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
-           t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
-  };
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     const ContactSlots& slots = contacts_[k];
     const Rows& r = rows[k];
@@ -150,6 +188,9 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
     values_[slots.TN] = r.tangent.N;
     values_[slots.TT] = r.tangent.T;
   }
+  for (const UndampedMotion& motion : undamped)
+    for (const auto& [other, factor] : motion.others)
+      add_column(motion.dof, other, factor, weights[static_cast<std::size_t>(motion.dof)], rows);
   return fresh ? klu_.factor(values_) : klu_.refactor(values_);
 }
 

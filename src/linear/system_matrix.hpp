@@ -8,6 +8,8 @@
 // of damped and u of undamped massless degrees of freedom (motion/mode_system.hpp); Newmark puts
 // (1, h/2, h^2/4). Order of unknowns and rows: the n degrees of freedom, then N_k
 // and T_k of each contact in turn. The pattern is the union over all states: one for the whole run.
+// Where a degree of freedom stands for a motion without mass (linear/undamped_motion.hpp), its column is
+// that of the motion, the sum of z_i times the columns that i would have with its weights.
 #pragma once
 
 #include <vector>
@@ -16,6 +18,7 @@
 #include "contact/mode.hpp"
 #include "linear/klu.hpp"
 #include "linear/structure.hpp"
+#include "linear/undamped_motion.hpp"
 
 namespace signorini {
 
@@ -36,7 +39,8 @@ class SystemMatrix {
 
   /// Fills the values; weights: one a degree of freedom. `fresh`: choose new pivots (after a state
   /// change). False: singular.
-  bool set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh);
+  bool set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
+           const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().
   void solve(double* b) { klu_.solve(b); }
   [[nodiscard]] int size() const { return size_; }
@@ -50,8 +54,13 @@ class SystemMatrix {
     std::vector<std::size_t> N_column, T_column;       // row dof, column of the force
     std::size_t NN, NT, TN, TT;
   };
+  /// values_ of column `to` += factor times what `from` has with these weights.
+  void add_column(int to, int from, double factor, const Weights& weights, const std::vector<Rows>& rows);
+  [[nodiscard]] std::size_t slot(int row, int column) const;
+
   int size_;
   const Structure& structure_;
+  bool united_;  // some columns have the rows of others, too
   std::vector<std::int64_t> column_start_, row_;
   std::vector<std::size_t> structure_slot_;  // position of the structure's entry p
   std::vector<ContactSlots> contacts_;

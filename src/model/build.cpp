@@ -29,6 +29,7 @@
 #include "model/shear.hpp"
 #include "model/statics/statics.hpp"
 #include "model/undamped.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 namespace {
@@ -39,9 +40,9 @@ void take_contacts(const SavedState& saved, Model& model) {
   for (Contact& c : model.contacts) {
     for (const SavedState::Own& own : saved.own)
       if (c.name == own.contact) std::tie(c.own_state, c.own_memory) = std::tie(own.state, own.memory);
-    if (!c.tangential_stiffness || !c.has_friction()) continue;
+    if (!c.has_friction()) continue;
     for (const auto& [name, T] : saved.shears)
-      if (c.name == name) c.initial_shear = T;
+      if (c.name == name && c.tangential_stiffness) c.initial_shear = T;
     for (const auto& [name, sign] : saved.slips)
       if (c.name == name) c.initial_slip = sign;
   }
@@ -88,10 +89,21 @@ std::vector<bool> closed_at_start(const Model& model) {
   return closed;
 }
 
-void set_damping(const DampingSpec& spec, const SparseMatrix& dampers, Model& model) {
+/// Of the run that this one goes on from, if it was of the same structure.
+const SavedState* same_run(const Scene& scene) {
+  const auto& saved = scene.initial.saved;
+  return saved && saved->differing.empty() ? &*saved : nullptr;
+}
+
+void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) {
+  const DampingSpec& spec = scene.damping;
   model.alpha = spec.alpha;
   model.beta = spec.beta;
-  if (spec.alpha_over_omega1) {
+  const SavedState* before = same_run(scene);
+  const auto saved = before ? saved_motion(*before, saved_alpha) : std::nullopt;
+  if (spec.alpha_over_omega1 && saved) {
+    model.alpha = *saved;
+  } else if (spec.alpha_over_omega1) {
     if (!(model.omega1 > 0.0))
       throw SceneError(
           spec.place, "damping.alpha_over_omega1",
@@ -125,16 +137,18 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  check_massless(model, map, place);
+  check_massless(model, map,
+                 {place, scene.matrices ? scene.matrices->stiffness.place : place,
+                  scene.matrices ? "matrices.stiffness" : ""});
   set_initial_state(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
-  set_damping(scene.damping, assembly.dampers, model);
+  set_damping(scene, assembly.dampers, model);
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
-  if (const auto& saved = scene.initial.saved; saved && saved->scales && saved->differing.empty()) {
-    const auto& s = *saved->scales;
+  if (const SavedState* before = same_run(scene); before && before->scales) {
+    const auto& s = *before->scales;
     model.scales = {s[0], s[1], s[2], s[3], s[4]};
   }
   check_rigid_contacts(scene, model);

@@ -7,6 +7,7 @@
 //   drag                                alpha M acts on motions without stiffness: v ~ exp(-alpha t)
 //   friction above 2                    an angle, a percentage?
 //   initial_shear in a static start     which has no friction: nothing carries it
+//   initial values without mass         which equilibrium decides (initial_state.hpp)
 //   another structure                   in the scene of the run that this one goes on from
 //   a pulse too short for the clock     100 eps (t + t_end)
 //   a support that jumps at t = 0      or its velocity: the state is the one after

@@ -8,6 +8,10 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "contact/friction.hpp"
+#include "scene/saved_state.hpp"
+#include "signorini/error.hpp"
+
 namespace signorini {
 namespace {
 
@@ -32,6 +36,11 @@ void check_saved_contacts(const Scene& scene) {
     contacts.insert(contact.name);
     if (contact.friction.any() && !saved.contains(contact.name))
       refuse_saved(scene.initial, fmt::format("the saved state has no shear of contact '{}'", contact.name));
+    if (contact.friction.any() && contact.tangential_damping > 0.0 &&
+        !saved_motion(*scene.initial.saved, contact.name + ".slip"))
+      refuse_saved(scene.initial, fmt::format("the saved state has no {}.slip, which a contact with "
+                                              "tangential_damping needs",
+                                              contact.name));
   }
   for (const auto& [name, T] : scene.initial.saved->shears)
     if (!contacts.contains(name))
@@ -45,6 +54,10 @@ void check_saved_contacts(const Scene& scene) {
                                "which the scene has not",
                                own.contact, own.state));
   }
+}
+
+std::string key_of(const InitialSpec::Component& c) {
+  return fmt::format("run.initial.{}.{}", c.node, c.component);
 }
 
 /// Of a run: the degrees of freedom of the same names.
@@ -61,12 +74,13 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
     return value;
   };
   check_saved_contacts(scene);
+  values.erase(saved_alpha);
   for (int i = 0; i < map.size(); ++i) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
-  for (const ContactSpec& contact : scene.contacts)  // sliding points, which the shears stand for
-    for (const char* of : {".slip", ".slip_rate"}) values.erase(contact.name + of);
+  for (const ContactSpec& contact : scene.contacts)  // sliding points and surfaces, which contacts take
+    for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
     if (values.contains(name) && !name.starts_with("support "))
       refuse_saved(spec, fmt::format("the saved state has {} and the scene not", name));
@@ -75,6 +89,84 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
 
 }  // namespace
 
+namespace {
+
+/// Where a given component stands; nothing: the node's degree of freedom is fixed.
+struct GivenPlace {
+  bool velocity = false;
+  int dof = 0;
+};
+std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap& map) {
+  constexpr std::array<std::string_view, 6> names{"ux", "uy", "rz", "vx", "vy", "wz"};
+  const std::string key = key_of(c);
+  const auto it = std::find(names.begin(), names.end(), c.component);
+  if (it == names.end())
+    throw SceneError(c.place, key, fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
+  const auto index = static_cast<std::size_t>(it - names.begin());
+  const int node = find_node(map.mesh, c.node, c.place, key);
+  const int number = map.number[static_cast<std::size_t>(node)][index % 3];
+  if (number == DofMap::absent)
+    throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
+  if (number == DofMap::fixed && c.value != 0.0)
+    throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
+  if (number < 0) return std::nullopt;
+  return GivenPlace{index >= 3, number};
+}
+
+/// Does something begin from the displacement of each degree of freedom without mass?
+std::vector<bool> begins_from(const Model& model) {
+  std::vector<bool> result(static_cast<std::size_t>(model.size()), false);
+  for (int k = 0; k < model.damping.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator it(model.damping, k); it; ++it)
+      if (it.value() != 0.0) result[static_cast<std::size_t>(it.row())] = true;
+  for (const Contact& contact : model.contacts) {
+    if (contact.normal_damping != 0.0 || contact.own)
+      for (const auto& term : contact.normal.terms) result[static_cast<std::size_t>(term.first)] = true;
+    if (contact.has_friction() || contact.own)
+      for (const auto& term : contact.tangent.terms) result[static_cast<std::size_t>(term.first)] = true;
+  }
+  return result;
+}
+
+/// Of a value that is given for a degree of freedom without mass.
+std::string unused(const Model& model, const GivenPlace& at, double value, const SourcePlace& place,
+                   const std::string& key) {
+  const Dof& dof = model.dofs[static_cast<std::size_t>(at.dof)];
+  const double unit = (dof.rotation ? 1.0 : model.unit.length) / (at.velocity ? model.unit.time : 1.0);
+  const std::string what =
+      at.velocity
+          ? fmt::format("{} has no mass, so that its velocity follows from the forces on it",
+                        dof.displacement)
+          : fmt::format("{} has neither mass nor a damper, so that it follows the forces on it at once",
+                        dof.displacement);
+  return SceneError(place, key,
+                    fmt::format("found {:.9g}, which is not used: {}; give it a mass{}, or leave this out",
+                                value * unit, what, at.velocity ? "" : " or a damper"))
+      .what();
+}
+
+}  // namespace
+
+std::vector<std::string> unused_values(const Scene& scene, const DofMap& map, const Model& model) {
+  const InitialSpec& spec = scene.initial;
+  if (spec.saved || scene.reduction) return {};
+  const std::vector<bool> begins = begins_from(model);
+  std::vector<std::string> result;
+  const auto check = [&](const GivenPlace& at, double value, const SourcePlace& place,
+                         const std::string& key) {
+    const auto dof = static_cast<std::size_t>(at.dof);
+    if (value == 0.0 || !model.dofs[dof].massless || (!at.velocity && begins[dof])) return;
+    result.push_back(unused(model, at, value, place, key));
+  };
+  for (const auto& c : spec.components)
+    if (const auto at = place_of(c, map)) check(*at, c.value, c.place, key_of(c));
+  for (std::size_t i = 0; i < spec.u.size(); ++i)
+    check({false, static_cast<int>(i)}, spec.u[i], spec.place, fmt::format("run.initial.u[{}]", i));
+  for (std::size_t i = 0; i < spec.v.size(); ++i)
+    check({true, static_cast<int>(i)}, spec.v[i], spec.place, fmt::format("run.initial.v[{}]", i));
+  return result;
+}
+
 InitialState given_state(const Scene& scene, const DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
@@ -82,22 +174,8 @@ InitialState given_state(const Scene& scene, const DofMap& map) {
   if (map.matrices())
     return {given_vector(spec.u, n, spec, "run.initial.u"), given_vector(spec.v, n, spec, "run.initial.v")};
   InitialState state{Vector::Zero(n), Vector::Zero(n)};
-  constexpr std::array<std::string_view, 6> names{"ux", "uy", "rz", "vx", "vy", "wz"};
-  for (const auto& c : spec.components) {
-    const std::string key = fmt::format("run.initial.{}.{}", c.node, c.component);
-    const auto it = std::find(names.begin(), names.end(), c.component);
-    if (it == names.end())
-      throw SceneError(c.place, key,
-                       fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
-    const auto index = static_cast<std::size_t>(it - names.begin());
-    const int node = find_node(map.mesh, c.node, c.place, key);
-    const int number = map.number[static_cast<std::size_t>(node)][index % 3];
-    if (number == DofMap::absent)
-      throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
-    if (number == DofMap::fixed && c.value != 0.0)
-      throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
-    if (number >= 0) (index < 3 ? state.u : state.v)[number] = c.value;
-  }
+  for (const auto& c : spec.components)
+    if (const auto at = place_of(c, map)) (at->velocity ? state.v : state.u)[at->dof] = c.value;
   return state;
 }
 

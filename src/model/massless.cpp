@@ -12,6 +12,9 @@
 namespace signorini {
 namespace {
 
+/// Times what makes C count as much as K, where K alone does not resist: half of the digits.
+constexpr double by_far = 1e8;
+
 /// The rows and columns whose `keep` is true, scaled to s_i A_ij s_j.
 SparseMatrix block(const SparseMatrix& a, const std::vector<int>& position, int size, const Vector& s) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -72,7 +75,7 @@ void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const Sourc
         "for a massless one all its row is zero");
 }
 
-void check_massless(const Model& model, const DofMap& map, const SourcePlace& place) {
+void check_massless(const Model& model, const DofMap& map, const MasslessPlaces& place) {
   std::vector<int> position, where;
   for (int i = 0; i < model.size(); ++i) {
     const bool massless = model.dofs[static_cast<std::size_t>(i)].massless;
@@ -80,25 +83,40 @@ void check_massless(const Model& model, const DofMap& map, const SourcePlace& pl
     if (massless) where.push_back(i);
   }
   if (where.empty()) return;
+  const auto describe = [&](const Eigen::MatrixXd& motions) {
+    Vector motion = Vector::Zero(model.size());
+    for (std::size_t j = 0; j < where.size(); ++j)
+      motion[where[j]] = motions(static_cast<Eigen::Index>(j), 0);
+    return describe_motion(motion, map);
+  };
   const auto count = static_cast<int>(where.size());
   const Vector ones = Vector::Ones(model.size());
   const SparseMatrix k =
       block(with_springs(model.stiffness, contact_springs(model.contacts)), position, count, ones);
   const SparseMatrix c = block(model.damping, position, count, ones);
   const SparseMatrix symmetric = 0.5 * (c + SparseMatrix(c.transpose()));
-  // Either holds a motion, so any positive weights will do; these make both count.
+  // Where K resists all motions, either holds one, so any positive weights will do; these make both count. Where
+  // it does not, C must count for more: null_motions takes what has negative energy for null, too.
   const double weight = largest_diagonal(c) > 0.0 && largest_diagonal(k) > 0.0
                             ? largest_diagonal(k) / largest_diagonal(c)
                             : 1.0;
-  const Eigen::MatrixXd null = null_motions(SparseMatrix(k + weight * symmetric));
+  Eigen::MatrixXd null = null_motions(SparseMatrix(k + weight * symmetric));
   if (null.cols() == 0) return;
-  Vector motion = Vector::Zero(model.size());
-  for (std::size_t j = 0; j < where.size(); ++j) motion[where[j]] = null(static_cast<Eigen::Index>(j), 0);
+  null = null_motions(SparseMatrix(k + by_far * weight * symmetric));
+  if (null.cols() == 0) return;
+  const Vector motion = null.col(0) / null.col(0).cwiseAbs().maxCoeff();
+  const double energy = motion.dot(k * motion);
+  if (energy < -rounding::of_many * term_size(k, motion))
+    throw SceneError(
+        place.stiffness, place.stiffness_key,
+        fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
+                    "{:.6g}, contacts included; expected a stiffness > 0, or mass or damping on it",
+                    describe(null), energy));
   throw SceneError(
-      place, "",
+      place.scene, "",
       fmt::format("nothing decides the {}: it moves no mass, and no stiffness, damping or contact "
                   "holds it",
-                  describe_motion(motion, map)));
+                  describe(null)));
 }
 
 }  // namespace signorini

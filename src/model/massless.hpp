@@ -12,7 +12,14 @@ namespace signorini {
 /// damping. `place`: where the message points to.
 void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const SourcePlace& place);
 
-/// Errors: SceneError when a motion without mass is held neither by K nor by C nor by any contact.
-void check_massless(const Model& model, const DofMap& map, const SourcePlace& place);
+/// Where messages point to: the scene, and where its stiffness is given.
+struct MasslessPlaces {
+  SourcePlace scene, stiffness;
+  std::string stiffness_key;
+};
+
+/// Errors: SceneError when a motion without mass is held neither by K nor by C nor by any contact, or is driven away
+/// by a negative stiffness.
+void check_massless(const Model& model, const DofMap& map, const MasslessPlaces& place);
 
 }  // namespace signorini

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/assembly/springs.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 namespace {
@@ -43,12 +44,16 @@ void add_shear_elements(const Scene& scene, Model& model) {
         [&](const auto& term) { return model.dofs[static_cast<std::size_t>(term.first)].massless; });
     const int p = model.size();
     model.dofs.push_back({contact.name + ".slip", contact.name + ".slip_rate", false, true});
-    u.push_back((relative ? 0.0 : contact.tangent.dot(model.u0)) - contact.initial_shear / kt);
+    const double body = contact.tangent.dot(model.u0);
+    std::optional<double> saved;
+    if (scene.initial.saved) saved = saved_motion(*scene.initial.saved, contact.name + ".slip");
+    const double element = saved ? body - *saved : contact.initial_shear / kt;  // its deformation
+    u.push_back((relative ? 0.0 : body) - element);
     v.push_back(contact.surface_motion.piece(0.0).value(0.0, 1));
-    Combination element = relative ? Combination{} : contact.tangent;
-    element.terms.emplace_back(p, -1.0);
-    stiffness.push_back({element, kt});
-    damping.push_back({element, ct});
+    Combination between = relative ? Combination{} : contact.tangent;
+    between.terms.emplace_back(p, -1.0);
+    stiffness.push_back({between, kt});
+    damping.push_back({between, ct});
     contact.shear = ShearElement{contact.tangent, kt, ct};
     contact.tangential_stiffness.reset();
     if (!relative) contact.tangent.terms.clear();

@@ -5,7 +5,8 @@
 //
 // The point p that slides becomes a degree of freedom without mass, the element enters K and C, and the
 // contact acts on p. Friction limits the force of spring and dashpot together, so energy is conserved when
-// N or T jump; an open contact's element comes to rest with its own time constant ct/kt.
+// N or T jump; an open contact's element comes to rest with its own time constant ct/kt. At the start p is
+// ut - T/kt, or where the run that this one goes on from left it.
 #pragma once
 
 #include "signorini/model.hpp"

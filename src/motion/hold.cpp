@@ -7,21 +7,23 @@
 namespace signorini {
 namespace {
 
-/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows.
-void correct(const ModeSystem& system, const std::vector<double>& misses, Vector& x) {
-  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return;
+/// x += the smallest change, in the norm of M, that adds `misses` to the forms of the contacts' rows. Returns what
+/// along these forms makes it, M times a length or a velocity.
+Eigen::VectorXd correct(const ModeSystem& system, const std::vector<double>& misses, Vector& x) {
+  if (std::all_of(misses.begin(), misses.end(), [](double miss) { return miss == 0.0; })) return {};
   const std::size_t n = system.unknowns().dofs, size = system.unknowns().size();
   std::vector<double> change(size, 0.0), work(size);
   std::copy(misses.begin(), misses.end(), change.begin() + static_cast<std::ptrdiff_t>(n));
   system.solve(change.data(), work.data());
   for (std::size_t i = 0; i < n; ++i)
     if (system.kinds()[i] == DofKind::massive) x[static_cast<Eigen::Index>(i)] += change[i];
+  return -Eigen::Map<const Eigen::VectorXd>(change.data() + n, static_cast<Eigen::Index>(misses.size()));
 }
 
 }  // namespace
 
-void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t, Vector& u,
-          Vector& v) {
+Eigen::VectorXd hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t,
+                     Vector& u, Vector& v) {
   const Mode& mode = system.mode();
   const auto is_held = [&](std::size_t c) {
     return model.contacts[c].takes_impulses() && !mode[c].is_open();
@@ -39,7 +41,7 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
     if (sticks(c)) rates[tangent_slot(c)] = -along_surface(contact, v, forcing.surface(c, t, 1));
   }
   correct(system, places, u);
-  correct(system, rates, v);
+  Eigen::VectorXd impulses = correct(system, rates, v);
   for (std::size_t c = 0; c < mode.size(); ++c) {
     const Contact& contact = model.contacts[c];
     const bool held = is_held(c), still = sticks(c);
@@ -52,6 +54,7 @@ void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, 
       if (still) set_exactly(contact.tangent, surface, v);
     }
   }
+  return impulses;
 }
 
 }  // namespace signorini

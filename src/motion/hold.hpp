@@ -9,8 +9,9 @@
 
 namespace signorini {
 
-/// Changes u and v as little as possible, in the norm of M, so that they fulfil the mode's constraints at t.
-void hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t, Vector& u,
-          Vector& v);
+/// Changes u and v as little as possible, in the norm of M, so that they fulfil the mode's constraints at t. Returns the
+/// impulses along n and t of the contacts that change v, slots as those of forces; empty: none.
+Eigen::VectorXd hold(const Model& model, const ModeSystem& system, const Forcing& forcing, double t,
+                     Vector& u, Vector& v);
 
 }  // namespace signorini

@@ -12,9 +12,9 @@
 #include <memory>
 
 #include "contact/mode.hpp"
-#include "linear/dof_kinds.hpp"
 #include "linear/pinned.hpp"
 #include "linear/triangular_factors.hpp"
+#include "linear/undamped_motion.hpp"
 #include "linear/unknowns.hpp"
 
 namespace signorini {
@@ -25,6 +25,8 @@ inline constexpr std::size_t most_dense = 40;
 struct FactorisedMode {
   Unknowns unknowns;
   std::vector<DofKind> kinds;  ///< one a degree of freedom
+  /// The column of such a degree of freedom is that of its whole motion.
+  std::vector<UndampedMotion> undamped;
   std::vector<Pinned> pinned;
   std::vector<std::size_t> by_rate;  ///< contacts that slip with friction that depends on the slip rate
   bool massless = false;             ///< not all degrees of freedom are massive
@@ -50,6 +52,7 @@ class ModeSystem {
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
   [[nodiscard]] const FactorisedMode& factorised() const { return *factorised_; }
   [[nodiscard]] const std::vector<DofKind>& kinds() const { return factorised_->kinds; }
+  [[nodiscard]] const std::vector<UndampedMotion>& undamped() const { return factorised_->undamped; }
   [[nodiscard]] const Unknowns& unknowns() const { return factorised_->unknowns; }
   void solve(double* x, double* work) const { factorised_->solve(x, work); }
 

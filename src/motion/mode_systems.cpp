@@ -17,7 +17,13 @@ FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& 
   FactorisedMode result;
   result.unknowns = {own_kinds_.size(), mode.size()};
   result.massless = massless_;
-  result.kinds = massless_ ? in_mode(own_kinds_, model_, rows) : own_kinds_;
+  if (massless_) {
+    MotionKinds in_mode = kinds_in_mode(own_kinds_, model_, rows);
+    result.kinds = std::move(in_mode.kinds);
+    result.undamped = std::move(in_mode.undamped);
+  } else {
+    result.kinds = own_kinds_;
+  }
   result.pinned = pinned_by(model_, rows);
   for (std::size_t c = 0; c < mode.size(); ++c)
     if (slips_nonlinearly(model_.contacts[c], mode[c].state)) result.by_rate.push_back(c);
@@ -30,7 +36,7 @@ void ModeSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode)
     weights_[i] = mode.kinds[i] == DofKind::massive  ? Weights{1.0, 0.0, 0.0}
                   : mode.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.0}
                                                      : Weights{0.0, 0.0, 1.0};
-  mode.regular = matrix_.set(rows, weights_, true);
+  mode.regular = matrix_.set(rows, weights_, true, mode.undamped);
   if (!mode.regular) return;
   if (mode.unknowns.size() <= most_dense && mode.by_rate.empty())
     invert(rows, mode);

@@ -145,6 +145,9 @@ void Taylor::know_motion(int order, const Series& series) {
     known_u_[i] = kinds[i] == DofKind::algebraic ? 0.0 : u_k[i];
     known_v_[i] = kinds[i] == DofKind::massive ? to_velocity * u_k1[i] : 0.0;
   }
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& [dof, factor] : motion.others)
+      known_u_[static_cast<std::size_t>(dof)] -= factor * u_k[motion.dof];
 }
 
 /// Magnitudes of the terms of the equations of motion at level k, what lower levels have lost to rounding
@@ -246,6 +249,12 @@ void Taylor::take(int order, Series& series) const {
     else
       u_k[i] = x_[i];
   }
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& other : motion.others)
+      u_k[other.first] = known_u_[static_cast<std::size_t>(other.first)];
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& [dof, factor] : motion.others)
+      u_k[dof] += factor * x_[static_cast<std::size_t>(motion.dof)];
   std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), series.forces.col(order).data());
 }
 

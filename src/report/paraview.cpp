@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "result/csv.hpp"
@@ -97,17 +98,16 @@ class Grid {
 constexpr int vertex = 1, line = 3, polyline = 4;  // VTK's numbers of cells
 
 std::vector<FrameEnd> ends_at(const Json& data, double t) {
-  const Json& times = data["curve"]["t"];
-  const Json& rows = data["curve"]["u"];
-  const Place place = place_in(times, t);
+  const Json& times = data["curve"]["times"];
+  const Json& columns = data["curve"]["columns"];
   std::vector<FrameEnd> ends;
   for (const Json& node : data["nodes"]) {
     const auto value = [&](std::size_t k) {
-      const int column = node["u"][k].get<int>();
-      if (column < 0 || times.empty()) return 0.0;
-      const auto c = static_cast<std::size_t>(column);
-      const double from = number_of(rows[place.row][c]);
-      return place.part > 0.0 ? from + place.part * (number_of(rows[place.row + 1][c]) - from) : from;
+      const int number = node["u"][k].get<int>();
+      if (number < 0) return 0.0;
+      const Json& column = columns[static_cast<std::size_t>(number)];
+      const Json& own = times[column["t"].get<std::size_t>()];
+      return own.empty() ? 0.0 : value_at(column["u"], place_in(own, t));
     };
     ends.push_back({number_of(node["x"]), number_of(node["y"]), value(0), value(1), value(2)});
   }
@@ -162,9 +162,13 @@ void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends,
 }  // namespace
 
 std::vector<double> frame_times(const Json& data, std::size_t count, std::size_t most) {
-  const Json& record = data["curve"]["t"];
-  if (record.empty()) return {};
-  const double first = record.front().get<double>(), last = record.back().get<double>();
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Json& own : data["curve"]["times"]) {
+    if (own.empty()) continue;
+    first = std::min(first, own.front().get<double>());
+    last = std::max(last, own.back().get<double>());
+  }
+  if (!(first <= last)) return {};
   std::vector<double> times;
   for (std::size_t i = 0; i < count; ++i)
     times.push_back(

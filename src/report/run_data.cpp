@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <optional>
 
+#include "base/thinned.hpp"
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
+#include "signorini/result.hpp"
 
 namespace signorini {
 
@@ -43,11 +46,15 @@ std::vector<std::size_t> kept_rows(const std::vector<double>& t, std::size_t mos
   return kept;
 }
 
-/// The displacements that a run's tables have, by name of the column.
+/// The displacements that a run's tables have, by name of the column; several may share their times.
 struct Displacements {
+  struct Curve {
+    std::size_t times = 0;
+    std::vector<double> u;
+  };
   std::vector<std::string> names;
-  std::vector<double> t;
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> times;
+  std::vector<Curve> curves;
 };
 
 bool is_displacement(const std::string& column) {
@@ -56,8 +63,8 @@ bool is_displacement(const std::string& column) {
   return false;
 }
 
-Displacements read_displacements(const fs::path& file) {
-  CsvReader reader(file);
+/// Of history.csv, rows left out evenly.
+Displacements evenly(CsvReader& reader) {
   Displacements all;
   std::vector<std::size_t> index;
   for (std::size_t k = 1; k < reader.header().size(); ++k) {
@@ -65,35 +72,72 @@ Displacements read_displacements(const fs::path& file) {
     all.names.push_back(reader.header()[k]);
     index.push_back(k);
   }
+  std::vector<double> t;
+  std::vector<std::vector<double>> columns(index.size());
   while (reader.next()) {
-    all.t.push_back(reader.number(0));
-    std::vector<double> row;
-    for (const std::size_t k : index) row.push_back(reader.number(k));
-    all.rows.push_back(std::move(row));
+    t.push_back(reader.number(0));
+    for (std::size_t i = 0; i < index.size(); ++i) columns[i].push_back(reader.number(index[i]));
+  }
+  const std::vector<std::size_t> rows = kept_rows(t, most_values / std::max<std::size_t>(1, index.size()));
+  all.times.emplace_back();
+  for (const std::size_t i : rows) all.times[0].push_back(t[i]);
+  for (const std::vector<double>& column : columns) {
+    all.curves.push_back({});
+    for (const std::size_t i : rows) all.curves.back().u.push_back(column[i]);
   }
   return all;
 }
 
-Displacements displacements(const fs::path& directory) {
-  Displacements history = read_displacements(directory / "history.csv");
-  if (!is_file(directory / "curves.csv")) return history;
-  Displacements curves = read_displacements(directory / "curves.csv");
-  const bool whole = std::all_of(history.names.begin(), history.names.end(), [&](const std::string& name) {
-    return std::find(curves.names.begin(), curves.names.end(), name) != curves.names.end();
-  });
-  return whole && !curves.t.empty() ? curves : history;
+struct ValueOf {
+  std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
+};
+
+/// Of curves.csv, each with its own times.
+Displacements each(const fs::path& file, const std::vector<std::string>& names, double t_end) {
+  std::map<std::string, std::vector<CurvePoint>> points;
+  CsvReader reader(file);
+  const std::size_t name = reader.column("curve"), t = reader.column("t"), value = reader.column("value");
+  while (reader.next())
+    if (is_displacement(reader.cell(name)))
+      points[reader.cell(name)].push_back({reader.number(t), reader.number(value)});
+  Displacements all;
+  const std::size_t most = std::max<std::size_t>(50, most_values / names.size());
+  for (const std::string& column : names) {
+    const auto found = points.find(column);
+    if (found == points.end()) return {};
+    Thinned<CurvePoint, 1, ValueOf> thinned(t_end, {.most = most, .crowded = true});
+    for (const CurvePoint& point : found->second) thinned.add(point);
+    all.names.push_back(column);
+    all.curves.push_back({all.times.size(), {}});
+    all.times.emplace_back();
+    for (const CurvePoint& point : thinned.rows()) {
+      all.times.back().push_back(point.t);
+      all.curves.back().u.push_back(point.value);
+    }
+  }
+  return all;
+}
+
+Displacements displacements(const fs::path& directory, double t_end) {
+  CsvReader history(directory / "history.csv");
+  std::vector<std::string> names;
+  for (const std::string& column : history.header())
+    if (is_displacement(column)) names.push_back(column);
+  if (!names.empty() && is_file(directory / "curves.csv"))
+    if (Displacements curves = each(directory / "curves.csv", names, t_end); !curves.names.empty())
+      return curves;
+  return evenly(history);
 }
 
 Json curve_json(const Displacements& all) {
-  const std::size_t columns = std::max<std::size_t>(1, all.names.size());
-  Json t = Json::array(), u = Json::array();
-  for (const std::size_t i : kept_rows(all.t, most_values / columns)) {
-    t.push_back(all.t[i]);
-    Json row = Json::array();
-    for (const double value : all.rows[i]) row.push_back(number(value));
-    u.push_back(std::move(row));
+  Json times = Json::array(), columns = Json::array();
+  for (const std::vector<double>& t : all.times) times.push_back(t);
+  for (const Displacements::Curve& curve : all.curves) {
+    Json u = Json::array();
+    for (const double value : curve.u) u.push_back(number(value));
+    columns.push_back({{"t", curve.times}, {"u", std::move(u)}});
   }
-  return {{"t", std::move(t)}, {"u", std::move(u)}};
+  return {{"times", std::move(times)}, {"columns", std::move(columns)}};
 }
 
 /// Places by name: nodes of the scene, or degrees of freedom in a row.
@@ -234,37 +278,42 @@ Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& 
           {"gap", number(contact.gap)}};
 }
 
-struct Motion {
-  std::vector<double> t, N, T, gap;
-  std::vector<std::string> state;
+/// A row of a contact.
+struct ContactRow {
+  double t = 0.0, N = 0.0, T = 0.0, gap = 0.0;  // gap: no number of sliders
+  std::ptrdiff_t state = 0;
+};
+struct DrawnOf {
+  std::array<double, 4> operator()(const ContactRow& row) const {
+    return {row.N, row.T, std::isfinite(row.gap) ? row.gap : 0.0, static_cast<double>(row.state)};
+  }
 };
 
-std::map<std::string, Motion> read_motion(const fs::path& directory) {
+std::map<std::string, std::vector<ContactRow>> read_motion(const fs::path& directory) {
   const bool record = is_file(directory / "motion.csv");
   CsvReader reader(directory / (record ? "motion.csv" : "contacts.csv"));
   const std::size_t t = reader.column("t"), who = reader.column("contact"), state = reader.column("state"),
                     gap = reader.column("gap"), N = reader.column("N"), T = reader.column("T");
-  std::map<std::string, Motion> all;
-  while (reader.next()) {
-    Motion& motion = all[reader.cell(who)];
-    motion.t.push_back(reader.number(t));
-    motion.state.push_back(reader.cell(state));
-    motion.gap.push_back(reader.cell(gap).empty() ? std::nan("") : reader.number(gap));
-    motion.N.push_back(reader.number(N));
-    motion.T.push_back(reader.number(T));
-  }
+  const std::vector<std::string>& names = state_names();
+  std::map<std::string, std::vector<ContactRow>> all;
+  while (reader.next())
+    all[reader.cell(who)].push_back(
+        {reader.number(t), reader.number(N), reader.number(T),
+         reader.cell(gap).empty() ? std::nan("") : reader.number(gap),
+         std::find(names.begin(), names.end(), reader.cell(state)) - names.begin()});
   return all;
 }
 
-Json motion_json(const Motion& motion, std::size_t most) {
+Json motion_json(const std::vector<ContactRow>& rows, std::size_t most, double t_end) {
+  Thinned<ContactRow, 4, DrawnOf, 3> thinned(t_end, {.most = most, .crowded = true});
+  for (const ContactRow& row : rows) thinned.add(row);
   Json t = Json::array(), state = Json::array(), N = Json::array(), T = Json::array(), gap = Json::array();
-  const std::vector<std::string>& names = state_names();
-  for (const std::size_t i : kept_rows(motion.t, most)) {
-    t.push_back(motion.t[i]);
-    state.push_back(std::find(names.begin(), names.end(), motion.state[i]) - names.begin());
-    N.push_back(number(motion.N[i]));
-    T.push_back(number(motion.T[i]));
-    gap.push_back(number(motion.gap[i]));
+  for (const ContactRow& row : thinned.rows()) {
+    t.push_back(row.t);
+    state.push_back(row.state);
+    N.push_back(number(row.N));
+    T.push_back(number(row.T));
+    gap.push_back(number(row.gap));
   }
   return {{"t", std::move(t)},
           {"state", std::move(state)},
@@ -274,16 +323,16 @@ Json motion_json(const Motion& motion, std::size_t most) {
 }
 
 Json contacts_json(const Scene& scene, const Places& places, const fs::path& directory) {
-  const std::map<std::string, Motion> motions = read_motion(directory);
+  const std::map<std::string, std::vector<ContactRow>> motions = read_motion(directory);
   std::size_t rows = 0;
-  for (const auto& [name, motion] : motions) rows += motion.t.size();
+  for (const auto& [name, motion] : motions) rows += motion.size();
   Json contacts = Json::array();
   for (const ContactSpec& contact : scene.contacts) {
     Json json = contact_json(contact, scene, places);
     const auto found = motions.find(contact.name);
-    const Motion& motion = found == motions.end() ? Motion{} : found->second;
-    const std::size_t share = rows <= most_motion ? motion.t.size() : motion.t.size() * most_motion / rows;
-    json["motion"] = motion_json(motion, std::max<std::size_t>(share, 200));
+    const std::vector<ContactRow> motion = found == motions.end() ? std::vector<ContactRow>{} : found->second;
+    const std::size_t share = rows <= most_motion ? motion.size() : motion.size() * most_motion / rows;
+    json["motion"] = motion_json(motion, std::max<std::size_t>(share, 200), scene.run.t_end);
     contacts.push_back(std::move(json));
   }
   return contacts;
@@ -314,7 +363,7 @@ Json colours_json() {
 }  // namespace
 
 Json run_data(const Scene& scene, const fs::path& directory) {
-  const Displacements all = displacements(directory);
+  const Displacements all = displacements(directory, scene.run.t_end);
   const Places places(scene, all.names);
   return {{"t_end", number(scene.run.t_end)},
           {"units", {scene.units.force, scene.units.length, scene.units.time}},

@@ -2,11 +2,12 @@
 //
 //   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: held, or not recorded)
 //   pieces  a, b (indices of nodes), bar; springs, supports, loads, contacts with their directions
-//   curve   t, u: a row of displacements a time;   contacts[k].motion: t, state, N, T, gap
+//   curve   times: lists;   columns: t (index of its list), u;   contacts[k].motion: t, state, N, T, gap
 //   events  t, contact (index, -1 without), event, from, to
 //
 // Displacements come from curves.csv where it has all nodes, else from history.csv. A scene of [matrices] has its degrees of
-// freedom as nodes in a row, which move across it. Of long records rows are left out evenly, but never the two sides of a jump.
+// freedom as nodes in a row, which move across it. Each curve has its own times, as in the record (base/thinned.hpp);
+// of history.csv rows are left out evenly, but never the two sides of a jump.
 // Numbers have six digits, enough to draw; times all of theirs, so that an event is found in every record.
 #pragma once
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double wide = 1120.0;                                           // pixels
 constexpr double pixels_a_mm = 96.0 / 25.4, dots_a_pixel = 300.0 / 96.0;  // PNG: 300 an inch
+constexpr double usual_dots = 1.5;                                        // PNG: a pixel
+constexpr double most_dots = 32000.0;                                     // of a side
 constexpr double letter_height = 13.0;                                    // pixels
 constexpr double least_letter = 6.0 * 96.0 / 72.0;                        // 6 points, what journals ask for
 
@@ -89,8 +91,13 @@ Canvas canvas_of(const PictureLook& look, double height, bool over_time, bool fi
   return canvas;
 }
 
+double tallest(const PictureLook& look) {
+  const double dots = look.width > 0.0 ? dots_a_pixel : usual_dots;
+  return most_dots / (dots * canvas_of(look, 0.0, false, true).pixel);
+}
+
 std::string terminals(const Canvas& canvas, bool sized) {
-  const double dots = sized ? dots_a_pixel : 1.5;
+  const double dots = sized ? dots_a_pixel : usual_dots;
   const auto size = [&](double scale) {
     return fmt::format("{},{}", std::lround(canvas.width * canvas.pixel * scale),
                        std::lround(canvas.height * canvas.pixel * scale));

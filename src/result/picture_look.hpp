@@ -47,6 +47,9 @@ struct Canvas {
 /// `height`: of a width of 1120. over_time: it may be another; else it is no less than that in any case where `fixed`.
 [[nodiscard]] Canvas canvas_of(const PictureLook& look, double height, bool over_time, bool fixed = false);
 
+/// The greatest height that a `fixed` canvas may have. Cairo draws 32767 dots a side.
+[[nodiscard]] double tallest(const PictureLook& look);
+
 /// gnuplot's terminals, chosen by its variable `format`.
 [[nodiscard]] std::string terminals(const Canvas& canvas, bool sized);
 

@@ -149,17 +149,14 @@ std::string contact_script(const PlottedRun& run, std::size_t k) { return Contac
 
 std::string states_script(const PlottedRun& run) {
   const std::size_t count = run.facts.contacts.size();
+  const double row = row_height(34.0, count, run.look);
   const Canvas canvas =
-      canvas_of(run.look, room_above + room_below + 24.0 + 34.0 * static_cast<double>(count), true, true);
+      canvas_of(run.look, room_above + room_below + 24.0 + row * static_cast<double>(count), true, true);
   std::string s = begin_script(run, {"states", say(run, "States of the contacts"), canvas});
   s += panel(run, canvas, stacked(0, 1, canvas), "", true);
   s += fmt::format("set yrange [{}.5:-0.5]\nset y2range [{}.5:-0.5]\nset grid noxtics noytics\n", count - 1,
                    count - 1);
-  s += "set ytics (";
-  for (std::size_t k = 0; k < count; ++k) {
-    s += (k > 0 ? ", " : "") + quoted_tick(run.facts.contacts[k].name) + fmt::format(" {}", k);
-  }
-  s += ") scale 0\n";
+  s += row_ticks(run.facts.contacts, row);
   std::vector<std::string> elements;
   for (const std::string& state : state_names()) {
     bool named = false;

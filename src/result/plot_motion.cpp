@@ -29,8 +29,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 struct PlottedLine {
-  std::string title, data;
-  std::size_t number = 0;  ///< of its column in the data, from 1
+  std::string title;
+  TableColumn curve;
 };
 
 struct PanelOfLines {
@@ -49,8 +49,8 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
       const std::string& name = run.columns[i];
       if (!ends_with(name, p.key)) continue;
-      const TableColumn curve = curve_of(run, "history.csv", name, i + 1);
-      p.lines.push_back({name.substr(0, name.size() - p.key.size()), curve.data, curve.number});
+      p.lines.push_back(
+          {name.substr(0, name.size() - p.key.size()), curve_of(run, "history.csv", name, i + 1)});
     }
   double greatest = 0.0;
   for (const auto& [name, range] : run.moves)
@@ -78,7 +78,7 @@ std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
     PanelOfLines& p = same == panels.end()
                           ? panels.emplace_back(PanelOfLines{column.unit, "[" + column.unit + "]", {}})
                           : *same;
-    p.lines.push_back({column.name, "'../response.csv'", i + 2});
+    p.lines.push_back({column.name, {"'../response.csv'", 1, i + 2}});
   }
   for (PanelOfLines& p : panels)
     if (p.lines.size() == 1) p.label = p.lines[0].title + " " + p.label;
@@ -101,11 +101,11 @@ std::string script_of_lines(const PlottedRun& run, Picture picture, const std::v
     if (shown > 12) s += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
     std::vector<std::string> elements;
     for (std::size_t j = 0; j < shown; ++j)
-      elements.push_back(
-          fmt::format("{} using 1:{} with lines linewidth {} {} title {}", p.lines[j].data,
-                      // Curves that coincide show through: every other one is thinner and dashed, on top.
-                      p.lines[j].number, j % 2 == 0 ? "1.9" : "1.2",
-                      colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"), quoted(p.lines[j].title)));
+      elements.push_back(fmt::format(
+          "{} using {}:{} with lines linewidth {} {} title {}", p.lines[j].curve.data, p.lines[j].curve.time,
+          // Curves that coincide show through: every other one is thinner and dashed, on top.
+          p.lines[j].curve.number, j % 2 == 0 ? "1.9" : "1.2",
+          colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"), quoted(p.lines[j].title)));
     if (shown < p.lines.size())
       elements.push_back("NaN with lines linecolor '#ffffff' title " +
                          quoted("(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"));
@@ -146,18 +146,19 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!used[i + 1]) continue;
     const TableColumn curve = curve_of(run, "energy.csv", energy_columns[i].name, i + 2);
-    elements.push_back(fmt::format("{} using 1:{} with lines {} title {}", curve.data, curve.number,
-                                   parts[i].second, quoted(say(run, parts[i].first))));
+    elements.push_back(fmt::format("{} using {}:{} with lines {} title {}", curve.data, curve.time,
+                                   curve.number, parts[i].second, quoted(say(run, parts[i].first))));
   }
   const TableColumn balance = curve_of(run, "energy.csv", balance_column, 10);
   if (elements.empty())
-    elements.push_back(balance.data + " using 1:(0) with lines title " + quoted(say(run, "kinetic")));
+    elements.push_back(balance.data + fmt::format(" using {}:(0) with lines title ", balance.time) +
+                       quoted(say(run, "kinetic")));
   s += plot_command(elements);
   s += panel(run, canvas, edges[1], say(run, "balance off by") + " [" + unit + "]", true);
   s += "set format y '%.1e'\n";
-  s +=
-      plot_command({fmt::format("{} using 1:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
-                                balance.data, balance.number, shortest(start), quoted(say(run, "drift")))});
+  s += plot_command(
+      {fmt::format("{} using {}:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
+                   balance.data, balance.time, balance.number, shortest(start), quoted(say(run, "drift")))});
   s += "set format y '%g'\n";
   return s + end_script();
 }

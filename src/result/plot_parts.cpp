@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/number.hpp"
@@ -18,13 +19,23 @@ constexpr std::size_t most_points = 20000;  // a curve; beyond that an SVG is sl
 
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'' && result.size() == 1) {
-      result += "\u2019";  // within a block, gnuplot takes three quotes at the start for an empty string
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c != '\'') {
+      result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
       continue;
     }
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    // Within a block, gnuplot takes three quotes at the start for an empty string, and does not read four in a row:
+    // apostrophes side by side become a string of their own.
+    const std::size_t count = std::min(text.find_first_not_of('\'', i), text.size()) - i;
+    if (count > 1) {
+      result += "'.\"";
+      for (std::size_t k = 0; k < count; ++k) result += "\\047";
+      result += "\".'";
+      i += count - 1;
+    } else {
+      result += i == 0 ? "\u2019" : "''";
+    }
   }
   return result + "'";
 }
@@ -51,10 +62,12 @@ std::string contact_rows(const PlottedRun& run, std::size_t k, const std::string
 
 TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
                      std::size_t number) {
-  const auto found = std::find(run.curves.begin(), run.curves.end(), name);
-  if (found != run.curves.end())
-    return {"'../curves.csv' skip 1", static_cast<std::size_t>(found - run.curves.begin()) + 1};
-  return {quoted("../" + table) + " skip 1" + every(run, 1, 0), number};
+  const auto found = run.curves.find(name);
+  if (found != run.curves.end() && found->second.count > 1)
+    return {fmt::format("'../curves.csv' skip 1 every ::{}::{}", found->second.first,
+                        found->second.first + found->second.count - 1),
+            2, 3};
+  return {quoted("../" + table) + " skip 1" + every(run, 1, 0), 1, number};
 }
 
 std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas, double space) {
@@ -72,6 +85,20 @@ std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas
 
 PanelEdges stacked(std::size_t i, std::size_t count, const Canvas& canvas, double space) {
   return stacked(std::vector<double>(count, 1.0), canvas, space)[i];
+}
+
+double row_height(double usual, std::size_t count, const PictureLook& look) {
+  const double around = room_above + room_below + 24.0;
+  return std::min(usual, (tallest(look) - around) / static_cast<double>(count));
+}
+
+std::string row_ticks(const std::vector<RunFacts::Contact>& contacts, double height) {
+  constexpr double line = 14.0;  // pixels that a label needs
+  const auto stride = static_cast<std::size_t>(std::max(1.0, std::ceil(line / height)));
+  std::string s = "set ytics (";
+  for (std::size_t k = 0; k < contacts.size(); k += stride)
+    s += (k > 0 ? ", " : "") + quoted_tick(contacts[k].name) + fmt::format(" {}", k);
+  return s + ") scale 0\n";
 }
 
 namespace {

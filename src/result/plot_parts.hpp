@@ -50,7 +50,8 @@ struct PlottedRun {
     std::size_t first = 0, count = 0;
   };
   std::vector<Rows> motion;
-  std::vector<std::string> curves;       ///< columns of curves.csv; none in runs that have no such table
+  /// Rows of a curve in curves.csv, by its name; none in runs that have no such table.
+  std::map<std::string, Rows> curves;
   double legend = Canvas::usual_legend;  ///< pixels beside its panels
   std::vector<ContactRanges> ranges;     ///< of the time shown, one a contact
   std::map<std::string, Range> moves;    ///< of the displacements, by name of the column
@@ -80,12 +81,12 @@ template <class... Parts>
 [[nodiscard]] std::string contact_rows(const PlottedRun& run, std::size_t k,
                                        const std::string& run_directory = "..");
 
-/// A table for gnuplot, and the number of one of its columns, from 1.
+/// Rows of a table for gnuplot, and the numbers of their columns of time and value, from 1.
 struct TableColumn {
   std::string data;
-  std::size_t number = 0;
+  std::size_t time = 1, number = 0;
 };
-/// A column by name: of curves.csv where it has it, else of `table`, where it is the number-th.
+/// A curve by name: of curves.csv where it has it, else of `table`, where it is the number-th column.
 [[nodiscard]] TableColumn curve_of(const PlottedRun& run, const std::string& table, const std::string& name,
                                    std::size_t number);
 
@@ -98,6 +99,12 @@ struct PanelEdges {
 /// Panels above each other, as high as these weights are to each other.
 [[nodiscard]] std::vector<PanelEdges> stacked(const std::vector<double>& weights, const Canvas& canvas,
                                               double space = 22.0);
+
+/// Pixels of a row where `count` stand above each other: less than usual where the picture would be taller than can be
+/// drawn.
+[[nodiscard]] double row_height(double usual, std::size_t count, const PictureLook& look);
+/// Names of contacts beside rows of this height: as many as do not overlap.
+[[nodiscard]] std::string row_ticks(const std::vector<RunFacts::Contact>& contacts, double height);
 
 /// Size and headings of a picture.
 struct Picture {

@@ -60,6 +60,16 @@ void read_displacements(const fs::path& file, PlottedRun& run) {
   }
 }
 
+void read_moves(const fs::path& file, PlottedRun& run) {
+  CsvReader reader(file);
+  const std::size_t name = reader.column("curve"), t = reader.column("t"), value = reader.column("value");
+  while (reader.next()) {
+    if (!is_displacement(reader.cell(name))) continue;
+    if (const double at = reader.number(t); at < run.from || at > run.to) continue;
+    run.moves[reader.cell(name)].take(reader.number(value));
+  }
+}
+
 }  // namespace
 
 void Range::take(double value) {
@@ -103,8 +113,10 @@ void read_ranges(const fs::path& directory, PlottedRun& run) {
   read_contacts(directory, run);
   run.moves.clear();
   // What is drawn of displacements stands in curves.csv, where there is such a table.
-  const bool curves = is_table(directory / "curves.csv");
-  read_displacements(directory / (curves ? "curves.csv" : "history.csv"), run);
+  if (is_table(directory / "curves.csv"))
+    read_moves(directory / "curves.csv", run);
+  else
+    read_displacements(directory / "history.csv", run);
 }
 
 }  // namespace signorini

@@ -58,17 +58,18 @@ std::string raster_script(const PlottedRun& run) {
   const std::vector<EventLook> lanes = lanes_of(run);
   if (lanes.empty()) return "";
   const std::size_t count = run.facts.contacts.size();
-  const int row = count <= 2 ? 120 : count <= 6 ? 70 : count <= 40 ? 38 : 12;
+  const double row = row_height(count <= 2    ? 120.0
+                                : count <= 6  ? 70.0
+                                : count <= 40 ? 38.0
+                                              : 12.0,
+                                count, run.look);
   const Canvas canvas =
-      canvas_of(run.look, room_above + room_below + 16 + row * static_cast<int>(count), true, true);
+      canvas_of(run.look, room_above + room_below + 16.0 + row * static_cast<double>(count), true, true);
   std::string s =
       begin_script(run, {"raster" + run.suffix, say(run, "Events of the contacts, a mark each"), canvas});
   s += panel(run, canvas, stacked(0, 1, canvas), "", true);
-  s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\nset ytics (", count - 1);
-  for (std::size_t k = 0; k < count; ++k) {
-    s += (k > 0 ? ", " : "") + quoted_tick(run.facts.contacts[k].name) + fmt::format(" {}", k);
-  }
-  s += ") scale 0\n";
+  s += fmt::format("set yrange [{}.5:-0.5]\nset grid noxtics noytics\n", count - 1) +
+       row_ticks(run.facts.contacts, row);
   for (std::size_t k = 1; k < count; ++k) {
     s += fmt::format(
         "set arrow from graph 0, first {0}.5 to graph 1, first {0}.5 nohead linecolor '#bbbbbb'\n", k - 1);

@@ -44,4 +44,19 @@ void read_motion(const fs::path& directory, const ContactNumbers& numbers, Plott
   }
 }
 
+void read_curves(const fs::path& directory, PlottedRun& run) {
+  std::error_code error;
+  run.curves.clear();
+  if (!fs::is_regular_file(directory / "curves.csv", error)) return;
+  CsvReader curves(directory / "curves.csv");
+  const std::size_t name = curves.column("curve");
+  for (std::size_t row = 0; curves.next(); ++row) {
+    PlottedRun::Rows& rows = run.curves[curves.cell(name)];
+    if (rows.count == 0) rows.first = row;
+    if (row != rows.first + rows.count)
+      throw FileError((directory / "curves.csv").string(), "has rows of curves that are not in order");
+    ++rows.count;
+  }
+}
+
 }  // namespace signorini

@@ -1,6 +1,6 @@
 // plot_rows.hpp: which rows of a run's tables are those of which contact.
 //
-//   contacts.csv: contact k of n has rows k, k + n, k + 2 n, ...;   motion.csv: all of its rows one after another
+//   contacts.csv: contact k of n has rows k, k + n, k + 2 n, ...;   motion.csv, curves.csv: all of its rows one after another
 #pragma once
 
 #include <filesystem>
@@ -20,5 +20,8 @@ using ContactNumbers = std::map<std::string, std::size_t>;
 /// Where motion.csv has the rows of which contact, and the greatest forces; nothing where it is missing.
 /// greatest_compression has a number a contact. Errors: FileError for rows that are not in order.
 void read_motion(const std::filesystem::path& directory, const ContactNumbers& numbers, PlottedRun& run);
+/// Where curves.csv has the rows of which curve; nothing where it is missing. Errors: FileError for rows that are not in
+/// order.
+void read_curves(const std::filesystem::path& directory, PlottedRun& run);
 
 }  // namespace signorini

@@ -112,19 +112,20 @@ std::string band_table(const std::vector<PlottedRun::Band>& bands) {
 std::string energy_script_of(const fs::path& directory, PlottedRun run) {
   CsvReader energy(directory / "energy.csv");
   std::vector<bool> used(energy_columns.size() + 1, false);  // as columns of energy.csv
-  const auto look = [&](const CsvReader& reader) {
-    for (std::size_t i = 0; i < energy_columns.size(); ++i)
-      used[i + 1] = used[i + 1] || reader.number(reader.column(energy_columns[i].name)) != 0.0;
-  };
   double start = 0.0;
   run.times = 0;
   for (; energy.next(); ++run.times) {
-    look(energy);
+    for (std::size_t i = 0; i < energy_columns.size(); ++i)
+      used[i + 1] = used[i + 1] || energy.number(energy.column(energy_columns[i].name)) != 0.0;
     if (run.times == 0) start = energy.number(energy.column(balance_column));
   }
   if (!run.curves.empty()) {
     CsvReader curves(directory / "curves.csv");
-    while (curves.next()) look(curves);
+    const std::size_t name = curves.column("curve"), value = curves.column("value");
+    while (curves.next())
+      for (std::size_t i = 0; i < energy_columns.size(); ++i)
+        used[i + 1] =
+            used[i + 1] || (curves.cell(name) == energy_columns[i].name && curves.number(value) != 0.0);
   }
   return energy_script(run, used, start);
 }
@@ -191,8 +192,7 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
   run.slugs = make_slugs(run.facts.contacts);
   read_bands(directory, run);
   std::error_code missing;
-  if (fs::is_regular_file(directory / "curves.csv", missing))
-    run.curves = CsvReader(directory / "curves.csv").header();
+  read_curves(directory, run);
   run.from = window.from.value_or(run.t_first);
   run.to = window.to.value_or(run.t_last);
   const bool closer = !window.from && !window.to && zoom_helps(run);

@@ -175,13 +175,13 @@ void RunDirectory::curves(const Curves& curves) {
   writers();
   CsvFile file(path_ / "curves.csv");
   CsvBlock block;
-  for (const std::string& name : curves.names) block.text(name);
-  block.end_row();
-  for (const std::vector<double>& row : curves.rows) {
-    for (const double value : row) block.number(value);
-    block.end_row();
-  }
+  block.text("curve").text("t").text("value").end_row();
   file.write(block);
+  for (std::size_t i = 0; i < curves.names.size(); ++i) {
+    for (const CurvePoint& point : curves.points[i])
+      block.text(curves.names[i]).number(point.t).number(point.value).end_row();
+    file.write(block);  // one by one: the text of all takes more memory than the run
+  }
 }
 
 void RunDirectory::response(double t, const std::vector<double>& values) {

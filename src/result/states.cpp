@@ -6,17 +6,35 @@ namespace signorini {
 
 StateWriter::StateWriter(const std::filesystem::path& directory, const Model& model)
     : model_(model), file_(directory / "states.csv") {
-  block_.text("t");
-  for (const Dof& dof : model.physical_dofs()) block_.text(dof.displacement);
-  for (const Dof& dof : model.physical_dofs()) block_.text(dof.velocity);
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (c.shear) sliding_.push_back(k);
+    if (!c.surface_motion.is_constant()) surfaces_.push_back(k);
+    if (c.has_friction()) rubbing_.push_back(k);
+    if (c.own) own_.push_back(k);
+  }
+  // The points that slide come last, and have columns of their own, which reduced models need, too.
+  structural_ = model.physical_dofs().size() - (model.reduction ? 0 : sliding_.size());
   for (const Load& load : model.loads)
     if (load.kind == LoadKind::support) supports_.push_back(&load);
+  head();
+}
+
+void StateWriter::head() {
+  block_.text("t");
+  for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].displacement);
+  for (std::size_t i = 0; i < structural_; ++i) block_.text(model_.physical_dofs()[i].velocity);
   for (const Load* support : supports_) block_.text(support->name);
   for (const Load* support : supports_) block_.text(rate_of(support->name));
-  for (const Contact& c : model.contacts)
-    if (c.has_friction()) block_.text(c.name + ".T");
-  for (const Contact& c : model.contacts)
-    if (c.has_friction()) block_.text(c.name + ".state");
+  const auto name = [&](const std::vector<std::size_t>& contacts, const char* what) {
+    for (const std::size_t k : contacts) block_.text(model_.contacts[k].name + what);
+  };
+  name(sliding_, ".slip");
+  name(surfaces_, ".surface");
+  name(rubbing_, ".T");
+  name(rubbing_, ".state");
+  name(own_, ".own");
+  name(own_, ".memory");
   block_.end_row();
   file_.write(block_);
 }
@@ -24,17 +42,19 @@ StateWriter::StateWriter(const std::filesystem::path& directory, const Model& mo
 void StateWriter::write(const Sample& sample) {
   if (sample.t == last_) return;
   last_ = sample.t;
-  const auto n = static_cast<Eigen::Index>(model_.physical_dofs().size());
   block_.number(sample.t);
   for (const Vector* x : {sample.u, sample.v})
-    for (Eigen::Index i = 0; i < n; ++i) block_.number((*x)[i]);
+    for (std::size_t i = 0; i < structural_; ++i) block_.number((*x)[static_cast<Eigen::Index>(i)]);
   for (const int order : {0, 1})
     for (const Load* support : supports_)
       block_.number(support->history.piece(sample.t).value(sample.t, order));
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (model_.contacts[k].has_friction()) block_.number(sample.contacts[k].T);
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (model_.contacts[k].has_friction()) block_.text(std::string(to_string(sample.contacts[k].state)));
+  const auto surface = [&](std::size_t k) { return model_.contacts[k].surface_motion.value(sample.t); };
+  for (const std::size_t k : sliding_) block_.number(sample.contacts[k].slip + surface(k));
+  for (const std::size_t k : surfaces_) block_.number(surface(k));
+  for (const std::size_t k : rubbing_) block_.number(sample.contacts[k].T);
+  for (const std::size_t k : rubbing_) block_.text(std::string(to_string(sample.contacts[k].state)));
+  for (const std::size_t k : own_) block_.number(static_cast<double>(number_of(sample.contacts[k].state)));
+  for (const std::size_t k : own_) block_.number(sample.contacts[k].memory);
   block_.end_row();
   file_.write(block_);
 }

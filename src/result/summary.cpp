@@ -234,6 +234,19 @@ Json audit_json(const Model& model, const Audit& a) {
   return json;
 }
 
+Json witness_json(const Model& model, const Testimony& witness) {
+  Json list = Json::array();
+  for (const Violation& v : witness.violations)
+    list.push_back(
+        {{"t", v.t},
+         {"event", v.event},
+         {"contact", v.contact < 0 ? Json() : Json(model.contacts[static_cast<std::size_t>(v.contact)].name)},
+         {"law", v.law},
+         {"value", v.value},
+         {"limit", v.limit}});
+  return {{"checked", witness.checked}, {"violated", witness.violated}, {"violations", list}};
+}
+
 Json energy_json(const Energy& e) {
   Json json;
   for (const EnergyColumn& column : energy_columns) json[column.name] = e.*column.value;
@@ -290,6 +303,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   if (!run.certificate && !run.why_not.empty()) json["not_certified"] = run.why_not;
   json["counters"] = counter_json(report.counters);
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
+  json["witness"] = witness_json(model, report.witness);
   json["audit"] = audit_json(model, report.audit);
   json["energy"] = {{"initial", energy_json(report.audit.initial)},
                     {"final", energy_json(report.audit.final)},

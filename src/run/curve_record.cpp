@@ -1,10 +1,11 @@
 #include "run/curve_record.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <map>
+#include <optional>
 
-#include "run/thinned.hpp"
+#include "base/rounding.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -12,7 +13,22 @@ namespace {
 
 constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
 constexpr double most_intervals = 8000.0;   // of the run: a tenth of a picture's point
-constexpr std::size_t most_values = 100000, most_rows = 8000, fewest_rows = 1600;
+constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
+// Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
+constexpr double least_rise = 1e-3;
+constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
+
+/// The vertex of the parabola through three rows whose middle one is a peak; nothing elsewhere, and at instants.
+std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
+  const double left = b.t - a.t, right = c.t - b.t;
+  if (!(left > 0.0 && right > 0.0 && std::isfinite(left))) return std::nullopt;
+  const double rise = b.value - a.value, fall = c.value - b.value;
+  if (!(rise * fall < 0.0)) return std::nullopt;
+  const double curvature = (fall / right - rise / left) / (left + right);
+  const double slope = rise / left + curvature * left;  // at b
+  const double to = -0.5 * slope / curvature;
+  return CurvePoint{b.t + to, b.value + 0.5 * slope * to};
+}
 
 }  // namespace
 
@@ -23,22 +39,29 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
       wanted_(recorder.wants_motion()) {
   if (!wanted_) return;
   std::map<std::string, std::size_t> of_kind;
-  for (const Column& column : model.columns) {
-    if (column.velocity || ++of_kind[column.name.substr(column.name.rfind('.') + 1)] > most_of_a_kind)
-      continue;
-    columns_.push_back(column);
+  std::vector<Column> columns;
+  for (const Column& column : model.columns)
+    if (!column.velocity && ++of_kind[column.name.substr(column.name.rfind('.') + 1)] <= most_of_a_kind)
+      columns.push_back(column);
+  const std::size_t most =
+      std::clamp(most_values / (columns.size() + energy_columns.size() + 1), fewest_points, most_points);
+  const Thinned<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
+  for (const Column& column : columns) {
     const bool turns =
         column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
-    factors_.push_back(turns ? 1.0 : model.unit.length);
+    curves_.push_back(
+        {column.name, turns ? Kind::angle : Kind::length, column.dof, turns ? 1.0 : model.unit.length, none});
   }
-  most_rows_ =
-      std::clamp(most_values / (columns_.size() + energy_columns.size() + 2), fewest_rows, most_rows);
+  const double unit = factor_of(unit::energy, model.unit);
+  for (const EnergyColumn& column : energy_columns)
+    curves_.push_back({column.name, Kind::energy, -1, unit, none});
+  curves_.push_back({balance_column, Kind::balance, -1, unit, none});
 }
 
 std::vector<int> CurveRecord::dofs() const {
   std::vector<int> list;
-  for (const Column& column : columns_)
-    if (column.dof >= 0) list.push_back(column.dof);
+  for (const Curve& curve : curves_)
+    if (curve.dof >= 0) list.push_back(curve.dof);
   return list;
 }
 
@@ -47,44 +70,51 @@ bool CurveRecord::needs(double t) const { return t - last_ >= t_end_ / most_inte
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
   if (!wanted()) return;
   last_ = t;
-  Row row{t * model_.unit.time, {}};
-  row.values.reserve(columns_.size() + energy_columns.size() + 1);
   const bool plain = !model_.reduction && !model_.basis;
   const Vector physical = plain ? Vector() : model_.physical(u);
   const Vector& shown = plain ? u : physical;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    row.values.push_back(columns_[i].dof < 0 ? 0.0 : shown[columns_[i].dof] * factors_[i]);
-  const double unit = factor_of(unit::energy, model_.unit);
-  for (const EnergyColumn& column : energy_columns) row.values.push_back(energy.*column.value * unit);
-  row.values.push_back(energy.balance() * unit);
-  if (!rows_.empty() && rows_.back().t == row.t && rows_.back().values == row.values) return;
-  rows_.push_back(std::move(row));
-  if (rows_.size() > most_rows_) thin();
-}
-
-void CurveRecord::thin() {
-  const double t_end = t_end_ * model_.unit.time;
-  if (width_ == 0.0) width_ = t_end / static_cast<double>(most_rows_);
-  // The balance, last, is rounding: its extremes would keep all.
-  const std::size_t count = columns_.size() + energy_columns.size();
-  const auto value = [](const Row& row, std::size_t i) { return row.values[i]; };
-  rows_ = thinned(std::move(rows_), width_, count, value);
-  while (rows_.size() > most_rows_ / 2) {
-    width_ *= 2.0;
-    rows_ = thinned(std::move(rows_), width_, count, value);
+  const double at = t * model_.unit.time;
+  auto energies = energy_columns.begin();
+  for (Curve& curve : curves_) {
+    double value = curve.dof < 0 ? 0.0 : shown[curve.dof];
+    if (curve.kind == Kind::energy) value = energy.*(energies++)->value;
+    if (curve.kind == Kind::balance) value = energy.balance();
+    add(curve, {at, value * curve.factor});
   }
 }
 
-void CurveRecord::write(Recorder& recorder) const {
+void CurveRecord::add(Curve& curve, const CurvePoint& point) {
+  auto& [first, second] = curve.before;
+  if (!curve.begun) {
+    curve.begun = true;
+    second = point;
+    return;
+  }
+  // The balance is rounding: a parabola through it says nothing.
+  const std::optional<CurvePoint> peak =
+      curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
+  const bool higher = peak && std::abs(peak->value - second.value) > least_rise * curve.points.range();
+  if (higher && peak->t < second.t) curve.points.add(*peak);
+  curve.points.add(second);
+  if (higher && peak->t > second.t) curve.points.add(*peak);
+  first = second;
+  second = point;
+}
+
+void CurveRecord::write(Recorder& recorder) {
   if (!wanted()) return;
+  std::map<Kind, double> greatest{{Kind::angle, turn}};
+  for (Curve& curve : curves_) {
+    if (curve.begun) curve.points.add(curve.before[1]);
+    greatest[curve.kind] = std::max(greatest[curve.kind], curve.points.size(0));
+  }
   Curves curves;
-  curves.names.emplace_back("t");
-  for (const Column& column : columns_) curves.names.push_back(column.name);
-  for (const EnergyColumn& column : energy_columns) curves.names.emplace_back(column.name);
-  curves.names.emplace_back(balance_column);
-  for (const Row& row : rows_) {
-    curves.rows.push_back({row.t});
-    curves.rows.back().insert(curves.rows.back().end(), row.values.begin(), row.values.end());
+  for (Curve& curve : curves_) {
+    const double rounding =
+        curve.kind == Kind::balance ? 0.0 : rounding::of_elimination * greatest[curve.kind];
+    curve.points.close({rounding});
+    curves.names.push_back(curve.name);
+    curves.points.push_back(curve.points.take());
   }
   recorder.curves(curves);
 }

@@ -1,13 +1,18 @@
 // curve_record.hpp: displacements and energies for pictures, bounded, whatever output_dt is.
 //
-//   t, displacements of named nodes (of each kind as many as a picture shows), energies, balance
+//   a curve a displacement of named nodes (of each kind as many as a picture shows), an energy, the balance
+//   rows y_k at t_k;   where y_1 is a peak of three:   the vertex of the parabola through them is a row, too
 //
 // Rows are both sides of every instant, and ends and insides of steps as many as a line needs, taken where
-// contacts are (motion_record.hpp); thinned in the same way, with the extremes of every column kept.
+// contacts are (motion_record.hpp). Each curve is thinned by itself (base/thinned.hpp). No parabola leads across an
+// instant: its two sides have one time.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <vector>
 
+#include "base/thinned.hpp"
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
@@ -27,22 +32,31 @@ class CurveRecord {
   [[nodiscard]] double last() const { return last_; }
   /// u: of the model that is computed. In the scene's units from here on.
   void add(double t, const Vector& u, const Energy& energy);
-  void write(Recorder& recorder) const;
+  /// The record ends.
+  void write(Recorder& recorder);
 
  private:
-  struct Row {
-    double t = 0.0;
-    std::vector<double> values;
+  struct ValueOf {
+    std::array<double, 1> operator()(const CurvePoint& point) const { return {point.value}; }
   };
-  void thin();
+  /// Rounding is told by the greatest of a kind.
+  enum class Kind { length, angle, energy, balance };
+  struct Curve {
+    std::string name;
+    Kind kind;
+    int dof;        // -1: held, or an energy
+    double factor;  // of its unit
+    Thinned<CurvePoint, 1, ValueOf> points;
+    std::array<CurvePoint, 2> before = {
+        {{-std::numeric_limits<double>::infinity(), 0.0}, {}}};  // the last two
+    bool begun = false;
+  };
+  void add(Curve& curve, const CurvePoint& point);
 
   const Model& model_;
-  double t_end_, last_, width_ = 0.0;
+  double t_end_, last_;
   bool wanted_;
-  std::vector<Column> columns_;  // of displacements
-  std::vector<double> factors_;  // of their units
-  std::size_t most_rows_ = 0;
-  std::vector<Row> rows_;
+  std::vector<Curve> curves_;  // displacements, energies, the balance
 };
 
 }  // namespace signorini

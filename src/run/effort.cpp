@@ -68,6 +68,7 @@ Effort effort_of_exact(const EffortParts& parts) {
   result.steps_per_period /= gain;
   result.steps /= gain;
   result.seconds = result.by_modes;
+  result.first = modes;
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace signorini {
 struct Effort {
   double steps_per_period = 0.0;  ///< of omega_max
   double steps = 0.0, seconds = 0.0;
+  double first = 0.0;  ///< of them, seconds before the first step has ended: modes of a state
   double by_series = 0.0,
          by_modes = 0.0;  ///< exact: seconds with each flow; 0: modes cannot follow the scene
 };

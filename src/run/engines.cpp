@@ -16,8 +16,10 @@
 namespace signorini {
 namespace {
 
-[[noreturn]] void refuse(const RunSpec& run, const std::string& what) {
-  throw SceneError(run.place, "run.engine", fmt::format("engine \"{}\" {}", to_string(run.engine), what));
+constexpr const char* ida_instead = "use \"ida\"";
+
+[[noreturn]] void refuse(const RunSpec& run, const std::string& what, const std::string& instead) {
+  throw UnfitEngine(run, what, instead);
 }
 
 void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
@@ -25,8 +27,8 @@ void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 void refuse_own_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
     if (contact.own)
-      refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own; use \"ida\"",
-                              contact.name));
+      refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own", contact.name),
+             ida_instead);
 }
 
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
@@ -35,16 +37,16 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
     if (friction_varies(contact))
       refuse(run,
              fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
-                         "rate; use \"ida\"",
-                         contact.name));
+                         "rate",
+                         contact.name),
+             ida_instead);
 }
 
 void refuse_functions(const Model& model, const RunSpec& run) {
   const auto check = [&](const History& history, const std::string& what) {
     if (!history.has_closed_form())
-      refuse(run, fmt::format("needs loads in closed form, and {} is a function of one's own; use \"ida\" or "
-                              "\"newmark\"",
-                              what));
+      refuse(run, fmt::format("needs loads in closed form, and {} is a function of one's own", what),
+             "use \"ida\" or \"newmark\"");
   };
   for (const Load& load : model.loads) check(load.history, load.name);
   for (const Contact& contact : model.contacts) {
@@ -59,9 +61,8 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
   refuse_functions(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses())
-      refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid; use \"newmark\" or law = "
-                              "\"compliant\"",
-                              contact.name));
+      refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid", contact.name),
+             "use \"newmark\" or law = \"compliant\"");
   }
 }
 
@@ -73,8 +74,10 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
     for (const Piece& p : history.pieces())
       for (std::size_t j = most_levels - 1; j < p.coefficients.size(); ++j)
         if (p.coefficients[j] != 0.0)
-          refuse(run, fmt::format("takes polynomials up to degree {}; {} has degree {} or more",
-                                  most_levels - 2, what, j));
+          refuse(run,
+                 fmt::format("takes polynomials up to degree {}; {} has degree {} or more", most_levels - 2,
+                             what, j),
+                 "");
   };
   for (const Load& load : model.loads) check(load.history, load.name);
   for (const Contact& contact : model.contacts) {
@@ -123,7 +126,7 @@ std::unique_ptr<Stepper> make_newmark(const EngineParts& p) {
 }
 
 std::unique_ptr<Stepper> make_friction_iteration(const EngineParts& p) {
-  return std::make_unique<FrictionIteration>(p.model, p.structure, p.run);
+  return std::make_unique<FrictionIteration>(p.model, p.structure, p.systems, p.run);
 }
 
 constexpr std::array rows_of_engines = {
@@ -137,6 +140,12 @@ constexpr std::array rows_of_engines = {
 static_assert(rows_of_engines.size() == all_engines.size());
 
 }  // namespace
+
+UnfitEngine::UnfitEngine(const RunSpec& run, const std::string& what, const std::string& instead)
+    : SceneError(run.place, "run.engine",
+                 fmt::format("engine \"{}\" {}{}{}", to_string(run.engine), what, instead.empty() ? "" : "; ",
+                             instead)),
+      why(what) {}
 
 const EngineRow& engine_row(Engine engine) {
   return *std::find_if(rows_of_engines.begin(), rows_of_engines.end(),

@@ -13,6 +13,7 @@
 #include "engine/tolerance.hpp"
 #include "motion/mode_systems.hpp"
 #include "run/effort.hpp"
+#include "signorini/error.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -27,9 +28,16 @@ struct EngineParts {
   int max_order;
 };
 
+/// An engine that does not take the scene: why, without what to use instead.
+class UnfitEngine : public SceneError {
+ public:
+  UnfitEngine(const RunSpec& run, const std::string& what, const std::string& instead);
+  std::string why;
+};
+
 struct EngineRow {
   Engine engine;
-  /// Errors: SceneError at run.engine, naming the contact or the load.
+  /// Errors: UnfitEngine at run.engine, naming the contact or the load.
   void (*refuse)(const Model& model, const RunSpec& run);
   /// Order and its reason. Errors: SceneError where a step is needed and not given.
   Method (*method)(const Model& model, const RunSpec& run);

@@ -93,11 +93,13 @@ std::optional<double> time_uncertainty(const Crossing& crossing, double error) {
 }
 
 void EventLog::start(const Instant& now, const Stepper& stepper) {
+  latest_.clear();
   for (std::size_t k = 0; k < now.before->size(); ++k)
     if (is_hit(*now.decision, k)) contact(now, k, EventType::impact, stepper);
 }
 
 void EventLog::instant(const Instant& now, const Stepper& stepper) {
+  latest_.clear();
   if (now.load_jumps) load_jump(now);
   const Decision& decision = *now.decision;
   for (std::size_t k = 0; k < now.before->size(); ++k) {
@@ -157,6 +159,7 @@ void EventLog::contact(const Instant& now, std::size_t k, EventType type, const 
   Event event = event_of(now, k, type, model_.contacts[k].has_gap());
   add_conditioning(now, stepper, k, event);
   recorder_.event(event);
+  latest_.push_back(std::move(event));
 }
 
 /// How sharp the time of an event is, and whether its order among the others is.
@@ -170,8 +173,9 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
   // The instant itself is known to its resolution only.
   settle(model_.contacts[k], error + std::abs(crossing.derivatives[0]) * now.resolution, event);
   const std::optional<double> off = time_uncertainty(crossing, error);
-  if (!off) return;
-  event.t_uncertainty = std::max(*off, now.resolution);
+  const double unseen = now.unseen.empty() ? 0.0 : now.unseen[k];
+  if (!off && !(unseen > 0.0)) return;
+  event.t_uncertainty = std::max({off.value_or(0.0), now.resolution, unseen});
   if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > now.resolution &&
       event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
     warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}", name_of_last(),

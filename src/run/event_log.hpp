@@ -40,11 +40,15 @@ class EventLog {
     const Decision* decision = nullptr;
     const Mode* before = nullptr;  ///< the states just before
     bool load_jumps = false;
+    /// For how long the guard that fell had been zero to its rounding, one a contact; empty: none had.
+    std::vector<double> unseen = {};
   };
   /// Hits of rigid contacts; nothing else is an event at the start.
   void start(const Instant& now, const Stepper& stepper);
   void instant(const Instant& now, const Stepper& stepper);
   void finish();
+  /// The rows of the last instant that have a contact, in the units of the model but for guard_rate.
+  [[nodiscard]] const std::vector<Event>& latest() const { return latest_; }
 
  private:
   void load_jump(const Instant& now);
@@ -57,6 +61,7 @@ class EventLog {
   const Model& model_;
   Recorder& recorder_;
   Report& report_;
+  std::vector<Event> latest_;
   Event last_;  // with a contact whose guard fell
   struct Hit {
     double t = 0.0;

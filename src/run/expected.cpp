@@ -11,8 +11,6 @@
 namespace signorini {
 namespace {
 
-constexpr double minute = 60.0;
-
 /// One digit: it is an order of magnitude.
 double rough(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)));
@@ -56,16 +54,6 @@ std::optional<double> exact_instead(const Model& model, const RunSpec& run) {
   if (run.engine != Engine::ida || !exact_takes(model, run)) return std::nullopt;
   const Effort effort = expected(model, by_exact(run)).effort;
   return effort.seconds > 0.0 ? std::optional(effort.seconds) : std::nullopt;
-}
-
-std::string warn_of_patience(const Model& model, const RunSpec& run, const std::string& scene) {
-  if (run.engine != Engine::ida) return "";
-  const double seconds = expected(model, run).effort.seconds;
-  if (!(seconds > minute)) return "";
-  const std::string told = fmt::format("ida is expected to take {} s", about_seconds(seconds));
-  const std::optional<double> exact = exact_instead(model, run);
-  if (!exact || *exact >= seconds) return told + ", by order of magnitude";
-  return fmt::format("{}, exact {} s: signorini run {} --engine exact", told, about_seconds(*exact), scene);
 }
 
 std::string about_seconds(double seconds) {

@@ -29,9 +29,6 @@ struct Expected {
 /// scene, or where nobody knows.
 [[nodiscard]] std::optional<double> exact_instead(const Model& model, const RunSpec& run);
 
-/// Where ida is expected to take more than a minute: a sentence that says so, and what to do. Else empty.
-[[nodiscard]] std::string warn_of_patience(const Model& model, const RunSpec& run, const std::string& scene);
-
 /// "about 3", "less than 0.1"
 [[nodiscard]] std::string about_seconds(double seconds);
 

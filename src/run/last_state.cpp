@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "model/assembly/loads.hpp"
+#include "scene/saved_state.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini {
@@ -10,7 +12,11 @@ SavedState last_state(const Model& model, const Result& result) {
   const Result::Row& last = result.rows.back();
   SavedState state;
   const std::vector<Dof>& dofs = model.physical_dofs();
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
+  // Points that slide come last; "c.slip" stands for them.
+  const auto sliding = std::count_if(model.contacts.begin(), model.contacts.end(),
+                                     [](const Contact& c) { return c.shear.has_value(); });
+  const std::size_t structural = dofs.size() - (model.reduction ? 0 : static_cast<std::size_t>(sliding));
+  for (std::size_t i = 0; i < structural; ++i) {
     state.motions.emplace_back(dofs[i].displacement, last.u[static_cast<Eigen::Index>(i)]);
     state.motions.emplace_back(dofs[i].velocity, last.v[static_cast<Eigen::Index>(i)]);
   }
@@ -22,6 +28,11 @@ SavedState last_state(const Model& model, const Result& result) {
     }
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const ContactSample& contact = last.contacts[k];
+    const History& surface = model.contacts[k].surface_motion;
+    if (model.contacts[k].shear)
+      state.motions.emplace_back(model.contacts[k].name + ".slip", contact.slip + surface.value(last.t));
+    if (!surface.is_constant())
+      state.motions.emplace_back(model.contacts[k].name + ".surface", surface.value(last.t));
     if (model.contacts[k].own)
       state.own.push_back({model.contacts[k].name, number_of(contact.state), contact.memory});
     if (!model.contacts[k].has_friction()) continue;
@@ -30,6 +41,7 @@ SavedState last_state(const Model& model, const Result& result) {
   }
   const Scales& s = model.scales;
   state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
+  state.motions.emplace_back(saved_alpha, model.alpha);
   return state;
 }
 

@@ -1,19 +1,19 @@
 #include "run/motion_record.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
-#include "run/thinned.hpp"
 
 namespace signorini {
 namespace {
 
-// A file of five megabytes; a contact's picture is a thousand points wide.
+// A file of five megabytes, where motions are slow enough for that.
 constexpr std::size_t most_in_all = 40000, most_of_one = 8000, fewest_of_one = 400;
+constexpr double fewest_intervals = 250.0;  // so that what stands still has rows, too
+constexpr std::size_t most_drawn = 24;      // contacts with a picture of their own
 // A step is some three radians of the fastest motion, which a line of eight pieces shows; but a picture shows
 // no more than half a pixel, and must not be coarser than a pixel or two.
 constexpr double pieces_of_step = 8.0, most_pieces_of_run = 2000.0, fewest_pieces_of_run = 600.0;
@@ -24,8 +24,10 @@ constexpr double most_pieces = 1000.0;
 MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder)
     : t_end_(t_end), spacing_(t_end / most_pieces_of_run) {
   if (!recorder.wants_motion() || model.contacts.empty()) return;
-  tracks_.resize(model.contacts.size());
-  most_rows_ = std::clamp(most_in_all / tracks_.size(), fewest_of_one, most_of_one);
+  const std::size_t count = model.contacts.size();
+  const std::size_t most = std::clamp(most_in_all / count, fewest_of_one, most_of_one);
+  for (std::size_t k = 0; k < count; ++k)
+    tracks_.push_back({{t_end, {most, k >= most_drawn, true, t_end / fewest_intervals}}});
   const auto parts = coupled_contacts(model);
   reached_.resize(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -76,38 +78,35 @@ void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcin
   bool all = true;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     Track& track = tracks_[k];
-    const double last = track.rows.empty() ? -t_end_ : track.rows.back().t;
+    const double last = track.rows.rows().empty() ? -t_end_ : track.rows.rows().back().t;
     if (!reached_[track.part] && t - last < spacing_) {
       all = false;
       continue;
     }
-    if (reached_[track.part] && !track.rows.empty() && last < track.before.t) keep(track, track.before);
+    if (reached_[track.part] && !track.rows.rows().empty() && last < track.before.t)
+      keep(track, track.before);
     keep(track, {t, auditor.sample(k, forcing, t, mode[k], point)});
   }
   if (all) last_ = t;
 }
 
 void MotionRecord::keep(Track& track, const MotionRow& row) {
-  track.rows.push_back(row);
-  if (track.rows.size() <= most_rows_) return;
-  // What has come since the last time may fit into bins as wide as they are.
-  if (track.width == 0.0) track.width = t_end_ / static_cast<double>(most_rows_);
-  thin(track);
-  while (track.rows.size() > most_rows_ / 2) {
-    track.width *= 2.0;
-    thin(track);
+  track.rows.add(row);
+  spacing_ = std::min(std::max(spacing_, track.rows.width()), t_end_ / fewest_pieces_of_run);
+}
+
+void MotionRecord::write(Recorder& recorder) {
+  double length = 0.0, force = 0.0;
+  for (const Track& track : tracks_) {
+    force = std::max({force, track.rows.size(0), track.rows.size(1)});
+    length = std::max({length, track.rows.size(2), track.rows.size(3)});
   }
-  spacing_ = std::min(std::max(spacing_, track.width), t_end_ / fewest_pieces_of_run);
-}
-
-void MotionRecord::thin(Track& track) const {
-  constexpr std::array what{&ContactSample::N, &ContactSample::T, &ContactSample::gap, &ContactSample::ut};
-  track.rows = thinned(std::move(track.rows), track.width, what.size(),
-                       [&](const MotionRow& row, std::size_t i) { return row.sample.*what[i]; });
-}
-
-void MotionRecord::write(Recorder& recorder) const {
-  for (std::size_t k = 0; k < tracks_.size(); ++k) recorder.motion(static_cast<int>(k), tracks_[k].rows);
+  force *= rounding::of_elimination;
+  length *= rounding::of_elimination;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    tracks_[k].rows.close({force, force, length, length, 0.0});
+    recorder.motion(static_cast<int>(k), tracks_[k].rows.rows());
+  }
 }
 
 }  // namespace signorini

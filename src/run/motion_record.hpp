@@ -1,18 +1,19 @@
 // motion_record.hpp: the motion of the contacts for pictures, bounded, whatever output_dt is.
 //
 //   rows of a contact: both sides of every instant that reaches it, turning points, and ends and insides of
-//   steps as many as a line needs. Of each bin of width w they are thinned to the first, the last, and those
-//   with the least and the greatest N, T, gap and ut;   w = 0 at first, then doubled as often as bins leave
-//   too many
+//   steps as many as a line needs; thinned (base/thinned.hpp) by N, T, gap and ut
 //
-// So a short run is drawn in full, and of a long one what a picture can show of it, every peak included. An
+// So a short run is drawn in full, and of a long one what a picture can show of its rows; of contacts that
+// no picture is drawn of by itself, what a number of rows can show. An
 // instant reaches the contacts that M, C, K or contacts couple with one that has changed; a jump of the
 // forcing reaches all. A thousand bodies have no rows of each other's events.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "base/thinned.hpp"
 #include "run/audit.hpp"
 #include "signorini/result.hpp"
 
@@ -42,24 +43,28 @@ class MotionRecord {
              const std::optional<std::vector<std::size_t>>& changed);
   /// Time of the last row of all contacts.
   [[nodiscard]] double last() const { return last_; }
-  /// Hands over all rows, contact by contact.
-  void write(Recorder& recorder) const;
+  /// Hands over all rows, contact by contact. The record ends.
+  void write(Recorder& recorder);
 
  private:
+  /// Both sides of a change of the state are kept, as far as lines go.
+  struct Drawn {
+    std::array<double, 5> operator()(const MotionRow& row) const {
+      return {row.sample.N, row.sample.T, row.sample.gap, row.sample.ut,
+              static_cast<double>(row.sample.state)};
+    }
+  };
   struct Track {
-    std::vector<MotionRow> rows;
-    double width = 0.0;    // of a bin
+    Thinned<MotionRow, 5, Drawn, 4> rows;
     std::size_t part = 0;  // contacts of other parts do not reach this one
-    MotionRow before;
+    MotionRow before = {};
   };
   void keep(Track& track, const MotionRow& row);
-  void thin(Track& track) const;
 
   double t_end_;
   double spacing_;  // of rows that nothing but a line needs, at least
   double last_ = 0.0;
   std::vector<Moment> moments_;
-  std::size_t most_rows_ = 0;  // of a contact
   std::vector<Track> tracks_;
   std::vector<bool> reached_;  // parts
 };

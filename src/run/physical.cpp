@@ -91,6 +91,10 @@ Report physical(Report report, const Factors& of) {
   convert(unit::time, {&report.outcome.t});
   if (report.forgiven_at) convert(unit::time, {&*report.forgiven_at});
   convert(report.audit);
+  for (Violation& v : report.witness.violations) {
+    convert(unit::time, {&v.t});
+    convert(v.unit, {&v.value, &v.limit});
+  }
   for (Peak& peak : report.peaks) {
     convert(unit::length, {&peak.tangential, &peak.normal});
     convert(unit::force, {&peak.N, &peak.T});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "decide/decider.hpp"
 #include "decide/driven_states.hpp"
 #include "model/rescale.hpp"
@@ -16,38 +17,46 @@
 #include "run/curve_record.hpp"
 #include "run/engines.hpp"
 #include "run/event_log.hpp"
+#include "run/expected.hpp"
 #include "run/last_touch.hpp"
+#include "run/meddler.hpp"
 #include "run/motion_record.hpp"
 #include "run/observer.hpp"
 #include "run/physical.hpp"
 #include "run/response.hpp"
+#include "run/run_witness.hpp"
 #include "run/samples.hpp"
 #include "run/standstill.hpp"
 #include "run/steering.hpp"
 #include "run/warnings.hpp"
+#include "run/zero_since.hpp"
+#include "scene/quantities.hpp"
 
 namespace signorini {
 namespace {
 
 // A stretch h in which nothing moves: engines divide by h^2, which must not overflow. In any unit of time.
 constexpr double shortest_stretch = 1e-100;
-constexpr int most_gains = 5;  // warnings about impacts that gain energy
+constexpr int most_gains = 5;  // warnings about impacts that gain energy, and about contacts left at once
 
 /// Computes in the units of its model (Model::unit); the recorder takes them, the report has those of the
 /// scene.
 class Loop {
  public:
   Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method method, Recorder& recorder,
-       const RoundListener& listener, MotionObserver* observer)
+       const RoundListener& listener, MotionObserver* observer, Meddler* meddler)
       : model_(model),
         spec_(spec),
         recorder_(recorder),
         observer_(observer),
+        meddler_(meddler),
         structure_(model),
         systems_(model, structure_),
         tolerance_(tolerance_of(model, spec)),
         decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity()),
         engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order})),
+        truth_(meddler ? std::make_unique<Model>(model) : nullptr),
+        witness_(corrected(), spec, tolerance_, method.flow == "modal", engine_->knows_low_flights()),
         auditor_(model, structure_),
         log_(model, recorder, report_),
         samples_(model, spec, auditor_, recorder),
@@ -75,6 +84,12 @@ class Loop {
   }
 
  private:
+  const Model& corrected() {
+    if (!truth_) return model_;
+    meddler_->correct(*truth_);
+    return *truth_;
+  }
+
   bool stop(std::string reason, Outcome::Kind kind = Outcome::Kind::stopped) {
     report_.outcome.kind = kind;
     report_.outcome.reason = std::move(reason);
@@ -93,6 +108,8 @@ class Loop {
 
   bool start() {
     watch();
+    point_.u = model_.u0;  // of a run that is refused here it is the last one
+    point_.v = model_.v0;
     Instant now;
     now.u = model_.u0;
     now.v = model_.v0;
@@ -105,12 +122,18 @@ class Loop {
     if (!decision_.consistent) return refuse(decision_.refusal);
     const std::vector<std::string> cut = cut_shears(model_, decision_);
     report_.warnings.insert(report_.warnings.end(), cut.begin(), cut.end());
-    warn_of_gain();
+    warn_of_decision();
     if (observer_) observer_->begin({0.0, 0.0, {}, false, guessed, decision_, forcing_, forcing_, model_.v0});
     auditor_.begin(decision_, guessed, forcing_, decided_point());
     log_.start({0.0, 0.0, &decision_, &guessed, false}, *engine_);
+    zero_since_.decided(0.0, decision_, true);
+    const Point given{model_.u0, model_.v0, decision_.jet.forces.col(0)};
+    RunWitness::Instant seen{0.0,       resolution_, &given,     &guessed,
+                             &forcing_, &forcing_,   &decision_, &log_.latest()};
+    seen.start = true;
+    witness_.instant(seen);
     take_decision(std::nullopt);
-    return true;
+    return witnessed();
   }
 
   /// From a restart to the next event or discontinuity. False: the run ends.
@@ -121,6 +144,7 @@ class Loop {
       t_ = end;
       return instant({}) && steered();
     }
+    if (meddler_) meddler_->watch(decision_.guards);
     engine_->start({end, &decision_, &forcing_});
     for (;;) {
       Step step = engine_->advance();
@@ -129,10 +153,12 @@ class Loop {
       if (observer_)
         observer_->step(
             {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
+      if (meddler_ && step.kind == Step::Kind::event) step.end += meddler_->late(step, decision_);
       pass(step);
       if (step.kind == Step::Kind::event)
         return instant(std::move(step.fired), std::move(step.adopted)) && steered();
       auditor_.observe(forcing_, t_, decision_.mode, point_);
+      witness_.between(t_, forcing_, decision_.mode, point_);
       if (residual_due_) auditor_.equilibrium(t_, engine_->residual());
       residual_due_ = false;
       if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
@@ -221,9 +247,13 @@ class Loop {
     const bool all = now.jump;
     if (all) before = std::exchange(forcing_, Forcing(model_, t_, Side::after));
     const Mode old_mode = decision_.mode;
+    std::vector<double> unseen = zero_since_.before(t_, now.fired);
     const std::vector<Fired> observed = observer_ ? now.fired : std::vector<Fired>{};
+    Instant again;
+    if (meddler_) again = now;
     Decision next = adopted ? decider_.adopt(now, *adopted, forcing_)
                             : decider_.decide(std::move(now), before ? *before : forcing_, forcing_);
+    if (meddler_ && next.consistent) meddle(std::move(again), next);
     if (!next.consistent || stands) {
       last_energy_ = auditor_.energy(t_, decision_.mode, point_);
       return refuse(!next.consistent ? next.refusal
@@ -237,12 +267,38 @@ class Loop {
       response_.before(t_, point_, auditor_.losses());
     auditor_.instant(t_, next, old_mode, point_, load_jumps);
     decision_ = std::move(next);
-    warn_of_gain();
-    log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps}, *engine_);
+    warn_of_decision();
+    log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps, std::move(unseen)}, *engine_);
+    zero_since_.decided(t_, decision_, all);
+    witness_.instant({t_, resolution_, &point_, &old_mode, before ? &*before : &forcing_, &forcing_,
+                      &decision_, &log_.latest(), false, all, load_jumps, adopted.has_value()});
     for (std::size_t k = 0; k < old_mode.size(); ++k)
       if (decision_.mode[k].state != old_mode[k].state) changed.push_back(k);
     take_decision(all ? std::nullopt : std::optional(std::move(changed)));
-    return true;
+    return witnessed();
+  }
+
+  /// False: what was recorded of the motion up to here breaks a law, and nothing explains it.
+  bool witnessed() { return witness_.grave().empty() || stop(witness_.grave()); }
+
+  /// The motion goes on from what a test has made of a decision.
+  void meddle(Instant now, Decision& decided) {
+    Decision changed = decided;
+    if (!meddler_->change(now.mode, point_.v, changed)) return;
+    now.u = changed.u;
+    now.v = changed.v;
+    const Decision other = decider_.adopt(now, changed.mode, forcing_);
+    changed.consistent = other.consistent;
+    changed.refusal = other.refusal;
+    changed.system = other.system;
+    changed.u = other.u;
+    changed.v = other.v;
+    changed.jet = other.jet;
+    changed.after = other.after;
+    changed.slides_after = other.slides_after;
+    changed.guards = other.guards;
+    changed.captures = other.captures;
+    decided = std::move(changed);
   }
 
   /// Contacts whose guards fell, or whose states the engine has changed.
@@ -279,7 +335,7 @@ class Loop {
   /// changed: contacts whose states or velocities have; absent: perhaps all.
   void take_decision(const std::optional<std::vector<std::size_t>>& changed) {
     if (decision_.undecided) ++report_.undecided;
-    if (decision_.forgiven > 0.0 && !report_.forgiven_at) report_.forgiven_at = t_;
+    if ((decision_.forgiven > 0.0 || decision_.unresolved) && !report_.forgiven_at) report_.forgiven_at = t_;
     point_ = decided_point();
     auditor_.observe(forcing_, t_, decision_.mode, point_);
     last_energy_ = auditor_.energy(t_, decision_.mode, point_);
@@ -312,7 +368,10 @@ class Loop {
     residual_due_ = true;
   }
 
-  void warn_of_gain() {
+  void warn_of_decision() {
+    for (const std::size_t c : decision_.released)
+      if (++releases_ <= most_gains)
+        report_.warnings.push_back(left_at_once(model_, c, t_ * model_.unit.time));
     if (decision_.impact_gains && ++gains_ <= most_gains)
       report_.warnings.push_back(
           impact_gain(t_ * model_.unit.time, -decision_.impact_loss * factor_of(unit::energy, model_.unit)));
@@ -335,23 +394,37 @@ class Loop {
     curves_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
+    report_.witness = std::move(witness_.testimony());
     report_.response = response_.extremes();
     if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
     report_ = physical(std::move(report_), model_);
-    if (const auto sentence = energy_lost(report_.audit, report_.method))
+    if (report_.witness.violated > 0 && witness_.grave().empty())
+      report_.warnings.push_back(sentence_of(report_.witness, model_));
+    if (const auto sentence =
+            energy_lost(report_.audit, report_.method, rounding_of_energy(), exact_takes(model_, spec_)))
       report_.warnings.push_back(*sentence);
+  }
+
+  /// What a double leaves of u K u / 2, whose terms may be far greater than their sum. In the scene's unit.
+  [[nodiscard]] double rounding_of_energy() const {
+    const auto terms = [&](const Vector& u) { return 0.5 * structure_.magnitude(structure_.k, u.data()); };
+    return rounding::of_many * std::max(terms(model_.u0), terms(point_.u)) *
+           factor_of(unit::energy, model_.unit);
   }
 
   const Model& model_;
   const RunSpec& spec_;
   Recorder& recorder_;
   MotionObserver* observer_;  // null: nobody
+  Meddler* meddler_;          // null: nobody
   Report report_;
   Structure structure_;
   ModeSystems systems_;
   Tolerance tolerance_;
   Decider decider_;
   std::unique_ptr<Stepper> engine_;
+  std::unique_ptr<Model> truth_;  // null: model_
+  RunWitness witness_;
   Auditor auditor_;
   EventLog log_;
   Samples samples_;
@@ -359,6 +432,7 @@ class Loop {
   CurveRecord curves_;
   ResponseWatch response_;
   LastTouch touches_;
+  ZeroSince zero_since_;
   Standstill standstill_;
   std::vector<Breakpoint> breakpoints_;
   Forcing forcing_;  // after t_
@@ -370,7 +444,7 @@ class Loop {
   std::size_t next_breakpoint_ = 0;
   LoadChanges changes_;
   LoadChanges::Change change_;  // of the loads, at t_
-  int gains_ = 0;
+  int gains_ = 0, releases_ = 0;
   bool residual_due_ = false;  // at the end of the step: once for every row
 };
 
@@ -383,7 +457,7 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder)
 namespace {
 
 Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder,
-                 const RoundListener& listener, MotionObserver* observer) {
+                 const RoundListener& listener, MotionObserver* observer, Meddler* meddler = nullptr) {
   const EngineChoice choice = choose_engine(model, settings);
   RunSpec spec = settings;
   spec.engine = choice.engine;
@@ -395,7 +469,8 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   Model computed = rescaled(model, to_machine);
   spec = rescaled(std::move(spec), to_machine);
   PhysicalRecorder in_scene(computed, recorder);
-  return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed), observer)
+  return Loop(computed, spec, engine, std::move(method), in_scene, physical(listener, computed), observer,
+              meddler)
       .run();
 }
 
@@ -408,6 +483,10 @@ Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder,
 
 Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, MotionObserver& observer) {
   return simulated(model, settings, recorder, {}, &observer);
+}
+
+Report simulate(const Model& model, const RunSpec& settings, Recorder& recorder, Meddler& meddler) {
+  return simulated(model, settings, recorder, {}, nullptr, &meddler);
 }
 
 Result simulate(const Model& model, const RunSpec& settings) {

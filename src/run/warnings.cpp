@@ -36,16 +36,31 @@ std::string impact_gain(double t, double gain) {
       t, gain);
 }
 
-std::optional<std::string> energy_lost(const Audit& audit, const Method& method) {
+std::string left_at_once(const Model& model, std::size_t c, double t) {
+  return fmt::format(
+      "contact '{}' let go at t = {:.9g}: no continuous motion goes on there, and the parts without mass on "
+      "it moved "
+      "at once to where they are in equilibrium without it; with mass or a damper on them they need time for "
+      "that",
+      model.contacts[c].name, t);
+}
+
+std::optional<std::string> energy_lost(const Audit& audit, const Method& method, double rounding,
+                                       bool other) {
   const double off = audit.energy.value;
   const double scale = std::max(audit.force_scale * audit.length_scale, audit.initial.stored());
-  if (!(off > much_energy * audit.energy_scale && off > least_energy * scale)) return std::nullopt;
+  if (!(off > much_energy * audit.energy_scale && off > least_energy * scale && off > rounding))
+    return std::nullopt;
+  const std::string much =
+      off > audit.energy_scale
+          ? fmt::format("{:.2g}, more than was exchanged ({:.2g})", off, audit.energy_scale)
+          : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
+  const std::string told =
+      fmt::format("the energy balance is off by {} (at t = {:.6g}); ", much, audit.energy.t);
+  if (method.engine == Engine::exact) return told + "signorini verify sets two other engines beside this run";
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
-  return fmt::format(
-      "the energy balance is off by {:.2g} of what was exchanged (at t = {:.6g}); use {}, or "
-      "engine \"{}\"",
-      off / audit.energy_scale, audit.energy.t,
-      steps ? "a smaller run.dt" : "a tighter rtol, an atol that fits the motion", to_string(Engine::exact));
+  return told + (steps ? "use a smaller run.dt" : "use a tighter rtol, an atol that fits the motion") +
+         (other ? fmt::format(", or engine \"{}\"", to_string(Engine::exact)) : "");
 }
 
 }  // namespace signorini

@@ -14,7 +14,12 @@ namespace signorini {
 /// An impact that gains energy.
 [[nodiscard]] std::string impact_gain(double t, double gain);
 
-/// The balance of a finished audit is off by more than 1e-3 of what was exchanged.
-[[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method);
+/// Parts without mass have left contact c at once. t: in the scene's unit.
+[[nodiscard]] std::string left_at_once(const Model& model, std::size_t c, double t);
+
+/// The balance of a finished audit is off by more than 1e-3 of what was exchanged, and by more than `rounding`, what a
+/// double leaves of the energy stored. other: `exact` takes the scene.
+[[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
+                                                     double rounding, bool other);
 
 }  // namespace signorini

@@ -25,6 +25,7 @@ constexpr std::size_t most_parts = 16;  // no key of a scene lies nearly as deep
 constexpr std::pair<const char*, const char*> alternatives[] = {{"output_dt", "output_times"},
                                                                 {"alpha", "alpha_over_omega1"},
                                                                 {"omega", "frequency"},
+                                                                {"gap", "gaps"},
                                                                 {"cutoff_omega", "cutoff_frequency"}};
 /// What stands in place of another.
 constexpr std::pair<const char*, const char*> instead[] = {{"tolerance", "cutoff_omega"},
@@ -48,10 +49,28 @@ std::vector<std::size_t> chosen_by(const std::string& which, const toml::array& 
   return chosen;
 }
 
+const std::string all_contacts = "contacts.*.";
+
+/// Whether this stop can have what `key`, a key of contacts, says: it is no slider and has its own direction; it has
+/// friction with a tangential stiffness or where it is rigid, and none of [matrices].
+bool can_have(const toml::table& root, const toml::table& stop, const std::string& key) {
+  const std::string name = key.substr(0, key.find('.'));
+  if (find_key("stops[]", name) == nullptr || name == "normal_force") return false;
+  if (name != "friction") return true;
+  if (root.contains("matrices")) return false;
+  return stop.contains("tangential_stiffness") || stop.contains("seam") ||
+         stop["law"].value<std::string>() == "rigid";
+}
+
+std::size_t tables_in(const toml::table& root, const std::string& kind) {
+  const toml::array* array = root[kind].as_array();
+  return array ? array->size() : 0;
+}
+
 class Change {
  public:
-  explicit Change(const Override& change) : change_(change) {
-    if (const std::string text = text_of(change_); !is_plain_text(text))
+  Change(const Override& change, const Override& given) : change_(change), given_(given) {
+    if (const std::string text = text_of(given_); !is_plain_text(text))
       throw UsageError(excerpt(text) + ": found bytes that are no plain UTF-8 text");
     std::string segment;
     for (const char c : change.path + ".") {
@@ -78,7 +97,7 @@ class Change {
   using Segments = std::span<const std::string>;
 
   [[noreturn]] void fail(const std::string& message) const {
-    throw UsageError(text_of(change_) + ": " + message);
+    throw UsageError(text_of(given_) + ": " + message);
   }
 
   /// The value where it is wanted, each time anew: a copied node forgets its place.
@@ -96,7 +115,7 @@ class Change {
 
   /// `value = VALUE`
   toml::table parsed() const {
-    const std::string file = text_of(change_);
+    const std::string file = text_of(given_);
     const auto parse = [&](const std::string& value) {
       return toml::parse("value = " + value, std::string_view(file));
     };
@@ -136,7 +155,7 @@ class Change {
       return;
     }
     if (!table.contains(rest[0])) {
-      toml::table nested = toml::parse("value = " + left_out(rest), text_of(change_));
+      toml::table nested = toml::parse("value = " + left_out(rest), text_of(given_));
       table.insert_or_assign(key, std::move(*nested.get("value")));
     }
     toml::node* next = table.get(rest[0]);
@@ -191,18 +210,13 @@ class Change {
   }
 
   const Override& change_;
+  const Override& given_;  // what messages name
   std::vector<std::string> segments_;
   std::optional<toml::table> ready_;
   toml::source_region place_;
 };
 
-}  // namespace
-
-std::string text_of(const Override& change) {
-  return std::string(override_prefix) + change.path + "=" + change.value;
-}
-
-std::vector<std::string> places_of(const toml::table& root, const std::string& path) {
+std::vector<std::string> places_of_one(const toml::table& root, const std::string& path) {
   struct Place {
     const toml::node* node;
     std::string text;
@@ -232,12 +246,59 @@ std::vector<std::string> places_of(const toml::table& root, const std::string& p
   return texts;
 }
 
+}  // namespace
+
+std::string text_of(const Override& change) {
+  return std::string(override_prefix) + change.path + "=" + change.value;
+}
+
+std::vector<std::string> paths_meant(const toml::table& root, const std::string& path) {
+  const toml::array* stops = root["stops"].as_array();
+  if (!path.starts_with(all_contacts) || !stops) return {path};
+  const std::string key = path.substr(all_contacts.size());
+  std::vector<std::string> meant;
+  if (tables_in(root, "contacts") > 0) meant.push_back(path);
+  for (std::size_t i = 0; i < stops->size(); ++i) {
+    const toml::table* stop = (*stops)[i].as_table();
+    if (!stop || !can_have(root, *stop, key)) continue;
+    const auto name = (*stop)["name"].value<std::string>();
+    meant.push_back(fmt::format("stops.{}.{}", name ? *name : std::to_string(i + 1), key));
+  }
+  return meant.empty() ? std::vector<std::string>{path} : meant;
+}
+
+std::vector<std::string> places_of(const toml::table& root, const std::string& path) {
+  std::vector<std::string> places;
+  for (const std::string& meant : paths_meant(root, path)) {
+    std::vector<std::string> more = places_of_one(root, meant);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  return places;
+}
+
+std::string tables_met(const toml::table& root, const std::string& path) {
+  if (("." + path + ".").find(".*.") == std::string::npos) return {};
+  std::size_t met = 0, stops = 0;
+  const std::string kind = path.substr(0, path.find('.'));
+  for (const std::string& place : places_of(root, path)) ++(place.starts_with(kind + ".") ? met : stops);
+  std::string text = fmt::format("{} of [[{}]]", tables_in(root, kind) > 0 ? met : 0, kind);
+  if (!path.starts_with(all_contacts) || tables_in(root, "stops") == 0) return text;
+  text += fmt::format(", {} of [[stops]]", stops);
+  if (const std::size_t others = tables_in(root, "stops") - stops; others > 0)
+    text += fmt::format(" ({} cannot have this key as {})", others, others == 1 ? "it is" : "they are");
+  return text;
+}
+
 bool lies_in(const std::string& a, const std::string& b) {
   return a.starts_with(b) && (a.size() == b.size() || a[b.size()] == '.');
 }
 
 void apply_overrides(toml::table& root, const std::vector<Override>& overrides) {
-  for (const Override& change : overrides) Change(change).apply(root);
+  for (const Override& change : overrides)
+    for (const std::string& path : paths_meant(root, change.path)) {
+      const Override one{path, change.value};
+      Change(one, change).apply(root);
+    }
 }
 
 }  // namespace signorini

@@ -1,5 +1,7 @@
 #include "scene/quantities.hpp"
 
+#include "scene/saved_state.hpp"
+
 namespace signorini {
 namespace {
 
@@ -53,7 +55,9 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     const std::string component = name.substr(name.rfind('.') + 1);
     const bool rotation = component == "rz" || component == "wz";
     const bool rates = component[0] == 'v' || component[0] == 'w';
-    visit(value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
+    visit(value, name == saved_alpha ? rate
+                 : rotation          ? (rates ? rate : plain)
+                                     : (rates ? velocity : length));
   }
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
   for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);

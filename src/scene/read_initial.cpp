@@ -80,11 +80,25 @@ void read_stages(Table& run, InitialSpec& initial) {
 }
 
 /// From the summary of a run; none where it has none, as that of a run that was killed.
-std::optional<std::array<double, 5>> scales_of_run(const std::filesystem::path& directory) {
+Json model_of_run(const std::filesystem::path& directory) {
   std::ifstream in(directory / "summary.json");
-  if (!in) return std::nullopt;
+  if (!in) return {};
   try {
-    const Json scales = parse_json(in).at("model").at("scales");
+    return parse_json(in).at("model");
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
+
+std::optional<double> alpha_of_run(const Json& model) {
+  const auto alpha = model.find("alpha");
+  if (alpha == model.end() || !alpha->is_number()) return std::nullopt;
+  return alpha->get<double>();
+}
+
+std::optional<std::array<double, 5>> scales_of_run(const Json& model) {
+  try {
+    const Json& scales = model.at("scales");
     std::array<double, 5> found{};
     std::size_t i = 0;
     for (const char* name : {"displacement", "rotation", "velocity", "angular_velocity", "force"})
@@ -114,7 +128,9 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
                                 path.string(), found.times.empty() ? "none" : listed_plainly(found.times)));
   initial.saved = std::move(*found.wanted);
   initial.saved->run = directory.string();
-  initial.saved->scales = scales_of_run(directory);
+  const Json model = model_of_run(directory);
+  initial.saved->scales = scales_of_run(model);
+  if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);
   Record record;
   record.set("run", toml_string(std::filesystem::absolute(directory).lexically_normal().string()));
   if (t) record.set("t", toml_number(*t));

@@ -218,4 +218,12 @@ std::vector<std::string> places_in(const std::string& scene, const std::string& 
   return places_of(parse_text(text_of_file(scene), scene), path);
 }
 
+std::string tables_met_in(const std::string& scene, const std::vector<Override>& before,
+                          const std::string& path) {
+  if (path.find('*') == std::string::npos) return {};  // most have none
+  toml::table root = parse_text(text_of_file(scene), scene);
+  apply_overrides(root, before);
+  return tables_met(root, path);
+}
+
 }  // namespace signorini

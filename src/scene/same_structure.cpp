@@ -5,7 +5,8 @@ namespace {
 
 /// The table without what drives it.
 toml::table undriven(toml::table table) {
-  for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear"})
+  for (const char* key : {"motion", "acceleration", "surface_velocity", "normal_force", "initial_shear",
+                          "temperature", "initial_strain"})
     table.erase(key);
   return table;
 }

@@ -2,8 +2,8 @@
 //
 //   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction, matrices, gravity
 //
-// without what moves supports, contacts and surfaces, friction's initial shear among it, which may be another in a run
-// that goes on.
+// without what drives them, which may be another in a run that goes on: motions of supports and surfaces,
+// compressions, temperatures and initial strains of members, and friction's initial shear.
 #pragma once
 
 #include <toml++/toml.h>

@@ -2,19 +2,40 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/csv_row.hpp"
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
 #include "signorini/error.hpp"
+#include "signorini/form.hpp"
 
 namespace signorini {
 namespace {
 
-bool is_shear(const std::string& name) { return name.size() > 2 && name.ends_with(".T"); }
+constexpr std::string_view of_shear = ".T", of_state = ".state", of_own = ".own", of_memory = ".memory";
 
-constexpr std::string_view of_state = ".state";
+/// "c" of "c.T".
+std::string contact_in(const std::string& name, std::string_view end) {
+  return name.substr(0, name.size() - end.size());
+}
+
+/// States and memories of laws of one's own. False: the column is none of those.
+bool take_own(const std::string& name, double value, std::vector<SavedState::Own>& own) {
+  if (!name.ends_with(of_own) && !name.ends_with(of_memory)) return false;
+  const bool memory = name.ends_with(of_memory);
+  const std::string contact = contact_in(name, memory ? of_memory : of_own);
+  auto found =
+      std::find_if(own.begin(), own.end(), [&](const SavedState::Own& o) { return o.contact == contact; });
+  if (found == own.end()) found = own.insert(own.end(), {contact});
+  if (memory)
+    found->memory = value;
+  else
+    found->state =
+        value >= 0.0 && value < most_own_states ? static_cast<std::size_t>(value) : most_own_states;
+  return true;
+}
 
 /// The sign of the slip that the cell of a column "x.state" tells; none where it is no state.
 std::optional<int> slip_in(const std::string& name, const std::string& cell) {
@@ -26,6 +47,12 @@ std::optional<int> slip_in(const std::string& name, const std::string& cell) {
 }
 
 }  // namespace
+
+std::optional<double> saved_motion(const SavedState& state, const std::string& name) {
+  for (const auto& [saved, value] : state.motions)
+    if (saved == name) return value;
+  return std::nullopt;
+}
 
 SavedStates read_saved_states(std::istream& in, const std::string& file, const std::string& key,
                               std::optional<double> t) {
@@ -43,7 +70,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
     double time = 0.0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (const auto slip = slip_in(names[i], cells[i])) {
-        state.slips.emplace_back(names[i].substr(0, names[i].size() - of_state.size()), *slip);
+        state.slips.emplace_back(contact_in(names[i], of_state), *slip);
         continue;
       }
       const auto value = parse_number(cells[i]);
@@ -51,9 +78,9 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
         fail(fmt::format("found \"{}\", expected a number", excerpt(cells[i])));
       if (i == 0)
         time = *value;
-      else if (is_shear(names[i]))
-        state.shears.emplace_back(names[i].substr(0, names[i].size() - 2), *value);
-      else
+      else if (names[i].ends_with(of_shear))
+        state.shears.emplace_back(contact_in(names[i], of_shear), *value);
+      else if (!take_own(names[i], *value, state.own))
         state.motions.emplace_back(names[i], *value);
     }
     found.times.push_back(shortest(time));

@@ -295,7 +295,7 @@ void DiscreteRun::pass(const ObservedInstant& now) {
   node_ = {now.t, {now.after.u, now.after.v, now.after.jet.forces.col(0), now.after.jet.a()}};
   NewmarkStep::Key key;
   for (const State s : states_of(mode_)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), rows_of(model_, mode_), now.after.system->kinds());
+  step_.set(std::move(key), rows_of(model_, mode_));
   const SeriesPoint from = point_of(before.point), to = point_of(node_.point);
   const Series none;
   InstantMotion motion{now, from, to, none, {}, {}, {}, {}};

@@ -2,152 +2,34 @@
 
 #include <fmt/core.h>
 #include <gsl/gsl_blas.h>
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <memory>
 
 #include "base/number.hpp"
+#include "sensitivity/fit_problem.hpp"
+#include "sensitivity/linear_fit.hpp"
 #include "sensitivity/parameter.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t most_iterations = 50;
+constexpr int most_restarts = 8;  // from the other side of a kink; chosen
 // Relative changes of the keys, and of the sum of squares, below which it ends: above what rounding leaves of the
 // derivatives, far below what measurements tell.
 constexpr double key_tolerance = 1e-9, gradient_tolerance = 1e-12, sum_tolerance = 0.0;
-// In sigmas, of an event that a trial does not have: such a trial is never better.
-constexpr double missing = 1e8;
-
-class FitProblem {
- public:
-  FitProblem(const SceneReader& read, const std::vector<std::string>& paths, const Measurements& measured,
-             const std::function<bool()>& go_on)
-      : read_(read), paths_(paths), measured_(measured), go_on_(go_on), times_(times_of(measured)) {}
-
-  [[nodiscard]] std::size_t rows() const { return measured_.rows.size(); }
-  [[nodiscard]] int runs() const { return runs_; }
-  [[nodiscard]] const std::exception_ptr& failure() const { return failure_; }
-
-  /// (x_i - m_i)/sigma_i at these keys; false: something was thrown, see failure().
-  bool residuals(const gsl_vector* x, gsl_vector* f) {
-    if (!run(x)) return false;
-    for (std::size_t i = 0; i < rows(); ++i) {
-      const double rest = impossible_ ? EventRates::none : residual(i);
-      gsl_vector_set(f, i, std::isfinite(rest) ? rest / measured_.rows[i].sigma : missing);
-    }
-    return true;
-  }
-  bool derivatives(const gsl_vector* x, gsl_matrix* J) {
-    if (!run(x)) return false;
-    for (std::size_t i = 0; i < rows(); ++i)
-      for (std::size_t p = 0; p < paths_.size(); ++p) {
-        const double rate = rate_of(i, p);
-        gsl_matrix_set(J, i, p, std::isfinite(rate) ? rate / measured_.rows[i].sigma : 0.0);
-      }
-    return true;
-  }
-  /// x_i - m_i of the last run; NaN: it has none.
-  [[nodiscard]] double residual(std::size_t i) const {
-    const Measurement& m = measured_.rows[i];
-    if (m.event == 0) {
-      const auto [row, column] = place_of(m);
-      return row < last_.values.size() ? last_.values[row][column] - m.value : EventRates::none;
-    }
-    return has(m) ? last_.events[m.event - 1].t - m.value : EventRates::none;
-  }
-  /// What is measured and not there, or has no derivative, at the last keys; empty: nothing.
-  [[nodiscard]] std::string gap() const {
-    for (std::size_t i = 0; i < rows(); ++i) {
-      const Measurement& m = measured_.rows[i];
-      if (m.event > 0 && !has(m))
-        return fmt::format("the run has {} events, and no event {} of contact '{}'", last_.events.size(),
-                           m.event, m.contact);
-      for (std::size_t p = 0; p < paths_.size(); ++p)
-        if (!std::isfinite(rate_of(i, p)))
-          return fmt::format("row {} has no derivative by {}: {}", i + 1, paths_[p],
-                             last_.parameters[p].reason);
-    }
-    return {};
-  }
-
- private:
-  static std::vector<double> times_of(const Measurements& measured) {
-    std::vector<double> times;
-    for (const Measurement& m : measured.rows)
-      if (m.event == 0) times.push_back(m.t);
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    return times;
-  }
-
-  [[nodiscard]] bool has(const Measurement& m) const {
-    if (m.event > last_.events.size()) return false;
-    const int contact = last_.events[m.event - 1].contact;
-    return m.contact.empty() ||
-           (contact >= 0 && last_.contacts[static_cast<std::size_t>(contact)] == m.contact);
-  }
-  [[nodiscard]] std::pair<std::size_t, std::size_t> place_of(const Measurement& m) const {
-    const auto column = std::find(last_.columns.begin(), last_.columns.end(), m.column);
-    if (column == last_.columns.end())
-      throw UsageError(fmt::format("the run has no column \"{}\"", m.column));
-    const auto row = std::find(last_.times.begin(), last_.times.end(), m.t);
-    return {static_cast<std::size_t>(row - last_.times.begin()),
-            static_cast<std::size_t>(column - last_.columns.begin())};
-  }
-  [[nodiscard]] double rate_of(std::size_t i, std::size_t p) const {
-    const Measurement& m = measured_.rows[i];
-    if (m.event > 0) return has(m) ? last_.event_rates[m.event - 1][p].t : EventRates::none;
-    const auto [row, column] = place_of(m);
-    return row < last_.value_rates[p].size() ? last_.value_rates[p][row][column] : EventRates::none;
-  }
-
-  /// Of the keys x, unless it was the last.
-  bool run(const gsl_vector* x) {
-    std::vector<double> keys;
-    for (std::size_t p = 0; p < paths_.size(); ++p) keys.push_back(gsl_vector_get(x, p));
-    if (keys == keys_) return true;
-    keys_ = keys;
-    if (go_on_ && !go_on_()) return false;
-    try {
-      last_ = sensitivities([&](const std::vector<Override>& changes) { return scene_at(keys, changes); },
-                            paths_);
-      for (const Measurement& m : measured_.rows)
-        if (m.event == 0) static_cast<void>(place_of(m));
-      impossible_ = false;
-    } catch (const Error&) {  // not through GSL's frames
-      if (runs_ == 0) failure_ = std::current_exception();
-      impossible_ = true;
-    }
-    ++runs_;
-    return !failure_;
-  }
-  [[nodiscard]] Scene scene_at(const std::vector<double>& keys, const std::vector<Override>& changes) const {
-    std::vector<Override> all;
-    for (std::size_t p = 0; p < paths_.size(); ++p) all.push_back(set_to(paths_[p], keys[p]));
-    if (!times_.empty()) {
-      std::string list;
-      for (const double t : times_) list += (list.empty() ? "[" : ", ") + shortest(t);
-      all.push_back({"run.output_times", list + "]"});
-    }
-    all.insert(all.end(), changes.begin(), changes.end());
-    return read_(all);
-  }
-
-  const SceneReader& read_;
-  const std::vector<std::string>& paths_;
-  const Measurements& measured_;
-  const std::function<bool()>& go_on_;
-  std::vector<double> times_, keys_;
-  Sensitivities last_;
-  std::exception_ptr failure_;
-  int runs_ = 0;
-  bool impossible_ = false;  // the scene is refused with these keys
-};
+// Of a key's sigma: a step that is shorter says nothing that the measurements know. Chosen.
+constexpr double of_sigma = 0.1;
+// Of the longer of two slopes: what their shortest mean may have left where they are opposite. Chosen.
+constexpr double opposite = 1e-3;
+// That chance makes chi squared as great: one fit of a million is told so wrongly.
+constexpr double least_probability = 1e-6;
+// Without sigmas: what may be left of the measured numbers, norm by norm. Chosen: a wrong unit leaves all of them.
+constexpr double most_left = 0.5;
 
 /// GSL's errors are values while this lives, not the end of the program.
 class GslErrorsReturned {
@@ -161,42 +43,222 @@ class GslErrorsReturned {
   gsl_error_handler_t* before_;
 };
 
+std::vector<double> keys_of(const gsl_vector* x) {
+  std::vector<double> keys;
+  for (std::size_t p = 0; p < x->size; ++p) keys.push_back(gsl_vector_get(x, p));
+  return keys;
+}
 int gsl_residuals(const gsl_vector* x, void* problem, gsl_vector* f) {
-  return static_cast<FitProblem*>(problem)->residuals(x, f) ? GSL_SUCCESS : GSL_EFAILED;
+  return static_cast<FitProblem*>(problem)->residuals(keys_of(x), *f) ? GSL_SUCCESS : GSL_EFAILED;
 }
 int gsl_derivatives(const gsl_vector* x, void* problem, gsl_matrix* J) {
-  return static_cast<FitProblem*>(problem)->derivatives(x, J) ? GSL_SUCCESS : GSL_EFAILED;
+  return static_cast<FitProblem*>(problem)->derivatives(keys_of(x), *J) ? GSL_SUCCESS : GSL_EFAILED;
 }
 
 using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, void (*)(gsl_multifit_nlinear_workspace*)>;
-using GslMatrix = std::unique_ptr<gsl_matrix, void (*)(gsl_matrix*)>;
 
-std::string end_of(int status, int info) {
-  if (status == GSL_SUCCESS)
-    return info == 1   ? "the keys change no more"
-           : info == 2 ? "the sum of squares is least"
-                       : "it changes no more";
-  if (status == GSL_EMAXITER) return "it has not settled after 50 steps";
-  if (status == GSL_ENOPROG) return "no step makes the sum of squares less";
-  return "it was interrupted";
-}
+/// Where a descent has come to.
+struct FitPlace {
+  std::vector<double> keys;
+  double chi_squared = 0.0;
+  int status = GSL_SUCCESS, iterations = 0;
+};
 
-void take_result(gsl_multifit_nlinear_workspace* w, const FitProblem& problem, bool has_sigma, Fit& result) {
-  const std::size_t count = result.keys.size();
-  const GslMatrix covariance(gsl_matrix_alloc(count, count), gsl_matrix_free);
-  gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 0.0, covariance.get());
-  const gsl_vector* f = gsl_multifit_nlinear_residual(w);
-  gsl_blas_ddot(f, f, &result.chi_squared);
-  const double freedom = static_cast<double>(problem.rows() - count);
-  const double factor = has_sigma || freedom == 0.0 ? 1.0 : result.chi_squared / freedom;
-  for (std::size_t i = 0; i < count; ++i) {
-    result.covariance.emplace_back();
-    for (std::size_t j = 0; j < count; ++j)
-      result.covariance[i].push_back(factor * gsl_matrix_get(covariance.get(), i, j));
-    result.keys[i].value = gsl_vector_get(gsl_multifit_nlinear_position(w), i);
-    result.keys[i].sigma = std::sqrt(result.covariance[i][i]);
+FitPlace descend(FitProblem& problem, const std::vector<double>& from) {
+  gsl_multifit_nlinear_fdf fdf{};
+  fdf.f = gsl_residuals;
+  fdf.df = gsl_derivatives;
+  fdf.n = problem.rows();
+  fdf.p = problem.keys();
+  fdf.params = &problem;
+  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+  settings.trs = gsl_multifit_nlinear_trs_lm;
+  const Workspace w(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, fdf.n, fdf.p),
+                    gsl_multifit_nlinear_free);
+  const gsl_vector_const_view first = gsl_vector_const_view_array(from.data(), from.size());
+  FitPlace place{from, 0.0, gsl_multifit_nlinear_init(&first.vector, &fdf, w.get()), 0};
+  int info = 0;
+  if (place.status == GSL_SUCCESS) {
+    place.status = gsl_multifit_nlinear_driver(most_iterations, key_tolerance, gradient_tolerance,
+                                               sum_tolerance, nullptr, nullptr, &info, w.get());
+    if (info == GSL_ENOPROG) place.status = GSL_ENOPROG;  // at the first step it says EMAXITER
+    place.keys = keys_of(gsl_multifit_nlinear_position(w.get()));
+    place.iterations = static_cast<int>(gsl_multifit_nlinear_niter(w.get()));
   }
+  const gsl_vector* f = gsl_multifit_nlinear_residual(w.get());
+  gsl_blas_ddot(f, f, &place.chi_squared);
+  return place;
 }
+
+/// The shortest of all means of two vectors is none.
+bool are_opposite(const std::vector<double>& a, const std::vector<double>& b) {
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += a[i] * a[i];
+    bb += b[i] * b[i];
+    ab += a[i] * b[i];
+  }
+  const double apart = aa - 2.0 * ab + bb;
+  const double part = apart > 0.0 ? std::clamp((bb - ab) / apart, 0.0, 1.0) : 0.0;
+  const double left = part * part * aa + 2.0 * part * (1.0 - part) * ab + (1.0 - part) * (1.0 - part) * bb;
+  return left <= opposite * opposite * std::max(aa, bb);
+}
+
+class Fitter {
+ public:
+  Fitter(FitProblem& problem, const Measurements& measured)
+      : problem_(problem),
+        measured_(measured),
+        f_(gsl_vector_alloc(problem.rows())),
+        J_(gsl_matrix_alloc(problem.rows(), problem.keys())) {}
+
+  void run(const std::vector<double>& start) {
+    place_ = descend(problem_, start);
+    iterations_ = place_.iterations;
+    int restarts = 0;
+    while (look_beside() && ++restarts < most_restarts) {
+    }
+  }
+
+  void take_into(Fit& result) {
+    const bool known = linear_at(place_.keys);
+    result.iterations = iterations_;
+    result.chi_squared = place_.chi_squared;
+    result.freedom = static_cast<long>(problem_.rows()) - static_cast<long>(here_.rank);
+    result.reason = reason(known);
+    if (!known || !settled()) result.doubts.push_back(result.reason);
+    if (known) take_keys(result);
+    explain(result);
+  }
+
+ private:
+  /// What the run at these keys says to first order, there or on the side from which they came.
+  bool linear_at(const std::vector<double>& keys) {
+    if (!problem_.residuals(keys, *f_)) return false;
+    if (!problem_.derivatives(keys, *J_)) return false;
+    here_ = linear_fit(*f_, *J_, problem_.size(), problem_.measured_norm());
+    return true;
+  }
+  [[nodiscard]] double factor() const {
+    const std::size_t rows = problem_.rows();
+    return measured_.has_sigma || rows <= here_.rank
+               ? 1.0
+               : place_.chi_squared / static_cast<double>(rows - here_.rank);
+  }
+  /// The step from these keys ends where the descent did.
+  [[nodiscard]] bool leads_to_place(const std::vector<double>& keys) const {
+    for (std::size_t p = 0; p < keys.size(); ++p) {
+      if (!here_.determined[p]) continue;
+      const double sigma = std::sqrt(factor() * here_.covariance[p][p]);
+      const double near = std::max(FitProblem::beside * problem_.size()[p], of_sigma * sigma);
+      if (!(std::abs(keys[p] + here_.step[p] - place_.keys[p]) <= near)) return false;
+    }
+    return true;
+  }
+  /// Both sides of every key: where the sum of squares falls away from the place, on from there. True: it has found a
+  /// place that is lower.
+  bool look_beside() {
+    level_ = linear_at(place_.keys) && leads_to_place(place_.keys);
+    falls_ = kink_ = false;
+    slopes_.clear();
+    for (std::size_t p = 0; p < problem_.keys(); ++p)
+      for (const double side : {1.0, -1.0}) {
+        std::vector<double> keys = place_.keys;
+        keys[p] += side * FitProblem::beside * problem_.size()[p];
+        if (!problem_.complete(keys) || !linear_at(keys)) continue;
+        std::vector<double> slope = here_.slope;
+        for (std::size_t k = 0; k < slope.size(); ++k) slope[k] *= problem_.size()[k];
+        slopes_.push_back(slope);
+        if (leads_to_place(keys)) continue;
+        kink_ = true;
+        if (side * slope[p] >= 0.0) continue;  // it rises
+        const FitPlace other = descend(problem_, keys);
+        iterations_ += other.iterations;
+        if (other.chi_squared < place_.chi_squared) {
+          place_ = other;
+          return true;
+        }
+        falls_ = true;
+      }
+    return false;
+  }
+  [[nodiscard]] bool settled() const {
+    if (level_) return !falls_;
+    if (falls_ || !kink_) return false;
+    for (std::size_t i = 0; i < slopes_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (are_opposite(slopes_[i], slopes_[j])) return true;
+    return false;
+  }
+  [[nodiscard]] std::string reason(bool known) const {
+    if (!known) {
+      const std::string& why = problem_.no_derivative();
+      return why.empty() ? "it was interrupted" : why;
+    }
+    if (settled())
+      return level_ ? "the sum of squares is least"
+                    : "the sum of squares is least where two events meet: its slope jumps there";
+    if (place_.status == GSL_EMAXITER)
+      return fmt::format("it has not settled after {} steps", most_iterations);
+    if (place_.status == GSL_EFAILED) {
+      const std::string& why = problem_.no_derivative();
+      return why.empty() ? "it was interrupted" : why;
+    }
+    return "no step makes the sum of squares less, but its slope there is not zero";
+  }
+
+  void take_keys(Fit& result) const {
+    std::string loose;
+    const std::size_t count = result.keys.size();
+    constexpr double none = EventRates::none;
+    result.covariance.assign(count, std::vector<double>(count, none));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!here_.determined[i]) loose += (loose.empty() ? "" : ", ") + result.keys[i].path;
+      for (std::size_t j = 0; j < count; ++j)
+        if (here_.determined[i] && here_.determined[j])
+          result.covariance[i][j] = factor() * here_.covariance[i][j];
+      result.keys[i].value = here_.determined[i] ? place_.keys[i] : none;
+      result.keys[i].sigma = std::sqrt(result.covariance[i][i]);
+    }
+    if (!loose.empty())
+      result.doubts.push_back(
+          fmt::format("the measurements do not determine {}: {} can be changed without a change of "
+                      "what was measured; fix one, or measure something else",
+                      loose, loose.find(',') == std::string::npos ? "it" : "they"));
+  }
+
+  /// Whether the measurements are what the run has.
+  void explain(Fit& result) const {
+    if (result.freedom <= 0) return;
+    const char* advice = "check units, the numbers of events, and what the scene leaves out";
+    if (measured_.has_sigma) {
+      result.probability = gsl_cdf_chisq_Q(result.chi_squared, static_cast<double>(result.freedom));
+      if (!(result.probability >= least_probability))
+        result.doubts.push_back(fmt::format(
+            "chi squared is {:.3g} for {} degrees of freedom: the measurements are further from the run "
+            "than their sigmas; {}, or leave sigma out",
+            result.chi_squared, result.freedom, advice));
+      return;
+    }
+    const double measured = problem_.measured_norm();
+    const double left = measured > 0.0 ? std::sqrt(result.chi_squared) / measured : 0.0;
+    if (!(left <= most_left))
+      result.doubts.push_back(fmt::format(
+          "what is left is {:.2g} of what was measured: the run does not explain it; {}", left, advice));
+  }
+
+  FitProblem& problem_;
+  const Measurements& measured_;
+  GslVector f_;
+  GslMatrix J_;
+  LinearFit here_;
+  FitPlace place_;
+  std::vector<std::vector<double>> slopes_;  // beside the place, in sizes of keys
+  int iterations_ = 0;
+  bool level_ = false;  // the slope is zero at the place
+  bool kink_ = false;   // the sides say something else
+  bool falls_ = false;  // away from the place, and nothing lower was found there
+};
 
 }  // namespace
 
@@ -214,37 +276,19 @@ Fit fit(const SceneReader& read, const std::vector<std::string>& paths, const Me
     result.keys.push_back({path, start.back(), start.back(), 0.0});
   }
   FitProblem problem(read, paths, measured, go_on);
-  gsl_multifit_nlinear_fdf fdf{};
-  fdf.f = gsl_residuals;
-  fdf.df = gsl_derivatives;
-  fdf.n = problem.rows();
-  fdf.p = paths.size();
-  fdf.params = &problem;
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  settings.trs = gsl_multifit_nlinear_trs_lm;
-  const Workspace w(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, fdf.n, fdf.p),
-                    gsl_multifit_nlinear_free);
-  const gsl_vector_const_view first = gsl_vector_const_view_array(start.data(), start.size());
-  int info = 0;
-  int status = gsl_multifit_nlinear_init(&first.vector, &fdf, w.get());
+  problem.start(start);
   if (problem.failure()) std::rethrow_exception(problem.failure());
-  if (status == GSL_SUCCESS) {
-    if (const std::string why = problem.gap(); !why.empty()) throw UsageError("at the start " + why);
-    status = gsl_multifit_nlinear_driver(most_iterations, key_tolerance, gradient_tolerance, sum_tolerance,
-                                         nullptr, nullptr, &info, w.get());
-    if (problem.failure()) std::rethrow_exception(problem.failure());
-    take_result(w.get(), problem, measured.has_sigma, result);
+  if (problem.size().empty()) {  // before the first run
+    result.reason = "it was interrupted";
+    result.doubts = {result.reason};
+    result.residuals.assign(measured.rows.size(), EventRates::none);
+    return result;
   }
-  std::vector<double> at;
-  for (const FittedKey& key : result.keys) at.push_back(key.value);
-  const gsl_vector_const_view last = gsl_vector_const_view_array(at.data(), at.size());
-  const std::unique_ptr<gsl_vector, void (*)(gsl_vector*)> f(gsl_vector_alloc(problem.rows()),
-                                                             gsl_vector_free);
-  static_cast<void>(problem.residuals(&last.vector, f.get()));
+  Fitter fitter(problem, measured);
+  fitter.run(start);
+  fitter.take_into(result);
   for (std::size_t i = 0; i < problem.rows(); ++i) result.residuals.push_back(problem.residual(i));
-  result.converged = status == GSL_SUCCESS || (status == GSL_ENOPROG && result.chi_squared < missing);
-  result.reason = end_of(status, info);
-  result.iterations = static_cast<int>(gsl_multifit_nlinear_niter(w.get()));
+  result.converged = result.doubts.empty();
   result.runs = problem.runs();
   return result;
 }

@@ -21,14 +21,15 @@ class MeasuredTable {
     t_ = place("t");
     sigma_ = place("sigma");
     contact_ = place("contact");
+    type_ = place("event");
     if (t_ == none) fail(1, "expected a column t beside event_index, or beside columns of history.csv");
     Measurements result;
     result.has_sigma = sigma_ != none;
-    for (line_ = 2; reader_.next(); ++line_)
-      if (event_ != none)
-        result.rows.push_back(event_row());
-      else
-        add_columns(result.rows);
+    result.file = path_;
+    for (line_ = 2; reader_.next(); ++line_) {
+      if (event_ != none && !reader_.cell(event_).empty()) result.rows.push_back(event_row());
+      add_columns(result.rows);
+    }
     if (result.rows.empty()) fail(2, "expected at least one row");
     return result;
   }
@@ -64,14 +65,18 @@ class MeasuredTable {
       fail(line_, fmt::format("event_index: found {}, expected a row of events.csv, from 1", index));
     m.event = static_cast<std::size_t>(index);
     if (contact_ != none) m.contact = reader_.cell(contact_);
+    if (type_ != none) m.type = reader_.cell(type_);
+    m.line = line_;
     m.value = number_at(t_);
     m.sigma = sigma();
     return m;
   }
   void add_columns(std::vector<Measurement>& rows) const {
     for (std::size_t c = 0; c < reader_.header().size(); ++c) {
-      if (c == t_ || c == sigma_ || reader_.cell(c).empty()) continue;
+      if (c == t_ || c == sigma_ || c == event_ || reader_.cell(c).empty()) continue;
+      if (event_ != none && (c == contact_ || c == type_)) continue;
       Measurement m;
+      m.line = line_;
       m.column = reader_.header()[c];
       m.t = number_at(t_);
       m.value = number_at(c);
@@ -82,7 +87,7 @@ class MeasuredTable {
 
   std::string path_;
   CsvReader reader_;
-  std::size_t event_ = none, t_ = none, sigma_ = none, contact_ = none;
+  std::size_t event_ = none, t_ = none, sigma_ = none, contact_ = none, type_ = none;
   long line_ = 1;
 };
 

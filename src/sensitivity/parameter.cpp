@@ -8,6 +8,7 @@
 
 #include "base/number.hpp"
 #include "scene/keys.hpp"
+#include "scene/overrides.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -96,9 +97,13 @@ double value_of(const Scene& scene, const std::string& path) {
     fail_at(path, std::string("the resolved scene cannot be read: ") + std::string(error.description()));
   }
   std::set<double> found;
-  numbers_at(root, parts_of(path), 0, path, found);
-  if (found.size() != 1)
-    fail_at(path, fmt::format("found {} numbers that differ, expected one value to vary", found.size()));
+  for (const std::string& meant : paths_meant(root, path)) numbers_at(root, parts_of(meant), 0, path, found);
+  if (found.size() != 1) {
+    const std::string met = tables_met(root, path);
+    fail_at(path, fmt::format("found {} numbers that differ, from {} to {}{}, expected one value to vary",
+                              found.size(), shortest(*found.begin()), shortest(*found.rbegin()),
+                              met.empty() ? "" : ", in " + met));
+  }
   if (!std::isfinite(*found.begin())) fail_at(path, "expected a finite number");
   return *found.begin();
 }

@@ -111,7 +111,10 @@ bool TangentRun::starts_in_modes(const ObservedStep& step) {
 }
 
 TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
+  const bool knew = !foreign_;
   foreign_ = step.modes == nullptr && step.expansion.series == nullptr;
+  // Stretches that the engine's own series told of have passed by the motion that is followed.
+  if (foreign_ && knew) followed_.begin(step.decision);
   if (foreign_) followed_.start(step.forcing);
   const bool modes = starts_in_modes(step);
   if (modes && !foreign_) return Way::modes;

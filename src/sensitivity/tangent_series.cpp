@@ -282,6 +282,9 @@ void TangentSeries::level(int k) {
     known_v_[i] = kinds[i] == DofKind::massive ? to_velocity * u_(e, k + 1) : 0.0;
     x_[i] = 0.0;
   }
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& [dof, factor] : motion.others)
+      known_u_[static_cast<std::size_t>(dof)] -= factor * u_(motion.dof, k);
   for (std::size_t j = 0; j < n; ++j) {
     const double uj = known_u_[j], vj = known_v_[j];
     const auto end = static_cast<std::size_t>(structure_.column_start[j + 1]);
@@ -302,6 +305,12 @@ void TangentSeries::level(int k) {
     else
       u_(e, k) = x_[i];
   }
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& other : motion.others)
+      u_(other.first, k) = known_u_[static_cast<std::size_t>(other.first)];
+  for (const UndampedMotion& motion : system_->undamped())
+    for (const auto& [dof, factor] : motion.others)
+      u_(dof, k) += factor * x_[static_cast<std::size_t>(motion.dof)];
   std::copy(x_.begin() + static_cast<std::ptrdiff_t>(n), x_.end(), forces_.col(k).data());
   levels_ = k;
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "behaviour/reference.hpp"
+#include "differential/generator.hpp"
 #include "signorini/certify.hpp"
 
 using namespace signorini;
@@ -155,6 +156,32 @@ TEST_CASE("certified: newmark beside half its step") {
   const CertifiedCase c =
       certified(name, {{"run.engine", "newmark"}, {"run.dt", "1e-3"}, {"run.companion", "finer"}});
   check_all_right(c, name);
+}
+
+// Rough runs: steps of 1 ms whatever the frequencies, or a tolerance of 1e-4 for thousands of hits.
+TEST_CASE("certified: no event before the end of the certain part is uncertain") {
+  struct Rough {
+    std::uint64_t seed;
+    const char *engine, *path, *value;
+  };
+  for (const Rough& rough : {Rough{14, "newmark", "run.dt", "1e-3"}, Rough{19, "newmark", "run.dt", "1e-3"},
+                             Rough{23, "newmark", "run.dt", "1e-3"}, Rough{23, "ida", "run.rtol", "1e-4"}}) {
+    CAPTURE(rough.seed);
+    const Scene scene =
+        parse_scene(differential::draw_scene(rough.seed), "rough.toml",
+                    {{"run.engine", rough.engine}, {rough.path, rough.value}, {"run.certify", "true"}});
+    const Model model = build_model(scene);
+    Result rows;
+    const CertifiedReport run = simulate_certified(model, scene.run, rows);
+    REQUIRE(run.certificate);
+    const Certificate& certificate = *run.certificate;
+    CHECK_FALSE(certificate.complete);
+    for (std::size_t i = 0; i < rows.events.size() && rows.events[i].t < certificate.until; ++i)
+      CHECK(certificate.certain(i));
+    const HistoryErrors& errors = certificate.history;
+    for (std::size_t row = 0; row < errors.t.size() && errors.t[row] < certificate.until; ++row)
+      for (std::size_t j = 0; j < errors.width; ++j) CHECK(std::isfinite(errors.at(row, j)));
+  }
 }
 
 // Random scene 23: a block that throws itself up 3000 times without losing energy. Its run leaves flights to

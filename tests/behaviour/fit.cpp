@@ -7,8 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "behaviour/one_mass.hpp"
+#include "own_folder.hpp"
 
 using namespace signorini;
 using namespace signorini::tests;
@@ -29,7 +31,8 @@ SceneReader rubbed() {
 }
 
 std::filesystem::path written(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("signorini-fit-" + name);
+  static const OwnFolder folder;
+  const std::filesystem::path path = folder.path() / name;
   std::ofstream(path) << text;
   return path;
 }
@@ -93,6 +96,163 @@ TEST_CASE("without sigmas the scatter of the data is that of the keys") {
   data.has_sigma = true;
   for (Measurement& m : data.rows) m.sigma = 0.2;
   CHECK(fit(rubbed(), {"run.initial.u.1"}, data).keys[0].sigma == doctest::Approx(0.2 / std::sqrt(5.0)));
+}
+
+namespace {
+
+/// Two blocks on plates, each pushed by 9 N sin(pi t): each slips where that is 10 N times its friction.
+SceneReader two_blocks(double friction_a, double friction_b) {
+  std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "run = { t_end = 0.5, output_dt = 0.1 }\nnodes = { a = [0.0, 0.0], b = [1.0, 0.0] }\n";
+  for (const auto& [node, name, friction] :
+       {std::tuple("a", "A", friction_a), std::tuple("b", "B", friction_b)})
+    text += fmt::format(
+        "[[masses]]\nnode = \"{0}\"\nmass = 1.0\n[[supports]]\nnode = \"{0}\"\nfix = [\"uy\"]\n"
+        "[[contacts]]\nname = \"{1}\"\nnode = \"{0}\"\nlaw = \"slider\"\ntangent = [1.0, 0.0]\n"
+        "normal_force = 10.0\nfriction = {2}\n[[loads]]\nnode = \"{0}\"\ndirection = [1.0, 0.0]\n"
+        "amplitude = 9.0\nhistory = {{ type = \"half_sine\", start = 0.0, end = 1.0 }}\n",
+        node, name, friction);
+  return [text](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"run.engine", "exact"}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return parse_scene(text, "test.toml", all);
+  };
+}
+double slips_at(double friction) { return std::asin(friction * 10.0 / 9.0) / std::acos(-1.0); }
+
+/// A block of 1 kg on a spring of 100 N/m that a plate rubs: it turns at multiples of pi/10 s.
+SceneReader oscillator(const std::string& mass = "1.0") {
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "run = { t_end = 3.0, output_dt = 0.1, initial = { block = { ux = 1.0 } } }\n"
+      "nodes = { block = [0.0, 0.0] }\nmasses = [{ node = \"block\", mass = " +
+      mass +
+      " }]\n[[supports]]\nnode = \"block\"\nfix = [\"uy\"]\n[[springs]]\nnode = \"block\"\ndirection = [1.0, "
+      "0.0]\nstiffness = 100.0\n[[contacts]]\nname = \"plate\"\nnode = \"block\"\nlaw = \"slider\"\ntangent "
+      "= "
+      "[1.0, 0.0]\nnormal_force = 10.0\nfriction = 0.4\n";
+  return [text](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"run.engine", "exact"}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return parse_scene(text, "test.toml", all);
+  };
+}
+/// Its turns, over a factor of the natural frequency.
+Measurements turns_of(double faster, double sigma) {
+  Measurements data;
+  data.has_sigma = true;
+  for (std::size_t i = 1; i <= 9; ++i)
+    data.rows.push_back(
+        {i, "plate", "", 0.0, 0.1 * std::acos(-1.0) * static_cast<double>(i) / faster, sigma, "reversal"});
+  return data;
+}
+bool doubted(const Fit& fit, const std::string& what) {
+  for (const std::string& doubt : fit.doubts)
+    if (doubt.find(what) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("fit: from one order of two events to the other, across the kink where they meet") {
+  // By numbers alone: the earlier slip was B's, the later A's; the scene begins with A earlier.
+  Measurements data;
+  data.rows.push_back({1, "", "", 0.0, slips_at(0.32), 1.0});
+  data.rows.push_back({2, "", "", 0.0, slips_at(0.35), 1.0});
+  const Fit found = fit(two_blocks(0.3, 0.32), {"contacts.A.friction"}, data);
+  CHECK(found.converged);
+  CHECK(std::abs(found.keys[0].value - 0.35) < 1e-9);
+  // Started where they meet.
+  const Fit meeting = fit(two_blocks(0.32, 0.32), {"contacts.A.friction"}, data);
+  CHECK(meeting.converged);
+  CHECK(std::abs(meeting.keys[0].value - 0.35) < 1e-9);
+  // With the contacts' names the first run has the wrong order, and says so.
+  data.rows[0].contact = "B";
+  CHECK_THROWS_WITH_AS(static_cast<void>(fit(two_blocks(0.3, 0.32), {"contacts.A.friction"}, data)),
+                       doctest::Contains("event 1 of the run is slip of contact \"A\""), UsageError);
+}
+
+TEST_CASE("fit: started at the minimum it stays there") {
+  const Fit events = fit(oscillator(), {"springs.1.stiffness"}, turns_of(1.0, 1e-4));
+  CHECK(events.converged);
+  CHECK(std::abs(events.keys[0].value - 100.0) < 1e-7);
+  // times of turns are i pi sqrt(m/k), dt/dk = -t/(2 k): sigma = 1e-4 / sqrt(sum (t/(2 k))^2)
+  double sum = 0.0;
+  for (int i = 1; i <= 9; ++i) sum += std::pow(0.1 * std::acos(-1.0) * i / 200.0, 2);
+  CHECK(events.keys[0].sigma == doctest::Approx(1e-4 / std::sqrt(sum)));
+  CHECK(events.freedom == 8);
+  CHECK(events.probability > 0.999);
+  const Sensitivities own = sensitivities(oscillator(), {});
+  Measurements columns;
+  for (std::size_t i = 1; i < own.times.size(); ++i)
+    columns.rows.push_back({0, "", own.columns[0], own.times[i], own.values[i][0], 1.0});
+  const Fit exact = fit(oscillator(), {"springs.1.stiffness"}, columns);
+  CHECK(exact.converged);
+  CHECK(std::abs(exact.keys[0].value - 100.0) < 1e-7);
+}
+
+TEST_CASE("fit: keys that measurements do not determine are named and have no value") {
+  // The times depend on k/m alone.
+  const Fit both = fit(oscillator(), {"springs.1.stiffness", "masses.1.mass", "run.initial.block.ux"},
+                       turns_of(1.01, 1e-4));
+  CHECK_FALSE(both.converged);
+  CHECK(std::isnan(both.keys[0].value));
+  CHECK(std::isnan(both.keys[1].value));
+  CHECK(doubted(both, "do not determine springs.1.stiffness, masses.1.mass, run.initial.block.ux"));
+  const Fit one = fit(oscillator(), {"springs.1.stiffness", "run.initial.block.ux"}, turns_of(1.01, 1e-4));
+  CHECK_FALSE(one.converged);
+  CHECK(std::abs(one.keys[0].value - 102.01) < 1e-5);
+  CHECK(std::isnan(one.keys[1].value));
+  CHECK(doubted(one, "do not determine run.initial.block.ux"));
+}
+
+TEST_CASE("fit: what the run does not explain is no result") {
+  Measurements data = turns_of(1.0, 1e-4);
+  for (std::size_t i = 0; i < data.rows.size(); ++i) data.rows[i].value += (i % 2 == 0 ? 0.01 : -0.01);
+  const Fit far = fit(oscillator(), {"springs.1.stiffness"}, data);
+  CHECK_FALSE(far.converged);
+  CHECK(doubted(far, "chi squared is "));
+  CHECK(far.probability < 1e-6);
+  data.has_sigma = false;  // then the scatter is what it is
+  for (Measurement& m : data.rows) m.sigma = 1.0;
+  CHECK(fit(oscillator(), {"springs.1.stiffness"}, data).converged);
+  Measurements millimetres;
+  const Sensitivities own = sensitivities(oscillator(), {});
+  for (std::size_t i = 1; i < own.times.size(); ++i)
+    millimetres.rows.push_back({0, "", own.columns[0], own.times[i], 1e3 * own.values[i][0], 1.0});
+  const Fit unit = fit(oscillator(), {"springs.1.stiffness"}, millimetres);
+  CHECK_FALSE(unit.converged);
+  CHECK(doubted(unit, "of what was measured"));
+}
+
+TEST_CASE("fit: events are those that were measured, and other columns of their rows count") {
+  Measurements data = turns_of(1.0, 1e-4);
+  data.rows[1].type = "separation";
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(fit(oscillator(), {"springs.1.stiffness"}, data)),
+      doctest::Contains("event 2 of the run is reversal of contact \"plate\" at t = 0.628318531, "
+                        "measured was separation"),
+      UsageError);
+  Measurements late = turns_of(1.0, 1e-4);
+  late.rows[8].value *= 1000.0;
+  CHECK_THROWS_WITH_AS(static_cast<void>(fit(oscillator(), {"springs.1.stiffness"}, late)),
+                       doctest::Contains("expected a time of the run, which ends at run.t_end = 3 s"),
+                       UsageError);
+  // At t = 0.2 s the block is at 0.04 + 0.96 cos(2), as no friction of a plate makes the period another one.
+  const auto path =
+      written("both.csv",
+              fmt::format("event_index,t,block.ux,contact,event\n1,{:.17g},,plate,reversal\n"
+                          ",0.2,{:.17g},,\n2,{:.17g},{:.17g},plate,reversal\n",
+                          0.1 * std::acos(-1.0), 0.04 + 0.96 * std::cos(2.0), 0.2 * std::acos(-1.0), 0.84));
+  const Measurements both = read_measurements(path.string());
+  std::filesystem::remove(path);
+  REQUIRE(both.rows.size() == 4);
+  CHECK(both.rows[1].column == "block.ux");
+  CHECK(both.rows[3].column == "block.ux");
+  const Fit found = fit(oscillator("1.02"), {"masses.1.mass"}, both);
+  CHECK(found.converged);
+  CHECK(std::abs(found.keys[0].value - 1.0) < 1e-7);
 }
 
 TEST_CASE("tables that are no measurements, and measurements that the run has not") {

@@ -67,10 +67,21 @@ TEST_CASE("static start, damping and free motion") {
 }
 
 // Its flight was once taken for a touch: the run went on into the ground and stopped.
-TEST_CASE("a flight of a few tolerances ends with a landing: f = 1.3 at rtol 1e-6") {
-  const Result result = run(1.3, "1e-6", "0.15");
+TEST_CASE(
+    "a flight of a few tolerances ends with a landing: f = 1.3 at rtol 1e-6, every event that `exact` "
+    "finds") {
+  const Result result = run(1.3, "1e-6", "0.15"), exact = run(1.3, "1e-6", "0.15", "exact");
   INFO(result.report.outcome.reason);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
+  REQUIRE(exact.events.size() > 100);
+  REQUIRE(result.events.size() == exact.events.size());
+  for (std::size_t i = 0; i < exact.events.size(); ++i) {
+    CAPTURE(i);
+    CHECK(result.events[i].contact == exact.events[i].contact);
+    CHECK(result.events[i].from == exact.events[i].from);
+    CHECK(result.events[i].to == exact.events[i].to);
+    CHECK(std::abs(result.events[i].t - exact.events[i].t) < 1e-6);
+  }
 }
 
 TEST_CASE("the load that ends is one time row, and no step crosses it") {

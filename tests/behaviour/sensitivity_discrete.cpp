@@ -74,7 +74,7 @@ void check_steps(const SceneReader& read, const std::string& path, double part, 
   }
 }
 
-std::string block(const std::string& contact, const std::string& load = "harmonic\", omega = 7.0") {
+std::string stepped_block(const std::string& contact, const std::string& load = "harmonic\", omega = 7.0") {
   return matrix_scene("t_end = 1.2\noutput_dt = 0.17\ninitial = { u = [0.0, 0.002], v = [0.0, 0.0] }",
                       "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[40.0, 0.0], [0.0, 0.0]]\n"
                       "damping = [[1.5, 0.2], [0.2, 0.8]]",
@@ -95,13 +95,14 @@ TEST_CASE("steps of newmark: derivatives of the discrete algorithm against diffe
        {"contacts.c.friction", "contacts.c.normal_stiffness", "contacts.c.tangential_stiffness",
         "loads.2.amplitude", "loads.2.history.omega", "matrices.mass.1.1", "matrices.damping.1.1",
         "matrices.stiffness.1.1", "run.initial.u.2"})
-    check_steps(stepped(block("friction = 0.3"), "0.013"), path, 1e-7);
-  check_steps(stepped(block("friction = { static = 0.4, kinetic = 0.3 }"), "0.013"),
+    check_steps(stepped(stepped_block("friction = 0.3"), "0.013"), path, 1e-7);
+  check_steps(stepped(stepped_block("friction = { static = 0.4, kinetic = 0.3 }"), "0.013"),
               "contacts.c.friction.kinetic", 1e-7);
-  check_steps(stepped(block("friction = 0.3\nnormal_damping = 3.0"), "0.013"), "contacts.c.normal_damping",
-              1e-7);
+  check_steps(stepped(stepped_block("friction = 0.3\nnormal_damping = 3.0"), "0.013"),
+              "contacts.c.normal_damping", 1e-7);
   for (const char* path : {"loads.2.history.end", "contacts.c.friction"})  // a load whose instant moves
-    check_steps(stepped(block("friction = 0.3", "rectangle\", start = 0.1, end = 0.5"), "0.013"), path, 1e-7);
+    check_steps(stepped(stepped_block("friction = 0.3", "rectangle\", start = 0.1, end = 0.5"), "0.013"),
+                path, 1e-7);
 }
 
 TEST_CASE("steps of newmark under a slider that is pressed more and less") {
@@ -138,12 +139,12 @@ TEST_CASE("steps of newmark on a belt and through impacts") {
 
 TEST_CASE("derivatives of steps go to those of the motion by the square of the step") {
   const auto apart = [](const char* dt) {
-    const SceneReader read = stepped(block("friction = 0.3"), dt);
+    const SceneReader read = stepped(stepped_block("friction = 0.3"), dt);
     const Sensitivities steps = sensitivities(read, {"contacts.c.friction"}, nullptr, {false, true});
     const Sensitivities motion = sensitivities(
         [&](std::vector<Override> changes) {
           changes.insert(changes.begin(), {"run.engine", "exact"});
-          return parse_scene(block("friction = 0.3"), "test.toml", changes);
+          return parse_scene(stepped_block("friction = 0.3"), "test.toml", changes);
         },
         {"contacts.c.friction"});
     REQUIRE(steps.events.size() == motion.events.size());
@@ -158,7 +159,7 @@ TEST_CASE("derivatives of steps go to those of the motion by the square of the s
 }
 
 TEST_CASE("discrete derivatives are newmark's, of steps of one length") {
-  const std::string text = block("friction = 0.3");
+  const std::string text = stepped_block("friction = 0.3");
   const auto by = [&](const std::vector<Override>& more, SensitivityOptions options) {
     return sensitivities(
         [&](std::vector<Override> changes) {

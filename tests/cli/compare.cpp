@@ -139,6 +139,31 @@ TEST_CASE("cli compare: directories, of different length") {
   CHECK(report["comparisons"][1]["differences"]["displacement"]["value"] == 0.0);
 }
 
+TEST_CASE("cli compare: a limit of what is not in both runs is 5, and says what was compared") {
+  const Shell shell;
+  const std::string scene = belt(10);
+  std::string renamed = scene;
+  for (std::size_t at; (at = renamed.find("block")) != std::string::npos;) renamed.replace(at, 5, "blok");
+  shell.write("a.toml", scene);
+  shell.write("b.toml", renamed);
+  for (const char* name : {"a", "b"})
+    REQUIRE(
+        shell.run({"run", std::string(name) + ".toml", "-o", name, "--no-plots", "--engine", "exact"}).code ==
+        0);
+  const Ending ending = shell.run({"compare", "a", "b", "--no-plots", "--limit", "displacement=1e9"});
+  CHECK(ending.code == 5);
+  CHECK(has(ending.err, "displacement has a limit, and "));
+  CHECK(has(ending.err, "in one of the two runs only"));
+  CHECK(has(ending.out, "rows compared: history.csv 101, contacts.csv 101"));
+  const std::string contacts = shell.read("b/contacts.csv");
+  shell.write("b/contacts.csv", contacts.substr(0, contacts.find('\n', contacts.find('\n') + 1) + 1));
+  const Ending cut = shell.run({"compare", "a", "b", "--no-plots", "--force", "--limit", "force=1e9"});
+  CHECK(cut.code == 5);
+  CHECK(has(cut.err, "contacts.csv of b has 1 row, expected 101"));
+  const json rows = json::parse(shell.read("a-compare/compare.json"))["comparisons"][0]["rows"];
+  CHECK(rows["contacts.csv"] == json{{"compared", 1}, {"reference", 101}, {"run", 1}});
+}
+
 TEST_CASE("cli compare: a run that stopped early is a row, and keeps no limit") {
   const Shell shell;
   shell.write("belt.toml", belt(20));

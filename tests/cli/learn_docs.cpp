@@ -1,6 +1,8 @@
 // The commands of docs/tutorial.md, one after the other, in a folder with models/.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "program.hpp"
@@ -57,6 +59,32 @@ TEST_CASE("cli tutorial: every command runs, and what the text says comes out") 
   CHECK(has(shell.read("certified/events.csv"), ",t_error,certain\n"));
   CHECK(has(shell.read("pipe-sweep/sweep.csv"), "\n3,0.5,done,"));
   CHECK(exists(shell, "pipeline/paraview/run.pvd"));
+}
+
+TEST_CASE("cli docs: the commands of command-line.md, one after the other, have directories of their own") {
+  std::istringstream lines(doc("command-line.md"));
+  std::set<std::string> taken;
+  int commands = 0;
+  bool synopsis = true;
+  for (std::string line; std::getline(lines, line);) {
+    synopsis = synopsis && !line.starts_with("## ");
+    if (synopsis || !line.starts_with("    signorini ")) continue;
+    for (std::string more; line.back() == '\\' && std::getline(lines, more);)
+      line = line.substr(0, line.size() - 1) + more;
+    const std::vector<std::string> words = words_of_command(line);
+    const std::string& command = words.at(1);
+    const bool of_runs = command == "compare" && !words.at(2).starts_with("models/");
+    if (words.size() < 3 || (!words[2].starts_with("models/") && !of_runs)) continue;
+    CAPTURE(line);
+    for (std::size_t i = 2; of_runs && i < words.size() && !words[i].starts_with("-"); ++i)
+      CHECK(taken.count(words[i]) == 1);
+    const auto named = std::find(words.begin(), words.end(), "-o");
+    const std::string folder =
+        named != words.end() ? *(named + 1) : std::filesystem::path(words[2]).stem().string() + "-" + command;
+    CHECK(taken.insert(folder).second);
+    ++commands;
+  }
+  CHECK(commands >= 14);
 }
 
 TEST_CASE("cli tutorial: pages of docs name files and headings that are there") {

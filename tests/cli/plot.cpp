@@ -164,4 +164,16 @@ TEST_CASE("cli plot: small gaps have ticks that differ, and loads have a picture
   CHECK(shell.read("out/loads.csv").find("\n0.1,0\n") != std::string::npos);
 }
 
+TEST_CASE("cli plot: two apostrophes side by side in a title are drawn") {
+  if (!on_path("gnuplot")) return;
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending = shell.run({"run", "belt.toml", "--set", "title=\"Pipe 6'' on a belt\""});
+  CHECK(ending.code == 0);
+  CHECK_FALSE(has(ending.err, "gnuplot failed"));
+  for (const char* name : {"displacement", "contact-belt", "states", "energy"})
+    CHECK(exists(shell, std::string("belt-run/plots/") + name + ".png"));
+  CHECK(has(shell.read("belt-run/plots/energy.svg"), "6'' on a belt"));
+}
+
 TEST_SUITE_END();

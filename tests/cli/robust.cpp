@@ -193,6 +193,21 @@ TEST_CASE("cli: a gnuplot that floods is ended, and the run is there") {
   CHECK(json::parse(shell.read("belt-run/summary.json"))["outcome"]["kind"] == "done");
 }
 
+TEST_CASE("cli: a picture that fails stops no other, and it is said") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  fake_gnuplot(shell,
+               "case \"$2\" in displacement*|raster*) echo unhappy >&2; exit 1;; esac; touch \"$2.drawn\"");
+  CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" $SIGNORINI run belt.toml >.out 2>.err") == 0);
+  CHECK(exists(shell, "belt-run/plots/energy.gp.drawn"));
+  CHECK(exists(shell, "belt-run/plots/states.gp.drawn"));
+  CHECK_FALSE(exists(shell, "belt-run/plots/displacement.gp.drawn"));
+  const std::string said = shell.read(".err");
+  CHECK(has(said, "displacement.gp: unhappy"));
+  CHECK(has(said, "2 of "));
+  CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\" $SIGNORINI plot belt-run >.out 2>.err") == 6);
+}
+
 TEST_CASE("cli: of many contacts the first 24 are drawn, and it is said") {
   const Shell shell;
   std::string text =

@@ -267,3 +267,24 @@ TEST_CASE("cli sweep: what another key would overwrite is refused, under whichev
 }
 
 TEST_SUITE_END();
+
+TEST_CASE("cli sweep: contacts.* varies the contacts of stops, too, and says how many tables it met") {
+  const Shell shell;
+  std::string text = sliding_block;
+  text +=
+      "[[stops]]\nnode = \"block\"\ndirection = [0.8, 0.6]\nlaw = \"compliant\"\ngap = 9.0\n"
+      "normal_stiffness = 1e3\ntangential_stiffness = 1e3\nfriction = 0.1\n";
+  shell.write("guided.toml", text);
+  const Ending ending = shell.run({"sweep", "guided.toml", "--vary", "contacts.*.friction=0.2,0.4", "--keep",
+                                   "--no-plots", "--set", "masses.*.mass=1.0"});
+  CHECK(ending.code == 0);
+  CHECK(has(ending.err, "note: --vary contacts.*.friction=0.2,0.4: 1 of [[contacts]], 1 of [[stops]]"));
+  CHECK(has(ending.err, "note: --set masses.*.mass=1.0: 1 of [[masses]]"));
+  const std::string run = shell.read("guided-sweep/runs/000002/run.toml");
+  CHECK(has(run, "kinetic = 0.4"));
+  CHECK_FALSE(has(run, "0.1"));
+  CHECK(shell
+            .run({"sweep", "guided.toml", "--vary", "contacts.*.friction=0.2,0.4", "-o", "other", "--quiet",
+                  "--no-plots"})
+            .err.empty());
+}

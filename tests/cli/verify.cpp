@@ -78,3 +78,15 @@ TEST_CASE("cli compare: one engine several times") {
   CHECK(has(shell.read("belt-compare/compare.json"), "newmark:dt=0.002"));
   CHECK(shell.run({"compare", "belt.toml", "--engines", "newmark:dt,ida", "--force"}).code == 2);
 }
+
+TEST_CASE("cli verify: a scene that newmark does not take is told what else there is") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending =
+      shell.run({"verify", "belt.toml", "--no-plots", "--set",
+                 "contacts.belt.friction={ static = 1.5, kinetic = 1.0, stribeck_velocity = 0.5 }"});
+  CHECK(ending.code == 3);
+  CHECK(has(ending.err, "depends on its slip rate"));
+  CHECK(has(ending.err, "signorini run --certify"));
+  CHECK_FALSE(has(ending.err, "use \"ida\""));
+}

@@ -20,5 +20,8 @@ namespace signorini::differential {
 /// A frame with the loads, motions and parts that the others have not: heat, moments, distributed loads,
 /// supports that move, hinges, stops, stages of a frictional start.
 [[nodiscard]] std::string draw_loaded_scene(std::uint64_t seed);
+/// All that a scene can say (draw_whole.cpp): one of the above or blocks in a yard, with parts without mass,
+/// dashpots, segments, reduction and outputs; by exact, ida or newmark.
+[[nodiscard]] std::string draw_whole_scene(std::uint64_t seed);
 
 }  // namespace signorini::differential

@@ -8,6 +8,7 @@
 //   signorini_differential --coupled --from 1 --count 10000               (coupled.hpp)
 //   signorini_differential --loaded --transformed exact                   (draw_loaded.cpp)
 //   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
+//   signorini_differential --relations --from 1 --count 1000              (relations.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -25,6 +26,7 @@
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
 #include "differential/metamorphic.hpp"
+#include "differential/relations.hpp"
 #include "differential/shrink.hpp"
 
 namespace {
@@ -37,7 +39,9 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false, coupled = false, flows = false, loaded = false;
+  bool shrink = false, print = false, coupled = false, flows = false, loaded = false, relations = false;
+  bool verbose = false;
+  std::string relation;  ///< the only one
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
   std::uint64_t seed_of_ways = 1;
@@ -270,6 +274,26 @@ void look_at_decisions(const std::string& name, const std::string& text, Decisio
   std::fflush(stdout);
 }
 
+std::vector<std::string> names_of_relations() {
+  std::vector<std::string> names;
+  for (const RelationKind& kind : relation_kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+void look_at_relations(const std::string& name, const std::string& text, const Asked& asked,
+                       RelationTally& tally) {
+  RelationSettings settings;
+  settings.seed = asked.seed_of_ways;
+  settings.only = asked.relation;
+  campaign_of_relations(text, name, settings, {asked.keep, asked.shrink, asked.verbose}, tally);
+}
+
+/// A scene of the seed, of the kind that is asked for.
+std::string drawn(const Asked& asked, std::uint64_t seed) {
+  if (asked.relations) return draw_whole_scene(seed);
+  return asked.coupled ? draw_coupled_scene(seed) : asked.loaded ? draw_loaded_scene(seed) : draw_scene(seed);
+}
+
 Asked read_command_line(int argc, char** argv, CLI::App& app) {
   Asked asked;
   std::uint64_t seed = 0;
@@ -297,6 +321,14 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
   app.add_flag("--flows", asked.flows,
                "change each scene to what modes follow, and run it with both flows of exact")
       ->excludes("--transformed");
+  app.add_flag("--relations", asked.relations,
+               "draw all that a scene can say, and hold each beside related ones")
+      ->excludes("--coupled")
+      ->excludes("--transformed")
+      ->excludes("--flows");
+  app.add_option("--relation", asked.relation, "of --relations: this one only")
+      ->check(CLI::IsMember(names_of_relations()));
+  app.add_flag("--verbose", asked.verbose, "of --relations: a line for each that is explained, too");
   app.add_option("--ways", asked.seed_of_ways, "seed of angles, orders and scales");
   app.parse(argc, argv);
   if (*one) {
@@ -320,8 +352,11 @@ int main(int argc, char** argv) {
   Tally tally;
   Ways ways;
   Decisions decisions;
+  RelationTally relations;
   const auto look_at = [&](const std::string& name, const std::string& text) {
-    if (asked.coupled)
+    if (asked.relations)
+      look_at_relations(name, text, asked, relations);
+    else if (asked.coupled)
       look_at_decisions(name, text, decisions);
     else if (asked.transformed.empty() && !asked.flows)
       examine(name, text, asked, tally);
@@ -329,13 +364,16 @@ int main(int argc, char** argv) {
       rewrite(name, text, asked, ways);
   };
   const auto finish = [&] {
-    if (asked.coupled)
+    if (asked.relations)
+      relations.print();
+    else if (asked.coupled)
       decisions.print();
     else if (!asked.transformed.empty() || asked.flows)
       ways.print();
     else if (asked.scene.empty())
       tally.print();
-    return std::max({tally.exit_code(), ways.exit_code(), decisions.exit_code()});
+    return std::max(
+        {tally.exit_code(), ways.exit_code(), decisions.exit_code(), relations.unexplained() > 0 ? 1 : 0});
   };
   if (!asked.scene.empty()) {
     std::ifstream file(asked.scene);
@@ -346,9 +384,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   for (long i = 0; i < asked.count; ++i) {
     const std::uint64_t seed = asked.from + static_cast<std::uint64_t>(i);
-    const std::string text = asked.coupled  ? draw_coupled_scene(seed)
-                             : asked.loaded ? draw_loaded_scene(seed)
-                                            : draw_scene(seed);
+    const std::string text = drawn(asked, seed);
     if (asked.print) {
       fmt::print("{}\n", text);
       continue;

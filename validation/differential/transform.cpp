@@ -69,6 +69,7 @@ void move(Scene& scene, const Map& map) {
       map.apply(load.direction.vector);
   }
   for (BaseMotionSpec& motion : scene.base_motion) map.apply(motion.direction.vector);
+  for (OutputSpec& output : scene.outputs) map.apply(output.direction.vector);
   for (Support& support : scene.supports) {
     if (!support.motion) continue;
     const std::array<double, 2> along = map(support.ux ? 1.0 : 0.0, support.uy ? 1.0 : 0.0);
@@ -83,6 +84,20 @@ template <class T>
 void shuffle(std::vector<T>& list, Random& draw) {
   for (std::size_t i = list.size(); i > 1; --i)
     std::swap(list[i - 1], list[static_cast<std::size_t>(draw.integer(0, static_cast<int>(i) - 1))]);
+}
+
+/// Outputs name springs by their place.
+void shuffle_springs(Scene& scene, Random& draw) {
+  std::vector<std::size_t> places(scene.springs.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
+  shuffle(places, draw);
+  std::vector<Spring> springs;
+  for (const std::size_t place : places) springs.push_back(scene.springs[place]);
+  scene.springs = std::move(springs);
+  for (OutputSpec& output : scene.outputs)
+    if (output.kind == OutputKind::spring)
+      output.spring =
+          static_cast<std::size_t>(std::find(places.begin(), places.end(), output.spring) - places.begin());
 }
 
 /// Not for a scene that is refused.
@@ -158,7 +173,7 @@ Transformed permuted(const Scene& scene, std::uint64_t seed) {
   shuffle(result.scene.nodes, draw);
   shuffle(result.scene.members, draw);
   shuffle(result.scene.masses, draw);
-  shuffle(result.scene.springs, draw);
+  shuffle_springs(result.scene, draw);
   shuffle(result.scene.supports, draw);
   if (!has_free_start(scene)) shuffle(result.scene.contacts, draw);
   shuffle(result.scene.loads, draw);

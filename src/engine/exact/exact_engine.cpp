@@ -314,7 +314,8 @@ Step ExactEngine::advance() {
   step_.begin = t_;
   if (first.slot) {
     step_.kind = Step::Kind::event;
-    step_.fired = {{contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind}};
+    step_.fired = {{contact_of_guard(*first.slot), segment_.decision->guards[*first.slot].kind,
+                    !arming_.armed(*first.slot)}};
     x *= first.at;
     end = t_ + scale * x;
   } else {

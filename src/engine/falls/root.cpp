@@ -12,7 +12,14 @@ double call(double t, void* f) { return (*static_cast<const std::function<double
 }  // namespace
 
 double root_between(const std::function<double(double)>& f, double lo, double hi, double width) {
-  gsl_function function{&call, const_cast<std::function<double(double)>*>(&f)};
+  const double first = lo, last = hi, at_first = f(lo), at_last = f(hi);
+  // GSL ends the program where there is no fall between: a state that was wrong from the start on.
+  if (!(at_first > 0.0)) return first;
+  if (at_last > 0.0) return last;
+  const std::function<double(double)> known = [&](double t) {
+    return t == first ? at_first : t == last ? at_last : f(t);
+  };
+  gsl_function function{&call, const_cast<std::function<double(double)>*>(&known)};
   const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
   gsl_root_fsolver_set(solver.get(), &function, lo, hi);

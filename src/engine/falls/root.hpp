@@ -7,7 +7,7 @@
 
 namespace signorini {
 
-/// The root between lo and hi; f is evaluated at both ends first. Every f(t) must be finite.
+/// The root between lo and hi; f is evaluated at both ends first. Without a fall between: lo where f is not positive there, else hi. Every f(t) must be finite.
 [[nodiscard]] double root_between(const std::function<double(double)>& f, double lo, double hi, double width);
 
 }  // namespace signorini

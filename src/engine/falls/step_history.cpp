@@ -97,6 +97,22 @@ void StepHistory::prepare(Basis& basis, int degree) const {
     for (int b = 1; b <= degree; ++b) sum += std::abs(basis.to_bernstein[z(i)][z(b)]);
     basis.bend = std::max(basis.bend, sum);
   }
+  basis.turn = 0.0;
+  for (int i = 0; i < degree; ++i) {
+    double sum = 0.0;
+    for (int b = 2; b <= degree; ++b)
+      sum += std::abs(basis.to_bernstein[z(i + 1)][z(b)] - basis.to_bernstein[z(i)][z(b)]);
+    basis.turn = std::max(basis.turn, 2.0 * degree * sum);
+  }
+}
+
+bool StepHistory::clearly_goes_one_way(std::size_t i) const {
+  const Basis& basis = of_order();
+  const double last = value(0, i), rise = last - value(1, i);
+  double off = 0.0;
+  for (int b = 2; b <= basis.degree; ++b)
+    off = std::max(off, std::abs(value(b, i) - last - rise * (basis.nodes[z(b)] - 1.0)));
+  return basis.turn * off <= std::abs(rise);
 }
 
 Bernstein StepHistory::through(const Basis& basis, std::size_t s) const {

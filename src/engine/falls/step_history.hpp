@@ -31,6 +31,13 @@ class StepHistory {
   /// True: the polynomial of scalar i is positive, for the last value exceeds what the others can bend it by.
   /// False says nothing.
   [[nodiscard]] bool clearly_positive(std::size_t i) const { return value(0, i) > bent_[i]; }
+  /// On the last step scalar i differs from its last value by less than this.
+  [[nodiscard]] double bend(std::size_t i) const { return bent_[i]; }
+  /// True: the polynomial of scalar i goes one way on the last step, for its values are too near to a straight line to
+  /// turn it: with e_b what they are off the line through the last two, and w_ib the weights of Bernstein coefficients,
+  ///   b_i+1 - b_i = (f_0 - f_1) / q + sum_b (w_i+1,b - w_ib) e_b
+  /// False says nothing.
+  [[nodiscard]] bool clearly_goes_one_way(std::size_t i) const;
   /// Integral of power i over the whole last step.
   [[nodiscard]] double integral(std::size_t i) const { return (times_[0] - times_[1]) * mean_[i]; }
   /// The polynomial of scalar i on the last step.
@@ -54,6 +61,7 @@ class StepHistory {
     std::array<std::array<double, max_degree + 1>, max_degree + 1> to_bernstein{};
     std::array<double, max_degree + 1> integral{};  // weight of the value b steps back in the mean
     double bend = 0.0;  // greatest sum of |weights| of older values in a Bernstein coefficient
+    double turn = 0.0;  // 2 q max_i sum_b |w_i+1,b - w_ib|: the 2 so that rounding has no part in it
   };
   void prepare(Basis& basis, int degree) const;
   [[nodiscard]] const Basis& of_order() const { return same_ ? of_powers_ : of_order_; }

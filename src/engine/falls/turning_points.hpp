@@ -1,6 +1,8 @@
 // turning_points.hpp: extreme values between the ends of a step, which an observer at its ends would not see.
 //
 //   f'(x) = 0 for f = N, T, g and the body's ut, where f exceeds all that it was before
+//
+// A turn that lies beside an end of the step, where the values at the samples go one way only, counts as well.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +19,28 @@ class TurningPoints {
 
   /// After an instant, where the values may have jumped.
   void start(const Decision& decision);
-  /// observed: somebody looks at the values at the ends of a step.
-  enum class Ends : unsigned char { observed, searched };
+  /// observed: somebody looks at the values at the ends of a step. Of parts of a step nobody does; of the last part at its
+  /// end.
+  enum class Ends : unsigned char { observed, part, last_part };
   /// On [0, x_end] of a series.
   void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end,
             Ends ends = Ends::observed);
+  /// The same, quantity by quantity: a_0 + a_1 x + ... on [0, x_end], t = begin + scale x. Between open() and close().
+  void open();
+  void find(std::size_t contact, ContactSeries::Field field, const double* a, std::size_t degree,
+            double x_end, double begin, double scale);
+  void close();
   struct Range {
     double least = 0.0, greatest = 0.0;
     void see(double value);
   };
   /// So far, of a field that is watched.
   [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {
-    const auto place = std::find(watched.begin(), watched.end(), field) - watched.begin();
-    return ranges_[watched.size() * contact + static_cast<std::size_t>(place)];
+    return ranges_[place_of(contact, field)];
+  }
+  /// Its value at the end of a step, on which it does not turn.
+  void see(std::size_t contact, ContactSeries::Field field, double value) {
+    ranges_[place_of(contact, field)].see(value);
   }
   static constexpr std::array<ContactSeries::Field, 4> watched{ContactSeries::N, ContactSeries::T,
                                                                ContactSeries::gap, ContactSeries::slide};
@@ -46,9 +57,22 @@ class TurningPoints {
  private:
   static constexpr std::size_t turn_samples = 8;  // a step turns by less than 4 rad of any mode that matters
   using Samples = std::array<double, turn_samples + 1>;
-  /// place: of the range, watched.size() * contact + field.
-  void find_of(const ContactSeries& contact, std::size_t place, const Samples& x, const Series& series,
-               Ends ends);
+  [[nodiscard]] static std::size_t place_of(std::size_t contact, ContactSeries::Field field) {
+    const auto place = std::find(watched.begin(), watched.end(), field) - watched.begin();
+    return watched.size() * contact + static_cast<std::size_t>(place);
+  }
+  [[nodiscard]] static Samples samples_to(double x_end);
+  /// A polynomial on a step, t = begin + scale x.
+  struct Path {
+    const double* a;
+    std::size_t degree;
+    double begin, scale;
+  };
+  /// place: of the range.
+  void find_of(const Path& path, std::size_t place, const Samples& x, Ends ends);
+  void find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
+                   const Samples& value, Ends ends);
+  void record(const Path& path, std::size_t place, double at);
 
   std::vector<Range> ranges_;  // so far
   std::vector<Turn> turns_;

@@ -37,18 +37,23 @@ IdaEngine::IdaEngine(const Model& model, const Structure& structure, ModeSystems
       flight_tolerances_(flight_tolerances),
       powers_(model, structure),
       bdf_(model, structure, tolerance, max_order, counters),
-      history_(guard_count(model.contacts.size()) + powers_.count()),
+      turns_(model.contacts.size(), guard_count(model.contacts.size()) + powers_.count()),
+      history_(guard_count(model.contacts.size()) + powers_.count() + turns_.count()),
       flights_(model, structure, systems, t_end),
       integrals_(powers_.count()) {
   for (const Contact& contact : model.contacts)
     accelerations_ = accelerations_ || contact.normal_damping > 0.0;
 }
 
-/// Guards and powers at the end of a step, for its polynomials.
+/// Guards, powers, and what contacts show at the end of a step, for its polynomials.
 void IdaEngine::fill(double t, const Point& point, double* out) {
   const Decision& decision = *segment_.decision;
+  double* shown = out + guard_count(model_.contacts.size()) + powers_.count();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const ContactMotion m = motion_of(model_.contacts[k], k, *segment_.forcing, t, point);
+    const Contact& contact = model_.contacts[k];
+    const ContactMotion m = motion_of(contact, k, *segment_.forcing, t, point);
+    const double ut = slide_of(contact, k, *segment_.forcing, t, point.u, point.v).ut;
+    for (const double value : {m.N, m.T, m.gap, ut}) *shown++ = value;  // as TurningPoints::watched
     for (std::size_t i = 0; i < guards_per_contact; ++i)
       *out++ = decision.guards[guard_slot(k, i)].form.value(m);
   }
@@ -90,6 +95,7 @@ void IdaEngine::start(const Segment& segment) {
     levels.push_back(level);
   }
   grazes_.start(decision.guards, levels);
+  turns_.start(decision);
   watch_.start(decision.guards, std::move(levels));
   bdf_.start(segment, watch_);
   const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
@@ -107,10 +113,12 @@ void IdaEngine::evaluate(double t, Point& point) {
 
 /// From the equation of motion at the point's own u and v, which stay as they are.
 void IdaEngine::accelerate(double t, Point& point) {
-  if (point.a.size() > 0) return;
-  Point consistent = point;
-  consistent_.make(segment_.decision->system, *segment_.forcing, t, consistent);
-  point.a = std::move(consistent.a);
+  if (flight_ || (point.a.size() > 0 && !consistent_.massless())) return;
+  consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
+}
+
+const std::vector<double>& IdaEngine::turning_points() const {
+  return flight_ ? flights_.turning_points() : turns_.times();
 }
 
 double IdaEngine::residual() { return flight_ ? flights_.motion().residual() : bdf_.residual(); }
@@ -147,8 +155,10 @@ Step IdaEngine::advance() {
     fallen_ = {event->slot};
     step.kind = Step::Kind::event;
     step.end = event->time;
-    step.fired = {{contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind}};
+    step.fired = {{contact_of_guard(event->slot), segment_.decision->guards[event->slot].kind,
+                   !watch_.armed(event->slot)}};
   }
+  turns_.find(history_, event ? (event->time - bdf.begin) / (bdf.end - bdf.begin) : 1.0);
   return step;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/watch.hpp"
 #include "engine/ida/bdf_integrator.hpp"
+#include "engine/ida/history_turns.hpp"
 #include "engine/ida/short_flight.hpp"
 #include "engine/stepper.hpp"
 #include "motion/consistent.hpp"
@@ -33,6 +34,7 @@ class IdaEngine final : public Stepper {
                                    std::size_t contact) const override;
   [[nodiscard]] bool knows_low_flights() const override;
   [[nodiscard]] std::optional<Graze> graze() const override;
+  [[nodiscard]] const std::vector<double>& turning_points() const override;
 
  private:
   struct Located {
@@ -51,6 +53,7 @@ class IdaEngine final : public Stepper {
   const double flight_tolerances_;
   Powers powers_;
   BdfIntegrator bdf_;
+  HistoryTurns turns_;
   StepHistory history_;
   Watch watch_;
   Grazes grazes_;

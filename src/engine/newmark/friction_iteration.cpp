@@ -20,7 +20,8 @@ constexpr int stops = 101;           // key: comes to rest within the step, with
 
 }  // namespace
 
-FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, const RunSpec& run)
+FrictionIteration::FrictionIteration(const Model& model, const Structure& structure, ModeSystems& systems,
+                                     const RunSpec& run)
     : model_(model),
       structure_(structure),
       dt_(run.dt.value()),
@@ -28,6 +29,8 @@ FrictionIteration::FrictionIteration(const Model& model, const Structure& struct
       most_(run.max_iterations),
       step_(model, structure),
       works_(model, structure),
+      systems_(systems),
+      consistent_(systems),
       sides_(model.contacts.size()),
       key_(model.contacts.size()) {}
 
@@ -38,7 +41,7 @@ void FrictionIteration::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   mode_ = decision.mode;
   key_in_force_.clear();
-  step_.set({}, signorini::rows_of(model_, mode_), decision.system->kinds());
+  step_.set({}, signorini::rows_of(model_, mode_));
   ++counters.restarts;
 }
 
@@ -91,7 +94,7 @@ void FrictionIteration::put_in_force() {
   }
   if (key_ == key_in_force_) return;
   key_in_force_ = key_;
-  step_.set(key_, std::move(rows), segment_.decision->system->kinds());
+  step_.set(key_, std::move(rows));
 }
 
 /// The state that the iterate asks of contact k, its bound given.
@@ -99,8 +102,10 @@ State FrictionIteration::state_of(std::size_t k) const {
   const Contact& contact = model_.contacts[k];
   const Side& side = sides_[k];
   const ContactMotion m = motion_of(contact, k, *segment_.forcing, t1_, end_);
-  if (contact.is_pressed() ? is_open(side.state)
-                           : contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
+  // A dashpot presses where it closes, not on the way there.
+  if (contact.is_pressed()
+          ? is_open(side.state)
+          : m.gap > 0.0 || contact.normal_stiffness * m.gap + contact.normal_damping * m.vn >= 0.0)
     return State::open;
   if (!contact.has_friction() || is_open(side.state)) return state_at_rest(contact);
   const auto& kt = contact.tangential_stiffness;
@@ -214,11 +219,36 @@ Step FrictionIteration::advance() {
     mode_[k] = {side.state, side.state == State::stick ? side.anchor : 0.0};
     if (is_open(side.state)) mode_[k].state = let_go(contact, contact.gap_at(end_.u));
   }
+  settle_massless();
   if (changed_) {
     step.kind = Step::Kind::event;
     step.adopted = mode_;
   }
   return step;
+}
+
+/// Of what has no mass the equation of motion, differentiated once, knows the velocity at the end of the step:
+/// the step's own swings about it from end to end.
+void FrictionIteration::settle_massless() {
+  if (!consistent_.massless()) return;
+  const ModeSystemPtr system = systems_.of(mode_);
+  if (!system) return;
+  Point settled = end_;
+  consistent_.make(system, *segment_.forcing, t1_, settled);
+  for (Eigen::Index i = 0; i < end_.v.size(); ++i)
+    if (model_.dofs[static_cast<std::size_t>(i)].massless) end_.v[i] = settled.v[i];
+}
+
+/// Of what has no mass; the step itself knows those of masses. Inside of a step the states are those of its
+/// beginning.
+void FrictionIteration::accelerate(double t, Point& point) {
+  if (!consistent_.massless()) return;
+  const ModeSystemPtr system = t == t1_ && changed_ ? systems_.of(mode_) : segment_.decision->system;
+  if (!system) return;
+  const Vector of_step = point.a;
+  consistent_.accelerate(system, *segment_.forcing, t, point);
+  for (Eigen::Index i = 0; i < of_step.size(); ++i)
+    if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
 }
 
 /// On a straight line between the ends of the step, which keeps |T| <= -f N; forces of a state that is about

@@ -15,18 +15,20 @@
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
+#include "motion/consistent.hpp"
 #include "motion/equilibrium.hpp"
 
 namespace signorini {
 
 class FrictionIteration final : public Stepper {
  public:
-  /// The first two must outlive it. run.dt must be given.
-  FrictionIteration(const Model& model, const Structure& structure, const RunSpec& run);
+  /// The first three must outlive it. run.dt must be given.
+  FrictionIteration(const Model& model, const Structure& structure, ModeSystems& systems, const RunSpec& run);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
+  void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
@@ -51,6 +53,7 @@ class FrictionIteration final : public Stepper {
   [[nodiscard]] State state_of(std::size_t k) const;
   [[nodiscard]] bool new_states();
   [[nodiscard]] std::string iterate(double h, bool kept);
+  void settle_massless();
 
   const Model& model_;
   const Structure& structure_;
@@ -58,6 +61,8 @@ class FrictionIteration final : public Stepper {
   const int most_;
   NewmarkStep step_;
   NewmarkWorks works_;
+  ModeSystems& systems_;
+  ConsistentMotion consistent_;
   Segment segment_;
   std::vector<Side> sides_;
   NewmarkStep::Key key_, key_in_force_;

@@ -45,7 +45,7 @@ void NewmarkEngine::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
   for (const State s : states_of(decision.mode)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), rows_of(model_, decision.mode), decision.system->kinds());
+  step_.set(std::move(key), rows_of(model_, decision.mode));
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
@@ -363,6 +363,15 @@ const Point& NewmarkEngine::inside(double t) {
 }
 
 void NewmarkEngine::evaluate(double t, Point& point) { point = inside(t); }
+
+/// Of what has no mass; the step itself knows those of masses.
+void NewmarkEngine::accelerate(double t, Point& point) {
+  if (!settles_) return;
+  const Vector of_step = point.a;
+  consistent_.accelerate(segment_.decision->system, *segment_.forcing, t, point);
+  for (Eigen::Index i = 0; i < of_step.size(); ++i)
+    if (!model_.dofs[static_cast<std::size_t>(i)].massless) point.a[i] = of_step[i];
+}
 
 /// Average acceleration from end to end; forces, and what has no mass, along straight lines. Of the curves
 /// through both ends this is the step's own, and costs no factorisation as the step redone does.

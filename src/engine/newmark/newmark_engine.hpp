@@ -33,6 +33,7 @@ class NewmarkEngine final : public Stepper {
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
+  void accelerate(double t, Point& point) override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override {

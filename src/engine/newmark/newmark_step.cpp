@@ -15,6 +15,9 @@ constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
 NewmarkStep::NewmarkStep(const Model& model, const Structure& structure)
     : model_(model),
       structure_(structure),
+      own_kinds_(dof_kinds(model, structure)),
+      massless_(has_massless(model)),
+      in_rows_{own_kinds_, {}},
       workshop_(model, structure),
       kept_(most_kept),
       odd_(model, structure),
@@ -25,19 +28,19 @@ NewmarkStep::NewmarkStep(const Model& model, const Structure& structure)
   work_ = x_;
 }
 
-void NewmarkStep::set(Key key, std::vector<Rows> rows, const std::vector<DofKind>& kinds) {
+void NewmarkStep::set(Key key, std::vector<Rows> rows) {
   key_ = std::move(key);
   rows_ = std::move(rows);
-  kinds_ = kinds;
+  if (massless_) in_rows_ = kinds_in_mode(own_kinds_, model_, rows_);
   last_ = nullptr;
 }
 
 bool NewmarkStep::factor(SystemMatrix& matrix, double h, bool fresh) {
   for (std::size_t i = 0; i < weights_.size(); ++i)
-    weights_[i] = kinds_[i] == DofKind::massive  ? Weights{1.0, 0.5 * h, 0.25 * h * h}
-                  : kinds_[i] == DofKind::damped ? Weights{0.0, 1.0, 0.5 * h}
-                                                 : Weights{0.0, 0.0, 1.0};
-  return matrix.set(rows_, weights_, fresh);
+    weights_[i] = in_rows_.kinds[i] == DofKind::massive  ? Weights{1.0, 0.5 * h, 0.25 * h * h}
+                  : in_rows_.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.5 * h}
+                                                         : Weights{0.0, 0.0, 1.0};
+  return matrix.set(rows_, weights_, fresh, in_rows_.undamped);
 }
 
 const TriangularFactors* NewmarkStep::factors_for(double h, bool kept) {
@@ -62,16 +65,49 @@ const TriangularFactors* NewmarkStep::factors_for(double h, bool kept) {
   return last_;
 }
 
+/// What is known of the motion at the end of the step: u_ and v_.
+void NewmarkStep::know_motion(const Point& from, double h) {
+  const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
+  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
+    const bool massive = in_rows_.kinds[i] == DofKind::massive, damped = in_rows_.kinds[i] == DofKind::damped;
+    u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
+    v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
+  }
+  for (const UndampedMotion& motion : in_rows_.undamped)
+    for (const auto& [dof, factor] : motion.others)
+      u_.data()[dof] -= factor * (u0[motion.dof] + 0.5 * h * v0[motion.dof]);
+}
+
+void NewmarkStep::read_motion(const Point& from, double h, Point& to) const {
+  for (Vector* part : {&to.u, &to.v, &to.a}) part->resize(from.u.size());
+  const double *u0 = from.u.data(), *v0 = from.v.data(), *x = x_.data();
+  double *u1 = to.u.data(), *v1 = to.v.data(), *a1 = to.a.data();
+  for (std::size_t i = 0; i < in_rows_.kinds.size(); ++i) {
+    a1[i] = 0.0;
+    if (in_rows_.kinds[i] == DofKind::massive) {
+      u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
+      v1[i] = v_.data()[i] + 0.5 * h * x[i];
+      a1[i] = x[i];
+    } else if (in_rows_.kinds[i] == DofKind::damped) {
+      u1[i] = u_.data()[i] + 0.5 * h * x[i];
+      v1[i] = x[i];
+    } else {
+      u1[i] = x[i];
+      v1[i] = h > 0.0 ? 2.0 * (u1[i] - u0[i]) / h - v0[i] : v0[i];
+    }
+  }
+  for (const UndampedMotion& motion : in_rows_.undamped)
+    for (const auto& [dof, factor] : motion.others) {
+      u1[dof] += factor * u1[motion.dof];
+      v1[dof] += factor * v1[motion.dof];
+    }
+}
+
 bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, double h, bool kept, Point& to) {
   const TriangularFactors* factors = factors_for(h, kept);
   if (factors == nullptr) return false;
   const auto n = static_cast<std::size_t>(structure_.size);
-  const double *u0 = from.u.data(), *v0 = from.v.data(), *a0 = from.a.data();
-  for (std::size_t i = 0; i < n; ++i) {  // what is known of the motion at t1
-    const bool massive = kinds_[i] == DofKind::massive, damped = kinds_[i] == DofKind::damped;
-    u_.data()[i] = massive ? u0[i] + h * (v0[i] + 0.25 * h * a0[i]) : damped ? u0[i] + 0.5 * h * v0[i] : 0.0;
-    v_.data()[i] = massive ? v0[i] + 0.5 * h * a0[i] : 0.0;
-  }
+  know_motion(from, h);
   // r = P - C v - K u
   x_.setZero();
   structure_.add_product(none_.data(), v_.data(), u_.data(), x_.data());
@@ -90,26 +126,9 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
   factors->solve(x_.data(), work_.data());
   ++solves_;
 
-  to.u.resize(from.u.size());
-  to.v.resize(from.u.size());
-  to.a.resize(from.u.size());
+  read_motion(from, h, to);
   to.forces.resize(x_.size() - from.u.size());
-  double *u1 = to.u.data(), *v1 = to.v.data(), *a1 = to.a.data();
   const double* x = x_.data();
-  for (std::size_t i = 0; i < n; ++i) {
-    a1[i] = 0.0;
-    if (kinds_[i] == DofKind::massive) {
-      u1[i] = u_.data()[i] + 0.25 * h * h * x[i];
-      v1[i] = v_.data()[i] + 0.5 * h * x[i];
-      a1[i] = x[i];
-    } else if (kinds_[i] == DofKind::damped) {
-      u1[i] = u_.data()[i] + 0.5 * h * x[i];
-      v1[i] = x[i];
-    } else {
-      u1[i] = x[i];
-      v1[i] = h > 0.0 ? 2.0 * (u1[i] - u0[i]) / h - v0[i] : v0[i];
-    }
-  }
   for (std::size_t i = n; i < static_cast<std::size_t>(x_.size()); ++i) to.forces.data()[i - n] = x[i];
   // The limit itself, not what the solve leaves of it: no drift.
   for (std::size_t k = 0; k < rows_.size(); ++k)

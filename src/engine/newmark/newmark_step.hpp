@@ -10,8 +10,8 @@
 #pragma once
 
 #include "base/bounded_cache.hpp"
-#include "linear/dof_kinds.hpp"
 #include "linear/system_matrix.hpp"
+#include "linear/undamped_motion.hpp"
 #include "motion/point.hpp"
 #include "signorini/result.hpp"
 
@@ -29,8 +29,8 @@ class NewmarkStep {
 
   NewmarkStep(const Model& model, const Structure& structure);
 
-  /// Puts rows in force. `kinds`: which unknown each degree of freedom has.
-  void set(Key key, std::vector<Rows> rows, const std::vector<DofKind>& kinds);
+  /// Puts rows in force.
+  void set(Key key, std::vector<Rows> rows);
   /// Constants of rows may change without a new factorisation.
   [[nodiscard]] std::vector<Rows>& rows() { return rows_; }
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
@@ -43,12 +43,16 @@ class NewmarkStep {
  private:
   [[nodiscard]] const TriangularFactors* factors_for(double h, bool kept);
   [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
+  void know_motion(const Point& from, double h);
+  void read_motion(const Point& from, double h, Point& to) const;
 
   const Model& model_;
   const Structure& structure_;
   Key key_;
   std::vector<Rows> rows_;
-  std::vector<DofKind> kinds_;
+  const std::vector<DofKind> own_kinds_;  // by the structure alone
+  const bool massless_;
+  MotionKinds in_rows_;  // which unknown each degree of freedom has
   SystemMatrix workshop_;
   BoundedCache<std::pair<Key, double>, TriangularFactors> kept_;  // by rows and length
   SystemMatrix odd_;                                              // for a length that will not come again

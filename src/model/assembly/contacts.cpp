@@ -6,6 +6,7 @@
 #include "contact/law.hpp"
 #include "contact/slots.hpp"
 #include "scene/history_from_spec.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 namespace {
@@ -116,6 +117,9 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
       check_slider(spec, c, scene.run.t_end);
     }
     c.surface_motion = make_integral(spec.surface_velocity, spec.key("surface_velocity"));
+    if (const auto& saved = scene.initial.saved)
+      if (const auto moved = saved_motion(*saved, c.name + ".surface"))
+        c.surface_motion = c.surface_motion.scaled(1.0, *moved);
     contacts.push_back(std::move(c));
   }
   return contacts;

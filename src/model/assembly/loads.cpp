@@ -7,6 +7,7 @@
 #include "model/assembly/pieces.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
+#include "scene/saved_state.hpp"
 
 namespace signorini {
 namespace {
@@ -152,11 +153,8 @@ double jump_of(const History& f, double t_end) {
 }
 
 /// Where the support was in the run that this one goes on from; 0 where none is.
-double saved_motion(const Scene& scene, const std::string& name) {
-  if (scene.initial.saved)
-    for (const auto& [saved, value] : scene.initial.saved->motions)
-      if (saved == name) return value;
-  return 0.0;
+double last_motion(const Scene& scene, const std::string& name) {
+  return scene.initial.saved ? saved_motion(*scene.initial.saved, name).value_or(0.0) : 0.0;
 }
 
 /// What a support follows, and how it is called.
@@ -175,7 +173,7 @@ SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t 
                        support.rz,
                        {}};
   if (support.motion_is_acceleration) {
-    const double s = saved_motion(scene, moving.name), rate = saved_motion(scene, rate_of(moving.name));
+    const double s = last_motion(scene, moving.name), rate = last_motion(scene, rate_of(moving.name));
     moving.s = make_integral(*support.motion, moving.key).scaled(1.0, rate).integrated().scaled(1.0, s);
   } else {
     moving.s = make_history(*support.motion, moving.key);

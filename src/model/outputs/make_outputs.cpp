@@ -197,7 +197,7 @@ class Maker {
     if (spec.quantity == OutputQuantity::slip) {
       output.unit = unit::length;
       output.u = contact.tangent;
-      if (!contact.surface_motion.is_constant())
+      if (!contact.surface_motion.is_constant() || contact.surface_motion.value(0.0) != 0.0)
         output.given.push_back({contact.surface_motion.scaled(-1.0)});
       if (contact.tangential_stiffness)
         output.forces.push_back({k, 0.0, -1.0 / *contact.tangential_stiffness});

@@ -191,16 +191,31 @@ void keep_gaps(const Model& model, const Basis& b, const std::vector<double>& ga
   w.head(b.heavy) += change.col(1);
 }
 
+/// Of a motion that is made of the shapes, as that which a run left: modes are M-orthogonal to all others, static
+/// shapes K-orthogonal to each other. (By M massive ones would take a part of what massless ones move.)
+Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, const Vector& x) {
+  Vector q(b.shapes.cols());
+  q.head(modes) = (b.shapes.leftCols(modes).transpose() * (model.mass * x)).cwiseQuotient(b.mass.head(modes));
+  const Eigen::Index rest = b.shapes.cols() - modes;
+  const Vector left = model.stiffness * (x - b.shapes.leftCols(modes) * q.head(modes));
+  q.tail(rest) = (b.shapes.rightCols(rest).transpose() * left).cwiseQuotient(b.stiffness.tail(rest));
+  return q;
+}
+
 /// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so that a static
 /// state is met. What does not fit is reported.
-void reduce_state(const Basis& b, Eigen::Index modes, Model& model, const std::vector<Contact>& contacts,
-                  Reduction& facts) {
+void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
+                  const std::vector<Contact>& contacts, Reduction& facts) {
   const Eigen::Index size = b.shapes.cols();
   Vector q(size), w = Vector::Zero(size);
   const Vector mu = model.mass * model.u0, ku = model.stiffness * model.u0, mv = model.mass * model.v0;
   for (Eigen::Index j = 0; j < size; ++j) {
     q[j] = j < modes ? b.shapes.col(j).dot(mu) / b.mass[j] : b.shapes.col(j).dot(ku) / b.stiffness[j];
     if (j < b.heavy) w[j] = b.shapes.col(j).dot(mv) / b.mass[j];
+  }
+  if (scene.initial.saved) {
+    q = amplitudes_of(b, modes, model, model.u0);
+    w = amplitudes_of(b, modes, model, model.v0);
   }
   std::vector<double> gap, rate;
   for (const Contact& c : contacts) {
@@ -303,7 +318,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   const std::vector<Contact> physical = model.contacts;
   reduce_contacts(scene, b, model);
   for (Load& load : model.loads) load.direction = reduced_form(load.direction, b, false);
-  reduce_state(b, facts.modes, model, physical, facts);
+  reduce_state(scene, b, facts.modes, model, physical, facts);
   set_matrices(b, model);
   name_dofs(facts, b, model);
   facts.shapes = std::move(b.shapes);

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "base/complementarity.hpp"
 #include "base/listed.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
 #include "model/statics/least_share.hpp"
 #include "model/statics/null_motions.hpp"
+#include "model/statics/slow_rates.hpp"
 #include "model/statics/standing.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -141,9 +141,16 @@ class Path {
     return -friction(unknown.contact) * N - unknown.sign * forces[s.tangent];
   }
 
+  /// Below this a force is zero. Contacts that open may take all forces to zero; what is left of them is rounding of
+  /// those that were.
+  double zero() {
+    for (const Standing& s : standing_) carried_ = std::max({carried_, std::abs(s.N), std::abs(s.T)});
+    return zero_force(carried_);
+  }
+
   /// Rates of everything along the stage, and the states that go with them.
   void find_rates() {
-    const double zero = zero_force(standing_);
+    const double zero = this->zero();
     const std::vector<HeldRow> rows = make_rows(zero);
     const HeldRows held(stiffness_, rows);
     if (!held.regular()) refuse_motion(held);
@@ -168,17 +175,23 @@ class Path {
           m(i, j) = condition(unknowns[static_cast<std::size_t>(i)], answers.back().second);
       }
       const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-      const auto z = solve_complementarity(m, q / size);
-      if (!z) refuse_stage(names_of_unknowns(unknowns) + " can neither hold nor slip in equilibrium");
+      const auto found = slow_rates(m, q / size, unknowns);
+      if (!found) refuse_stage(names_of_unknowns(unknowns) + " can neither hold nor slip in equilibrium");
       for (Eigen::Index j = 0; j < n; ++j) {
-        rates += (*z)[j] * size * answers[static_cast<std::size_t>(j)].first;
-        forces += (*z)[j] * size * answers[static_cast<std::size_t>(j)].second;
+        rates += found->z[j] * size * answers[static_cast<std::size_t>(j)].first;
+        forces += found->z[j] * size * answers[static_cast<std::size_t>(j)].second;
       }
       std::vector<double> conditions;
       for (const Unknown& unknown : unknowns) conditions.push_back(condition(unknown, forces));
       const LeastShare shared = least_share(
-          {stiffness_, map_, rows, unknowns, conditions, *z * size, forces.cwiseAbs().maxCoeff()}, rates);
+          {stiffness_, map_, rows, unknowns, conditions, found->z * size, forces.cwiseAbs().maxCoeff()},
+          rates);
       if (!shared.undetermined.empty()) doubt(shared);
+      if (found->several)
+        doubt(fmt::format(
+            "at {:.4g} of stage '{}' {} may go on in several ways that all keep the laws of contact; "
+            "the start takes the one with the least slips and openings",
+            part_, stage_->name, names_of_unknowns(unknowns)));
       take_states(unknowns, shared.moves);
     }
     u_rate_ = std::move(rates);
@@ -193,6 +206,9 @@ class Path {
         "each of them "
         "goes; the start takes the least",
         stage_->name, describe_motion(shared.motion, map_), listed(names), names.size() == 1 ? "is" : "are");
+    doubt(sentence);
+  }
+  void doubt(const std::string& sentence) {
     if (std::find(found_.doubts.begin(), found_.doubts.end(), sentence) == found_.doubts.end())
       found_.doubts.push_back(sentence);
   }
@@ -258,7 +274,7 @@ class Path {
   /// To the end of the step or to the next change of a state.
   void advance(double end) {
     double step = end - part_;
-    const double zero = zero_force(standing_);
+    const double zero = this->zero();
     const auto fall = [&](double value, double rate, bool there) {
       if (rate < 0.0 && !there) step = std::min(step, std::max(0.0, -value / rate));
     };
@@ -292,7 +308,8 @@ class Path {
   std::vector<Standing> standing_;
   StaticStart found_;
   const Stage* stage_ = nullptr;
-  double part_ = 0.0;  // of the stage
+  double part_ = 0.0;     // of the stage
+  double carried_ = 0.0;  // greatest force of a contact so far
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 //                          -f N' -+ T'   _|_ a, b >= 0
 //   at its limit, T = s f |N|    -f N' - s T'  _|_ s p' >= 0
 //
-// one linear complementarity problem of all contacts that touch or are at their limit (Lemke). No solution,
-// or no stiffness left: what would follow is a motion, and the start is refused.
+// one linear complementarity problem of all contacts that touch or are at their limit (slow_rates.hpp). No solution,
+// or no stiffness left: what would follow is a motion, and the start is refused. Several: one is taken, and said.
 //
 // Where closed contacts at their limits leave a motion that nothing resists, so that many slips go with the
 // same forces, the least of them is taken (least_motion.hpp) and said in StaticStart::doubts.

@@ -20,8 +20,11 @@ Vector scaling(const SparseMatrix& k) {
   return s;
 }
 
-bool is_null(const SparseMatrix& k, const Vector& x) {
-  return x.dot(k * x) <= rounding::of_many * term_size(k, x);
+/// a: scaled. A row of zeros has no terms, so that beside it what rounding leaves of the other rows would decide: it
+/// counts as the others do, by its scaled diagonal, 1.
+bool is_null(const SparseMatrix& a, const Vector& x) {
+  const double bare = (a.diagonal().array() == 0.0).select(x, 0.0).squaredNorm();
+  return x.dot(a * x) <= rounding::of_many * (term_size(a, x) + bare);
 }
 
 /// The lowest `count` eigenvectors of the scaled matrix a (unit diagonal, so that a shift of 1e-14 is

@@ -8,7 +8,7 @@
 namespace signorini {
 namespace {
 
-// Forces that differ by less, of the greatest at hand, are one: what some thousand solves and events lose of
+// Forces that differ by less, of the greatest on the way, are one: what some thousand solves and events lose of
 // sixteen digits. Chosen.
 constexpr double same_force = 1e-11;
 
@@ -36,11 +36,7 @@ double margin_of(const Contact& contact, const Standing& standing, int s) {
   return friction_of(contact, standing) * std::abs(standing.N) - s * standing.T;
 }
 
-double zero_force(const std::vector<Standing>& standing) {
-  double most = 0.0;
-  for (const Standing& s : standing) most = std::max({most, std::abs(s.N), std::abs(s.T)});
-  return same_force * most;
-}
+double zero_force(double greatest) { return same_force * greatest; }
 
 bool touching(const Contact& contact, const Standing& standing, double zero, double travelled) {
   if (!contact.has_gap() || std::abs(standing.N) > zero) return false;

@@ -27,8 +27,8 @@ struct Standing {
 /// f |N| - s T
 [[nodiscard]] double margin_of(const Contact& contact, const Standing& standing, int s);
 
-/// Below this a force is zero.
-[[nodiscard]] double zero_force(const std::vector<Standing>& standing);
+/// Below this a force is zero, the greatest so far being so great.
+[[nodiscard]] double zero_force(double greatest);
 /// zero: a force; travelled: sum of the magnitudes that its gap is a difference of.
 [[nodiscard]] bool touching(const Contact& contact, const Standing& standing, double zero, double travelled);
 

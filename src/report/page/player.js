@@ -1,7 +1,7 @@
 // player.js: plays, pauses and steps from event to event.
 class Player {
   constructor() {
-    this.last = data.curve.t.length ? data.curve.t[data.curve.t.length - 1] : 0;
+    this.last = data.curve.times.reduce((last, t) => t.length ? Math.max(last, t[t.length - 1]) : last, 0);
     this.times = [...new Set(data.events.map((event) => event[0]))].filter((t) => t <= this.last);
     this.t = 0;
     this.playing = false;
@@ -27,7 +27,7 @@ class Player {
   scales() {
     let greatest = 0;
     const columns = data.nodes.flatMap((node) => node.u.slice(0, 2)).filter((column) => column >= 0);
-    for (const row of data.curve.u) for (const column of columns) greatest = Math.max(greatest, Math.abs(row[column]));
+    for (const column of columns) for (const u of data.curve.columns[column].u) greatest = Math.max(greatest, Math.abs(u));
     const wanted = greatest > 0 ? new Stage(byId("stage")).size / 8 / greatest : 1;
     const power = Math.pow(10, Math.floor(Math.log10(wanted))), lead = wanted / power;
     const fit = Math.max(lead >= 5 ? 5 * power : lead >= 2 ? 2 * power : power, wanted < 1 ? 0 : 1);

@@ -32,13 +32,11 @@ const valueAt = (times, values, t) => {
 // Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero. The same arrays at every call.
 const moved = data ? data.nodes.map(() => [0, 0, 0]) : [];
 const displacementsAt = (t) => {
-  const { t: times, u } = data.curve;
-  if (!times.length) return moved;
-  const [row, part] = between(times, t), from = u[row], to = u[part ? row + 1 : row];
+  const { times, columns } = data.curve;
   data.nodes.forEach((node, k) => {
     for (let i = 0; i < 3; ++i) {
-      const column = node.u[i];
-      if (column >= 0) moved[k][i] = from[column] + part * (to[column] - from[column]);
+      const column = columns[node.u[i]];
+      if (column) moved[k][i] = valueAt(times[column.t], column.u, t);
     }
   });
   return moved;
@@ -138,9 +136,15 @@ class Stage {
   // How far its node goes along the tangent.
   reach(contact) {
     const [cx, cy] = data.nodes[contact.node].u;
-    if (contact.reach === undefined)
-      contact.reach = data.curve.u.reduce((most, row) =>
-        Math.max(most, Math.abs((cx < 0 ? 0 : row[cx] * contact.ny) - (cy < 0 ? 0 : row[cy] * contact.nx))), 0);
+    if (contact.reach === undefined) {
+      const { times, columns } = data.curve, both = [columns[cx], columns[cy]];
+      const along = (t) => {
+        const [x, y] = both.map((column) => column ? valueAt(times[column.t], column.u, t) : 0);
+        return Math.abs(x * contact.ny - y * contact.nx);
+      };
+      contact.reach = 0;
+      for (const column of both) if (column) for (const t of times[column.t]) contact.reach = Math.max(contact.reach, along(t));
+    }
     return contact.reach;
   }
   spring(spring, u, m) {

@@ -79,10 +79,6 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
   report.cost = checks::cost_of(model, scene.run, report.method);
-  RunSpec chosen = scene.run;
-  chosen.engine = report.method.engine;
-  if (std::string patience = warn_of_patience(model, chosen, scene.file); !patience.empty())
-    report.warnings.push_back(std::move(patience));
   return report;
 }
 

@@ -11,6 +11,7 @@
 
 #include "model/modes/frequencies.hpp"
 #include "run/effort.hpp"
+#include "run/trial.hpp"
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
@@ -43,7 +44,8 @@ struct Cost {
   long unknowns = 0;
   double omega_max = 0.0;  ///< of the structure with its contacts stuck, and of harmonic loads
   Effort effort;
-  std::optional<double> exact;  ///< seconds that exact would take instead of ida
+  std::optional<double> exact;  ///< seconds that exact would take instead of ida, by the same rule
+  std::vector<Trial> trials;    ///< measured, where measure_cost() was asked; none else
 };
 
 /// Of the structure as the scene has it, also where the run is to use a reduced model of it; frequencies,
@@ -65,6 +67,10 @@ struct CheckReport {
 
 /// Errors: SceneError when the run could not start, with the reason.
 [[nodiscard]] CheckReport check(const Scene& scene, const Model& model);
+
+/// Tries the first steps of each engine that takes the scene; with these cutoffs of [reduction], in cycles per time, or where
+/// none is given and the run is long one that suits its frequencies. Takes half a second an engine.
+void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report);
 
 /// The same as JSON, numbers in the scene's units.
 [[nodiscard]] std::string check_json(const Scene& scene, const Model& model, const CheckReport& report);

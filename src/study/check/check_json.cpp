@@ -78,6 +78,11 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
     if (effort.by_modes > 0.0) json["run"]["seconds_in_modes_about"] = effort.by_modes;
     if (report.cost.exact) json["run"]["seconds_with_exact_about"] = *report.cost.exact;
   }
+  for (const Trial& trial : report.cost.trials) {
+    Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
+    if (trial.cutoff > 0.0) row["cutoff_frequency"] = trial.cutoff;
+    json["run"]["expected"].push_back(std::move(row));
+  }
   Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);
   json["columns"] = std::move(columns);

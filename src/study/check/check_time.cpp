@@ -37,7 +37,23 @@ Cost cost_of(const Model& model, const RunSpec& run, const Method& method) {
   RunSpec chosen = run;
   chosen.engine = method.engine;
   const Expected found = expected(model, run, method);
-  return {found.unknowns, found.omega_max, found.effort, exact_instead(model, chosen)};
+  return {found.unknowns, found.omega_max, found.effort, exact_instead(model, chosen), {}};
 }
 
 }  // namespace signorini::checks
+
+namespace signorini {
+
+void measure_cost(const Scene& scene, const Model& model, std::vector<double> cutoffs, CheckReport& report) {
+  constexpr double patience = 0.5, long_run = 2.0;  // s
+  const Engine own = report.method.engine;
+  report.cost.trials = trials(scene, model, own, cutoffs, patience);
+  if (!cutoffs.empty() || scene.reduction || report.stuck.modes.empty()) return;
+  const auto found = std::find_if(report.cost.trials.begin(), report.cost.trials.end(),
+                                  [&](const Trial& trial) { return trial.engine == own; });
+  const double cutoff = cutoff_to_try(report.stuck.modes.front().omega, report.cost.omega_max);
+  if (cutoff > 0.0 && found != report.cost.trials.end() && found->seconds > long_run)
+    report.cost.trials = trials(scene, model, own, {cutoff}, patience);
+}
+
+}  // namespace signorini

@@ -43,13 +43,16 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
     const auto found = std::find(b.header().begin(), b.header().end(), name);
     if (found == b.header().end()) {
       alone.push_back(name);
+      quantity(c, name).alone.push_back(name);
     } else {
       columns.push_back({name, i, static_cast<std::size_t>(found - b.header().begin()), &quantity(c, name)});
     }
   }
   for (std::size_t i = 1; i < b.header().size(); ++i)
-    if (std::find(a.header().begin(), a.header().end(), b.header()[i]) == a.header().end())
+    if (std::find(a.header().begin(), a.header().end(), b.header()[i]) == a.header().end()) {
       alone.push_back(b.header()[i]);
+      quantity(c, b.header()[i]).alone.push_back(b.header()[i]);
+    }
   if (!alone.empty()) {
     c.notes.push_back(fmt::format("{}: {} in one of the two runs only, the first is \"{}\"", table,
                                   count_of(alone.size(), "column"), alone[0]));
@@ -87,11 +90,11 @@ class Series {
 
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
                     double split, Comparison& c) {
-  TimeJoin join(a.figures.directory / "history.csv", b.figures.directory / "history.csv");
+  TimeJoin join(a.figures.directory / "history.csv", b.figures.directory / "history.csv", c.t_end);
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), c, "history.csv");
   for (const CommonColumn& column : columns) c.columns.emplace_back(column.name, Deviation());
   Series series(settings, "motion-", {"displacement", "velocity"});
-  while (join.next() && join.t() <= settings.t_end) {
+  while (join.next()) {
     double displacement = 0.0, velocity = 0.0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const CommonColumn& column = columns[i];
@@ -104,13 +107,13 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
     series.row(join.t(), {displacement, velocity});
     ++c.common_times;
   }
+  c.rows.history = join.rows();
   series.close();
 }
 
-void compare_response(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
-                      double split, Comparison& c) {
+void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
   if (a.figures.facts.response.empty() || b.figures.facts.response.empty()) return;
-  TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv");
+  TimeJoin join(a.figures.directory / "response.csv", b.figures.directory / "response.csv", c.t_end);
   Comparison ignored;  // its columns have no other quantity
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "response.csv");
   c.notes.insert(c.notes.end(), ignored.notes.begin(), ignored.notes.end());
@@ -122,23 +125,25 @@ void compare_response(const ComparedRun& a, const ComparedRun& b, const Comparis
     c.notes.emplace_back("response.csv: its columns are not those of summary.json, and are not compared");
     return;
   }
-  while (join.next() && join.t() <= settings.t_end)
+  while (join.next())
     for (std::size_t i = 0; i < columns.size(); ++i)
       c.response[i].deviation.take(std::abs(join.a().number(columns[i].a) - join.b().number(columns[i].b)),
                                    join.t(), columns[i].name, split);
+  c.rows.response = join.rows();
 }
 
-void compare_energy(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
-                    double split, Comparison& c) {
-  TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv");
+void compare_energy(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
+  TimeJoin join(a.figures.directory / "energy.csv", b.figures.directory / "energy.csv", c.t_end);
   Comparison ignored;  // its columns have no other quantity
   std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), ignored, "energy.csv");
   std::erase_if(columns, [](const CommonColumn& column) { return column.name == "balance"; });
-  while (join.next() && join.t() <= settings.t_end) {
+  c.energy.alone = std::move(ignored.displacement.alone);
+  while (join.next()) {
     for (const CommonColumn& column : columns)
       c.energy.take(std::abs(join.a().number(column.a) - join.b().number(column.b)), join.t(), column.name,
                     split);
   }
+  c.rows.energy = join.rows();
 }
 
 /// Whether an event of either run lies between two times; both must not decrease from call to call.
@@ -159,12 +164,30 @@ class EventsBetween {
   std::size_t at_ = 0;
 };
 
+/// Its next time, and its rows counted; false: none up to the end.
+bool next_row(ContactRowReader& reader, double end, std::size_t& count) {
+  if (!reader.next() || beyond(reader.t(), end)) return false;
+  count += reader.forces().size();
+  return true;
+}
+
+using ForcesByContact = std::map<std::string, std::pair<Deviation, Deviation>>;  // N and T
+
+void add_columns(const ForcesByContact& by_contact, const ComparedRun& reference, Comparison& c) {
+  for (const auto& contact : reference.figures.facts.contacts) {
+    const auto found = by_contact.find(contact.name);
+    if (found == by_contact.end()) continue;
+    c.columns.emplace_back(contact.name + ".N", found->second.first);
+    c.columns.emplace_back(contact.name + ".T", found->second.second);
+  }
+}
+
 void compare_forces(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
                     double split, Comparison& c) {
   ContactRowReader rows_a(a.figures.directory / "contacts.csv"), rows_b(b.figures.directory / "contacts.csv");
   EventsBetween events(a, b);
   Series series(settings, "forces-", {"N", "T"});
-  std::map<std::string, std::pair<Deviation, Deviation>> by_contact;
+  ForcesByContact by_contact;
 
   // A time is judged when the next one is known: is there an event from the time before up to the next?
   struct Waiting {
@@ -178,14 +201,16 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
     c.force_away.take(waiting->greatest.value, waiting->t, waiting->greatest.where, split);
   };
   double before = 0.0;
-  bool more = rows_a.next() && rows_b.next();
-  while (more) {
+  RowCount& rows = c.rows.contacts;
+  const auto next_a = [&] { return next_row(rows_a, c.t_end, rows.reference); };
+  const auto next_b = [&] { return next_row(rows_b, c.t_end, rows.other); };
+  bool more_a = next_a(), more_b = next_b();
+  while (more_a && more_b) {
     if (!same_time(rows_a.t(), rows_b.t())) {
-      more = (rows_a.t() < rows_b.t() ? rows_a : rows_b).next();
+      (rows_a.t() < rows_b.t() ? more_a : more_b) = rows_a.t() < rows_b.t() ? next_a() : next_b();
       continue;
     }
     const double t = rows_a.t();
-    if (t > settings.t_end) break;
     judge(t);
     waiting = Waiting{t, before, {}, false};
     before = t;
@@ -193,6 +218,7 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
     for (const auto& [name, forces] : rows_a.forces()) {
       const auto found = rows_b.forces().find(name);
       if (found == rows_b.forces().end()) continue;
+      ++rows.compared;
       const double dN = std::abs(forces.N - found->second.N), dT = std::abs(forces.T - found->second.T);
       by_contact[name].first.take(dN, t, name + ".N", split);
       by_contact[name].second.take(dT, t, name + ".T", split);
@@ -205,16 +231,14 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
       T = std::max(T, dT);
     }
     series.row(t, {N, T});
-    more = rows_a.next() && rows_b.next();
+    more_a = next_a();
+    more_b = next_b();
   }
+  while (more_a) more_a = next_a();
+  while (more_b) more_b = next_b();
   judge(before);
   series.close();
-  for (const auto& contact : a.figures.facts.contacts) {
-    const auto found = by_contact.find(contact.name);
-    if (found == by_contact.end()) continue;
-    c.columns.emplace_back(contact.name + ".N", found->second.first);
-    c.columns.emplace_back(contact.name + ".T", found->second.second);
-  }
+  add_columns(by_contact, a, c);
 }
 
 void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
@@ -224,8 +248,11 @@ void note_contacts(const ComparedRun& a, const ComparedRun& b, Comparison& c) {
   };
   for (const auto& [one, two] : {std::pair(&a, &b), std::pair(&b, &a)})
     for (const auto& contact : one->figures.facts.contacts)
-      if (!has(*two, contact.name))
+      if (!has(*two, contact.name)) {
         c.notes.push_back(fmt::format("contact \"{}\" is in {} only", contact.name, one->figures.name));
+        c.force.alone.push_back(contact.name);
+        c.force_away.alone.push_back(contact.name);
+      }
 }
 
 }  // namespace
@@ -241,6 +268,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   Comparison c;
   c.name = other.figures.name;
   c.t_end = std::min({reference.figures.t, other.figures.t, settings.t_end});
+  c.ends_differ = !same_time(reference.figures.t, other.figures.t) && c.t_end < settings.t_end;
   if (reference.figures.t != other.figures.t && c.t_end < settings.t_end) {
     const bool reference_first = reference.figures.t < other.figures.t;
     const RunFigures& shorter = reference_first ? reference.figures : other.figures;
@@ -257,8 +285,8 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
   }
   compare_motion(reference, other, settings, split, c);
   compare_forces(reference, other, settings, split, c);
-  compare_energy(reference, other, settings, split, c);
-  compare_response(reference, other, settings, split, c);
+  compare_energy(reference, other, split, c);
+  compare_response(reference, other, split, c);
   if (c.common_times < 2 && c.t_end > 0.0) {
     c.notes.push_back(fmt::format("{} output {} common: give both runs one grid (run.output_dt)",
                                   c.common_times, c.common_times == 1 ? "time is" : "times are"));

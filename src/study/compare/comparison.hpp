@@ -15,6 +15,7 @@
 
 #include "study/compare/alignment.hpp"
 #include "study/compare/greatest.hpp"
+#include "study/compare/joined_tables.hpp"
 #include "study/compare/run_figures.hpp"
 
 namespace signorini {
@@ -54,6 +55,11 @@ struct Comparison {
   };
   std::vector<Response> response;
   std::size_t common_times = 0;
+  /// Rows up to t_end; those of contacts.csv one a time and contact.
+  struct Rows {
+    RowCount history, contacts, energy, response;
+  } rows;
+  bool ends_differ = false;        ///< one run goes on beyond t_end
   std::vector<std::string> notes;  ///< what could not be compared, one sentence each
 };
 

@@ -124,12 +124,26 @@ Json run_json(const RunFigures& run) {
           {"audit", run.audit}};
 }
 
+Json rows_json(const Comparison::Rows& rows) {
+  Json json = Json::object();
+  const auto add = [&](const char* file, const RowCount& count) {
+    if (count.reference + count.other > 0)
+      json[file] = {{"compared", count.compared}, {"reference", count.reference}, {"run", count.other}};
+  };
+  add("history.csv", rows.history);
+  add("contacts.csv", rows.contacts);
+  add("energy.csv", rows.energy);
+  add("response.csv", rows.response);
+  return json;
+}
+
 Json comparison_json_of(const ComparisonReport& report, std::size_t i) {
   const Comparison& c = report.comparisons[i];
   const auto &reference = report.runs.front().events, &other = report.runs[i + 1].events;
   Json json = {{"run", c.name},
                {"t_end", c.t_end},
                {"common_times", c.common_times},
+               {"rows", rows_json(c.rows)},
                {"aligned", c.alignment.pairs.size()},
                {"swapped", c.alignment.swapped},
                {"first_difference", Json()}};

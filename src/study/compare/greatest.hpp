@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace signorini {
 
@@ -26,6 +27,7 @@ struct Deviation {
   Greatest whole, until_split;
   std::size_t count = 0;              ///< pairs compared; 0: nothing to compare
   std::size_t count_until_split = 0;  ///< of these, after t = 0 and before the sequences part
+  std::vector<std::string> alone;     ///< columns, or contacts, that one of the two runs has only
 
   void take(double difference, double at, const std::string& place, double split) {
     ++count;

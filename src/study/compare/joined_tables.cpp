@@ -10,14 +10,29 @@ bool same_time(double a, double b) {
   return std::abs(a - b) <= roundoff * std::max(std::abs(a), std::abs(b));
 }
 
+bool TimeJoin::read(CsvReader& reader, std::size_t& count) const {
+  if (!reader.next() || beyond(reader.number(0), until_)) return false;
+  ++count;
+  return true;
+}
+
 bool TimeJoin::next() {
-  if (!a_.next() || !b_.next()) return false;
-  for (;;) {
+  bool more_a = read(a_, rows_.reference), more_b = read(b_, rows_.other);
+  while (more_a && more_b) {
     const double ta = a_.number(0), tb = b_.number(0);
     t_ = ta;
-    if (same_time(ta, tb)) return true;
-    if (!(ta < tb ? a_ : b_).next()) return false;
+    if (same_time(ta, tb)) {
+      ++rows_.compared;
+      return true;
+    }
+    if (ta < tb)
+      more_a = read(a_, rows_.reference);
+    else
+      more_b = read(b_, rows_.other);
   }
+  while (more_a) more_a = read(a_, rows_.reference);
+  while (more_b) more_b = read(b_, rows_.other);
+  return false;
 }
 
 ContactRowReader::ContactRowReader(const std::filesystem::path& path)

@@ -2,11 +2,14 @@
 //
 //   TimeJoin join(a / "history.csv", b / "history.csv");
 //   while (join.next()) use(join.t(), join.a().number(3), join.b().number(4));
+//   join.rows()                                               how many of the rows of each these were
 //
-// Rows at times that only one table has are passed over. Times are equal if they differ by roundoff only.
+// Rows at times that only one table has are passed over, and counted. Times are equal if they differ by roundoff only.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,19 +18,34 @@
 
 namespace signorini {
 
+/// How many rows two tables have, and how many of them were compared.
+struct RowCount {
+  std::size_t compared = 0, reference = 0, other = 0;
+  [[nodiscard]] bool all() const { return compared == reference && compared == other; }
+  friend bool operator==(const RowCount&, const RowCount&) = default;
+};
+
 /// Errors of all members: FileError.
 class TimeJoin {
  public:
-  TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b) : a_(a), b_(b) {}
-  /// Moves to the next common time.
+  /// Rows after `until` are left alone.
+  TimeJoin(const std::filesystem::path& a, const std::filesystem::path& b,
+           double until = std::numeric_limits<double>::infinity())
+      : a_(a), b_(b), until_(until) {}
+  /// Moves to the next common time; false: there is none, and all rows are counted.
   bool next();
+  /// Of a as reference and b as other.
+  [[nodiscard]] const RowCount& rows() const { return rows_; }
   [[nodiscard]] double t() const { return t_; }
   [[nodiscard]] const CsvReader& a() const { return a_; }
   [[nodiscard]] const CsvReader& b() const { return b_; }
 
  private:
+  bool read(CsvReader& reader, std::size_t& count) const;
+
   CsvReader a_, b_;
-  double t_ = 0.0;
+  double until_, t_ = 0.0;
+  RowCount rows_;
 };
 
 /// contacts.csv has one row a time and contact: here all rows of one time together.
@@ -52,5 +70,7 @@ class ContactRowReader {
 
 /// Equal but for roundoff.
 [[nodiscard]] bool same_time(double a, double b);
+/// After the end, and not by roundoff.
+[[nodiscard]] inline bool beyond(double t, double end) { return t > end && !same_time(t, end); }
 
 }  // namespace signorini

@@ -21,7 +21,92 @@ std::vector<std::string> limit_names() {
   return names;
 }
 
+struct TableRows {
+  const char* file;
+  const RowCount* rows;
+};
+std::vector<TableRows> tables_of(const Comparison& c) {
+  return {{"history.csv", &c.rows.history},
+          {"contacts.csv", &c.rows.contacts},
+          {"energy.csv", &c.rows.energy},
+          {"response.csv", &c.rows.response}};
+}
+
+std::string of_rows(const RowCount& rows) {
+  return fmt::format("{} of {} and {}", rows.compared, rows.reference, rows.other);
+}
+
+/// What of its table was not compared; empty: nothing. Tables have their rows at the times of history.csv, a row a
+/// contact in contacts.csv; those of response.csv at events, too, whose times differ from run to run.
+std::string not_covered(const std::string& quantity, const RunFigures& reference, const RunFigures& other,
+                        const Comparison& c) {
+  const auto sentence = [](const char* file, const RowCount& rows) {
+    return fmt::format("{} rows of {} were compared", of_rows(rows), file);
+  };
+  const auto fewer = [](const char* file, const std::string& name, std::size_t rows, std::size_t expected) {
+    return fmt::format("{} of {} has {}, expected {} at the times of its history.csv", file, name,
+                       count_of(rows, "row"), expected);
+  };
+  const RowCount& history = c.rows.history;
+  if (!history.all()) return sentence("history.csv", history);
+  if (quantity.starts_with(response))
+    return c.rows.response.compared < history.compared ? sentence("response.csv", c.rows.response) : "";
+  const bool force = quantity.starts_with("force"), energy = quantity == "energy";
+  if (!force && !energy) return "";
+  const RowCount& rows = force ? c.rows.contacts : c.rows.energy;
+  const char* file = force ? "contacts.csv" : "energy.csv";
+  const std::size_t each_a = force ? reference.facts.contacts.size() : 1,
+                    each_b = force ? other.facts.contacts.size() : 1;
+  if (rows.reference != each_a * history.reference)
+    return fewer(file, reference.name, rows.reference, each_a * history.reference);
+  if (rows.other != each_b * history.other)
+    return fewer(file, other.name, rows.other, each_b * history.other);
+  return rows.all() ? "" : sentence(file, rows);
+}
+
+/// "A.ux, B.ux", of many the first three.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > most ? fmt::format("{} and {} more", text, names.size() - most) : text;
+}
+
+/// Columns, or contacts, of the quantity that not both have; empty: all are common, and there are some.
+std::string not_common(const Quantity& quantity, const Comparison& c) {
+  const std::vector<std::string>& alone = quantity.deviation->alone;
+  if (quantity.deviation->count > 0 && alone.empty()) return "";
+  std::vector<std::string> common;
+  for (const auto& [name, deviation] : c.columns) common.push_back(name);
+  const std::string both = common.empty() ? "no column" : listed(common);
+  if (!alone.empty())
+    return fmt::format("{} {} in one of the two runs only; in both: {}", listed(alone),
+                       alone.size() == 1 ? "is" : "are", both);
+  if (quantity.name == "force_away" && c.force.count > 0) return "no output time is away from events";
+  return "neither run has any; in both: " + both;
+}
+
+/// Why a limit of it says nothing of both runs; empty: it does.
+std::string no_comparison(const Quantity& quantity, const RunFigures& reference, const RunFigures& other,
+                          const Comparison& c) {
+  if (quantity.name == "event_time") return "";  // events without a partner are counted
+  if (c.common_times < 2) return "there are no output times to compare";
+  if (std::string why = not_common(quantity, c); !why.empty()) return why;
+  return not_covered(quantity.name, reference, other, c);
+}
+
 }  // namespace
+
+std::string rows_compared(const Comparison& comparison) {
+  std::string text;
+  for (const TableRows& table : tables_of(comparison)) {
+    const RowCount& rows = *table.rows;
+    if (rows.reference + rows.other == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", table.file,
+                        rows.all() ? std::to_string(rows.compared) : of_rows(rows));
+  }
+  return text;
+}
 
 std::vector<std::string> quantity_names() {
   std::vector<std::string> names;
@@ -74,6 +159,11 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     list.push_back(fmt::format("{}: {} at t = {:.9g}, so no limit is kept beyond", run->name,
                                run->facts.outcome, run->t));
   }
+  const bool whole = reference.done() && other.done();
+  if (whole && comparison.ends_differ)
+    list.push_back(fmt::format(
+        "{}: compared up to t = {:.9g}, and {} goes on to {:.9g}, so no limit is kept beyond", other.name,
+        comparison.t_end, (reference.t > other.t ? reference : other).name, std::max(reference.t, other.t)));
   const auto& split = comparison.alignment.split;
   const bool sequence_limited =
       std::any_of(limits.begin(), limits.end(), [](const Limit& l) { return l.name == sequence; });
@@ -96,12 +186,10 @@ std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFig
     for (const Quantity& quantity : known) {
       if (quantity.name != limit.name) continue;
       const Greatest& greatest = quantity.deviation->whole;
-      // No events, or no such columns, is no failure; no common output time is.
-      const bool nothing = quantity.name != "event_time" && comparison.common_times < 2;
-      if (nothing)
-        list.push_back(
-            fmt::format("{}: {} has a limit, and no output times to compare", other.name, limit.name));
-      else if (!(greatest.value <= limit.value))
+      const std::string why = whole ? no_comparison(quantity, reference, other, comparison) : "";
+      if (!why.empty())
+        list.push_back(fmt::format("{}: {} has a limit, and {}", other.name, limit.name, why));
+      if (!(greatest.value <= limit.value))
         list.push_back(fmt::format("{}: {} {:.6g} {} at t = {:.9g} ({}) exceeds {}", other.name, limit.name,
                                    greatest.value, quantity.unit, greatest.t, greatest.where,
                                    shortest(limit.value)));

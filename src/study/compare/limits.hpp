@@ -29,9 +29,13 @@ struct Quantity {
 /// Their names, in the same order.
 [[nodiscard]] std::vector<std::string> quantity_names();
 
+/// The rows that were compared, and those of either run: "history.csv 201, contacts.csv 21 of 201 and 101".
+[[nodiscard]] std::string rows_compared(const Comparison& comparison);
+
 /// One sentence for each limit that is exceeded: "exact: displacement 3e-6 m at t = 0.1 (A.ux) exceeds ...".
-/// A run that ended early, or has nothing to compare, keeps no limit. Events without a partner break
-/// event_time, unless `sequence` has a limit of its own.
+/// No limit is kept where what was compared is not the whole of both runs: one ended early or goes on beyond the other,
+/// a column or contact is in one of them only or in none, a row of a table has no partner. Events without a partner
+/// break event_time, unless `sequence` has a limit of its own.
 [[nodiscard]] std::vector<std::string> exceeded(const std::vector<Limit>& limits, const RunFigures& reference,
                                                 const RunFigures& other, const Comparison& comparison);
 

@@ -15,23 +15,27 @@ namespace signorini {
 namespace {
 
 constexpr Eigen::Index fewest_modes = 6;  // with stiffness, in the first trial; chosen
-constexpr double radians_a_sample = 0.3;  // of the cutoff: a cubic is off by 2e-5 of a force that swings so
-constexpr double most_growth = 4.0;       // of the cutoff from one trial to the next
-constexpr double least_growth = 1.25;
-constexpr double usual_order = 2.0;     // of what is missed, in the cutoff, until two trials tell
-constexpr Eigen::Index compared = 256;  // parts of the run at whose ends trials are compared; chosen
+// Of the cutoff: what swings twice as fast is 1 % greater between two samples.
+constexpr double radians_a_sample = 0.15;
+constexpr double most_growth = 4.0;   // of the cutoff from one trial to the next
+constexpr double least_growth = 2.0;  // so that what the next one adds is most of what is missing
+constexpr double most_radians = 1.0;  // in half a step, where few instants are compared: a factor of 1.85
+constexpr double usual_order = 2.0;   // of what is missed, in the cutoff, until two trials tell
+constexpr Eigen::Index fewest_compared = 2048;   // instants at which trials are compared; chosen
+constexpr Eigen::Index most_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& why) {
   throw SceneError(scene.reduction->place, "reduction.tolerance", why);
 }
 
-/// Forces of contacts and greatest displacements, at equal steps.
+/// Forces of contacts and displacements, at equal steps.
 class Watcher final : public Recorder {
  public:
-  Watcher(LeftOut& left_out, const Eigen::MatrixXd& places, Eigen::Index every,
+  /// samples: steps of the run; both numbers are fewest_compared times a power of two.
+  Watcher(LeftOut& left_out, const Eigen::MatrixXd& places, Eigen::Index samples, Eigen::Index instants,
           const std::function<bool()>& go_on)
-      : left_out_(left_out), places_(places), every_(every), go_on_(go_on) {
-    at.setZero(places.rows(), compared + 1);
+      : left_out_(left_out), places_(places), every_(samples / instants), go_on_(go_on) {
+    at.setZero(places.rows(), instants + 1);
   }
   void event(const Event& /*event*/) override {}
   void sample(const Sample& s) override {
@@ -43,7 +47,7 @@ class Watcher final : public Recorder {
     left_out_.sample(s.t, forces_);
     const Vector now = places_ * s.u->head(places_.cols());
     greatest = std::max(greatest, now.cwiseAbs().maxCoeff());
-    if (samples_ % every_ == 0 && samples_ / every_ <= compared) at.col(samples_ / every_) = now;
+    if (samples_ % every_ == 0 && samples_ / every_ < at.cols()) at.col(samples_ / every_) = now;
     ++samples_;
   }
   bool progress(double /*t*/) override { return go_on_(); }
@@ -85,14 +89,22 @@ struct Trial {
   bool ended = false;  // it was told to
   double missed = 0.0, greatest = 0.0;
   Eigen::MatrixXd at;
+  CutoffTrial told = {};
 };
+
+/// Steps of a run that resolve this frequency.
+Eigen::Index samples_for(double omega, double t_end) {
+  Eigen::Index samples = fewest_compared;
+  while (static_cast<double>(samples) < t_end * omega / radians_a_sample) samples *= 2;
+  return samples;
+}
 
 Trial trial(const Scene& scene, const Model& full, const Modes& modes, Eigen::Index kept,
             const std::function<bool()>& go_on) {
   Model model = build_model(scene);
   const double highest = std::max(model.reduction->highest_kept, 1.0 / scene.run.t_end);
-  const double every = std::ceil(scene.run.t_end * highest / radians_a_sample / compared);
-  const double step = scene.run.t_end / (every * compared);
+  const Eigen::Index samples = samples_for(highest, scene.run.t_end);
+  const double step = scene.run.t_end / static_cast<double>(samples);
   LeftOut left_out(full, modes.square, modes.shapes, kept, step);
   const std::vector<AskedPlace> asked = asked_places(full);
   Eigen::MatrixXd places(static_cast<Eigen::Index>(asked.size()), model.reduction->shapes.cols());
@@ -105,7 +117,9 @@ Trial trial(const Scene& scene, const Model& full, const Modes& modes, Eigen::In
   run.output_times.reset();
   run.frames.clear();
   run.output_dt = step;
-  Watcher watcher(left_out, places, static_cast<Eigen::Index>(every), go_on);
+  Eigen::Index instants = samples;
+  while (instants > fewest_compared && instants * places.rows() > most_compared) instants /= 2;
+  Watcher watcher(left_out, places, samples, instants, go_on);
   const Report report = simulate(model, run, watcher);
   if (report.outcome.kind == Outcome::Kind::interrupted) return {true, 0.0, 0.0, {}};
   if (report.outcome.kind == Outcome::Kind::stopped)
@@ -128,47 +142,102 @@ double cutoff_after(const Modes& modes, Eigen::Index kept) {
   return kept == modes.square.size() ? 2.0 * last : 0.5 * (last + std::sqrt(modes.square[kept]));
 }
 
-/// What a trial tells, beside the one before it: the error that a trial had, over what it missed, is that of
-/// the next one, too.
-CutoffTrial judged(double omega, Eigen::Index kept, const Trial& now, const Trial& before) {
-  CutoffTrial told{omega, static_cast<int>(kept), now.missed, 0.0, now.missed};
-  if (before.at.size() == 0 || !(now.greatest > 0.0)) return told;
-  told.moved = (now.at - before.at).cwiseAbs().maxCoeff() / now.greatest;
-  if (before.missed > 0.0) told.error = now.missed * std::max(1.0, told.moved / before.missed);
-  return told;
+/// Greatest difference of displacements, from the instants that both have. What swings at twice the cutoff, as most of
+/// it does, is greater between two of them by 1 / cos(omega h), h apart.
+double apart(const Trial& a, const Trial& b, double t_end) {
+  const Eigen::Index n = std::min(a.at.cols(), b.at.cols()) - 1;
+  const Eigen::Index every_a = (a.at.cols() - 1) / n, every_b = (b.at.cols() - 1) / n;
+  double most = 0.0;
+  for (Eigen::Index i = 0; i <= n; ++i)
+    most = std::max(most, (a.at.col(i * every_a) - b.at.col(i * every_b)).cwiseAbs().maxCoeff());
+  const double half_a_step = a.told.cutoff_omega * t_end / static_cast<double>(n);
+  return most / std::cos(std::min(half_a_step, most_radians));
 }
+
+/// By how much what is missed turned out to be too little. 1: it was not.
+double feedback(const Trial& trial) {
+  return trial.missed > 0.0 ? std::max(1.0, trial.told.moved / trial.missed) : 1.0;
+}
+
+/// What a trial is off by, beside one with more modes.
+void judge(Trial& trial, const Trial& finer, double t_end) {
+  if (!(finer.greatest > 0.0)) return;
+  trial.told.moved = apart(trial, finer, t_end) / finer.greatest;
+  trial.told.error = trial.told.moved + finer.missed * feedback(trial);
+}
+
+/// Trials with more and more modes, and the first of them that is sharp enough.
+class Search {
+ public:
+  Search(Scene scene, const std::function<bool()>& go_on)
+      : scene_(std::move(scene)), go_on_(go_on), full_(whole(scene_)), modes_(all_modes_of(scene_, full_)) {}
+
+  Scene run() {
+    const Eigen::Index all = modes_.square.size();
+    for (Eigen::Index kept = std::min(all, modes_.free + fewest_modes);; kept = next(kept)) {
+      ReductionSpec& spec = *scene_.reduction;
+      spec.cutoff_omega = cutoff_after(modes_, kept);
+      // Where what the last one misses is too much already, nothing is to be tried: all modes are kept.
+      const bool needed = kept < all || (!trials_.empty() && estimated() <= *spec.tolerance);
+      Trial now = needed ? trial(scene_, full_, modes_, kept, go_on_) : Trial{};
+      if (now.ended) return scene_;
+      now.told = {spec.cutoff_omega, static_cast<int>(kept), now.missed, 0.0, now.missed};
+      trials_.push_back(std::move(now));
+      if (trials_.size() > 1 && needed) judge(trials_[trials_.size() - 2], trials_.back(), scene_.run.t_end);
+      for (std::size_t i = 0; i + 1 < trials_.size() && needed; ++i)
+        if (trials_[i].told.error <= *spec.tolerance) return found(i);
+      if (kept == all) return found(trials_.size() - 1);
+    }
+  }
+
+ private:
+  static Model whole(Scene scene) {
+    scene.reduction.reset();
+    return build_model(scene);
+  }
+
+  /// What the last trial is off by, as far as is known before the next one.
+  [[nodiscard]] double estimated() const {
+    const double before = trials_.size() > 1 ? feedback(trials_[trials_.size() - 2]) : 1.0;
+    return trials_.back().missed * before;
+  }
+
+  [[nodiscard]] Eigen::Index next(Eigen::Index kept) const {
+    double order = usual_order;
+    const Trial& last = trials_.back();
+    if (trials_.size() > 1 && last.missed > 0.0) {
+      const Trial& before = trials_[trials_.size() - 2];
+      order = std::clamp(
+          std::log(before.missed / last.missed) / std::log(last.told.cutoff_omega / before.told.cutoff_omega),
+          1.0, 6.0);
+    }
+    const double growth = std::clamp(1.1 * std::pow(estimated() / *scene_.reduction->tolerance, 1.0 / order),
+                                     least_growth, most_growth);
+    return std::clamp(modes_below(modes_, growth * last.told.cutoff_omega), kept + 1, modes_.square.size());
+  }
+
+  /// The last one told is in force.
+  Scene found(std::size_t i) {
+    ReductionSpec& spec = *scene_.reduction;
+    for (std::size_t j = 0; j < trials_.size(); ++j)
+      if (j != i) spec.tried.push_back(trials_[j].told);
+    spec.tried.push_back(trials_[i].told);
+    spec.cutoff_omega = trials_[i].told.cutoff_omega;
+    return std::move(scene_);
+  }
+
+  Scene scene_;
+  const std::function<bool()>& go_on_;
+  const Model full_;
+  const Modes modes_;
+  std::vector<Trial> trials_;
+};
 
 }  // namespace
 
 Scene find_cutoff(Scene scene, const std::function<bool()>& go_on) {
   if (!scene.reduction || !scene.reduction->tolerance || !scene.reduction->tried.empty()) return scene;
-  Scene whole = scene;
-  whole.reduction.reset();
-  const Model full = build_model(whole);
-  const Modes modes = all_modes_of(scene, full);
-  ReductionSpec& spec = *scene.reduction;
-  const Eigen::Index all = modes.square.size();
-  Eigen::Index kept = std::min(all, modes.free + fewest_modes);
-  double order = usual_order;
-  Trial before;
-  while (true) {
-    spec.cutoff_omega = cutoff_after(modes, kept);
-    Trial now = kept == all ? Trial{} : trial(scene, full, modes, kept, go_on);
-    if (now.ended) return scene;
-    if (!spec.tried.empty() && now.missed > 0.0) {
-      const auto& last = spec.tried.back();
-      const double seen =
-          std::log(last.missed / now.missed) / std::log(spec.cutoff_omega / last.cutoff_omega);
-      order = std::clamp(seen, 1.0, 6.0);
-    }
-    spec.tried.push_back(judged(spec.cutoff_omega, kept, now, before));
-    const double error = spec.tried.back().error;
-    if (error <= *spec.tolerance && (spec.tried.size() > 1 || kept == all)) return scene;
-    const double growth =
-        std::clamp(1.1 * std::pow(error / *spec.tolerance, 1.0 / order), least_growth, most_growth);
-    kept = std::clamp(modes_below(modes, growth * spec.cutoff_omega), kept + 1, all);
-    before = std::move(now);
-  }
+  return Search(std::move(scene), go_on).run();
 }
 
 Scene find_cutoff(Scene scene, const std::optional<ReductionSpec>& found) {

@@ -1,11 +1,13 @@
 // find_cutoff.hpp: the cutoff that a tolerance asks for.
 //
-//   few modes -> run -> what the modes left out would have added (left_out.hpp)
-//   error = missed max(1, |u - u_before| / missed_before)
-//   while that is above the tolerance: more modes, as many as its fall with the cutoff asks for
+//   few modes -> run -> what the modes left out would have added (left_out.hpp) -> more modes -> run -> ...
+//   error = |u - u_finer| + missed_finer max(1, |u - u_finer| / missed)
+//   the first trial with error <= tolerance is in force
 //
-// What is missed would change contact forces and shift events, which changes displacements by more: by how much, the
-// difference of two trials tells beside what the first of them missed. So there are two trials at least.
+// What is missed changes contact forces, which sends waves on, shifts events and may change their sequence: no
+// estimate from one run knows of that, nor of forces that jump between its samples. So a trial is set beside a run with
+// at least twice the cutoff, at all instants at which both have samples; what that one still misses moves it, too, as far
+// as it moved the trial. If the finer one has all modes, the error is the difference from the full model.
 // Relative: to the greatest displacement of all places that are asked for, in the run.
 #pragma once
 

@@ -7,16 +7,32 @@
 
 namespace signorini {
 
+namespace {
+
+Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+}  // namespace
+
 std::string fit_json(const Fit& fit, const Measurements& measured) {
   Json json = {{"converged", fit.converged},   {"reason", fit.reason},
                {"iterations", fit.iterations}, {"runs", fit.runs},
                {"rows", measured.rows.size()}, {"chi_squared", fit.chi_squared}};
   json["sigma_given"] = measured.has_sigma;
+  json["freedom"] = fit.freedom;
+  json["probability"] = number_or_null(fit.probability);
+  json["doubts"] = fit.doubts;
   json["keys"] = Json::array();
   for (const FittedKey& key : fit.keys)
-    json["keys"].push_back(
-        {{"path", key.path}, {"start", key.start}, {"value", key.value}, {"sigma", key.sigma}});
-  json["covariance"] = fit.covariance;
+    json["keys"].push_back({{"path", key.path},
+                            {"start", key.start},
+                            {"value", number_or_null(key.value)},
+                            {"sigma", number_or_null(key.sigma)}});
+  json["covariance"] = Json::array();
+  for (const std::vector<double>& row : fit.covariance) {
+    Json numbers = Json::array();
+    for (const double x : row) numbers.push_back(number_or_null(x));
+    json["covariance"].push_back(numbers);
+  }
   return json_text(json);
 }
 

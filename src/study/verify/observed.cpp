@@ -3,14 +3,23 @@
 namespace signorini {
 
 std::vector<ObservedColumn> observed_columns(const Model& model) {
+  const Units& units = model.units;
   std::vector<ObservedColumn> list;
   for (const Column& column : model.columns) {
-    const bool rotation = model.turns(column);
-    list.push_back({column.name, column.velocity ? (rotation ? "angular_velocity" : "velocity")
-                                                 : (rotation ? "rotation" : "displacement")});
+    const std::string angle = "rad", per_time = "/" + units.time;
+    if (model.turns(column))
+      list.push_back({column.name, column.velocity ? "angular_velocity" : "rotation",
+                      column.velocity ? angle + per_time : angle});
+    else
+      list.push_back({column.name, column.velocity ? "velocity" : "displacement",
+                      column.velocity ? units.length + per_time : units.length});
   }
   for (const Contact& contact : model.contacts)
-    for (const char* force : {".N", ".T"}) list.push_back({contact.name + force, "force"});
+    for (const char* force : {".N", ".T"}) list.push_back({contact.name + force, "force", units.force});
+  for (const Output& output : model.outputs) {
+    const std::string unit = unit_text(output.unit, units);
+    list.push_back({output.name, "output [" + unit + "]", unit});
+  }
   return list;
 }
 

@@ -1,4 +1,4 @@
-// observed.hpp: what a run shows: its events, and at output times the columns of history.csv, N and T.
+// observed.hpp: what a run shows: its events, and at output times the columns of history.csv, N, T and outputs.
 #pragma once
 
 #include <functional>
@@ -22,8 +22,10 @@ struct Observed {
 
 /// A column of Observed::rows.
 struct ObservedColumn {
-  std::string name;  ///< "A.ux", "first.N"
-  std::string kind;  ///< "displacement", "rotation", "velocity", "angular_velocity", "force"
+  std::string name;  ///< "A.ux", "first.N", an output's
+  std::string
+      kind;  ///< "displacement", "rotation", "velocity", "angular_velocity", "force", "output [m/s^2]"
+  std::string unit;
 };
 [[nodiscard]] std::vector<ObservedColumn> observed_columns(const Model& model);
 

@@ -3,9 +3,10 @@
 //   newmark at dt, dt/2, dt/4 -> order, R, bar                 (richardson.hpp)
 //   |ida - R| <= bar + what IDA's certificate says of its own error
 //
-// at every event and output time: for the times of events, displacements, velocities, and N and T of the
-// contacts, at as many output times as `VerifyRequest::rows`. Output times that an event of one run may have
-// passed and of another not are left out. Everything counts up to the first instant from which IDA's sequence
+// at every event and output time: for the times of events, displacements, velocities, N and T of the contacts,
+// and outputs, at as many output times as `VerifyRequest::rows`. Output times that an event of one run may have
+// passed and of another not are left out. Extremes of outputs, where all runs are complete, against the finest
+// step of newmark. Everything counts up to the first instant from which IDA's sequence
 // is not certain, or that of newmark changes with its step.
 //
 //   agree      all of it does, to the end
@@ -57,7 +58,7 @@ struct VerifiedEvent {
 };
 
 /// All quantities of one kind: "event_time", "displacement", "rotation", "velocity", "angular_velocity",
-/// "force".
+/// "force", "output [UNIT]", "extremes [UNIT]".
 struct VerifiedKind {
   std::string name, unit;
   std::optional<double> order;  ///< nothing: differences are rounding

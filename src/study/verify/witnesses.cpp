@@ -5,23 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace signorini {
 namespace {
 
 const char* const event_time = "event_time";
 /// Of what is to be settled: where either sequence ends to be certain, the other does about then.
 constexpr double nearly = 0.99;
+/// Extremes lie between rows, whose greatest error is taken twice.
+constexpr double between_rows = 2.0;
 /// Of IDA's own error: what newmark differs by less than that does not decide.
 constexpr double negligible = 0.1;
-
-std::string unit_of(const std::string& kind, const Units& units) {
-  if (kind == event_time) return units.time;
-  if (kind == "displacement") return units.length;
-  if (kind == "velocity") return units.length + "/" + units.time;
-  if (kind == "rotation") return "rad";
-  if (kind == "angular_velocity") return "rad/" + units.time;
-  return units.force;
-}
 
 /// Greatest difference beside what is allowed; no number where nothing is allowed and nothing is off.
 double excess(const Observation& o) {
@@ -81,13 +76,13 @@ std::vector<std::optional<double>> Witnesses::times_in(const Track& track) const
 }
 
 Witnesses::Kind Witnesses::event_times(double until) const {
-  Kind kind{event_time, {}, {}, t_end_};
+  Kind kind{event_time, model_.units.time, {}, {}, t_end_};
   Series& series = kind.series.emplace_back();
   std::array<std::vector<std::optional<double>>, runs> times;
   for (std::size_t i = 0; i < runs; ++i) times[i] = times_in(newmark[i].track);
   for (std::size_t row = 0; row < ida.track.events.size(); ++row) {
     const TimedEvent& event = ida.track.events[row];
-    if (!event.is_change() || !event.fell || !certificate->certain(row) || event.t >= until) continue;
+    if (!event.is_change() || !certificate->certain(row) || event.t >= until) continue;
     if (!times[0][row] || !times[1][row] || !times[2][row]) continue;
     series.values.push_back({*times[0][row], *times[1][row], *times[2][row]});
     series.rows.push_back(row);
@@ -126,11 +121,14 @@ void Witnesses::add_columns(double until, std::vector<Kind>& kinds) const {
   for (std::size_t j = 0; j < columns_.size(); ++j) {
     auto kind =
         std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == columns_[j].kind; });
-    if (kind == kinds.end()) kind = kinds.insert(kinds.end(), Kind{columns_[j].kind, {}, {}, 0.0});
+    if (kind == kinds.end())
+      kind = kinds.insert(kinds.end(), Kind{columns_[j].kind, columns_[j].unit, {}, {}, 0.0});
     Series series{columns_[j].name, {}, {}};
     for (std::size_t row = 0; row < rows && ida.rows.t[row] <= until; ++row) {
       if (left_out[row] || !std::isfinite(certificate->history.at(row, j))) continue;
-      series.values.push_back({newmark[0].at(row, j), newmark[1].at(row, j), newmark[2].at(row, j)});
+      const Thrice values{newmark[0].at(row, j), newmark[1].at(row, j), newmark[2].at(row, j)};
+      if (!std::isfinite(ida.at(row, j) + values[0] + values[1] + values[2])) continue;
+      series.values.push_back(values);
       series.rows.push_back(row);
       kind->scale = std::max(kind->scale, std::abs(series.values.back()[2]));
     }
@@ -157,6 +155,21 @@ bool Witnesses::settled() {
                      [](const Kind& k) { return signorini::settled(k.order.value()); });
 }
 
+/// One more that was compared.
+void Witnesses::count(const Observation& o, const std::string& where, VerifiedKind& kind) {
+  ++kind.compared;
+  kind.disagreeing += o.agrees() || o.witnessed() ? 0 : 1;
+  kind.witnessed += o.witnessed() ? 1 : 0;
+  if (!o.agrees() && !o.witnessed() && (!kind.first || o.t < kind.first->t)) {
+    kind.first = o;
+    kind.first_where = where;
+  }
+  kind.greatest_bar = std::max(kind.greatest_bar, o.bar);
+  if (kind.compared > 1 && excess(o) <= excess(kind.worst)) return;
+  kind.worst = o;
+  kind.where = where;
+}
+
 Observation Witnesses::observation(const Series& series, std::size_t i, bool is_event,
                                    const Extrapolated& extrapolated, std::size_t column) const {
   Observation o;
@@ -179,7 +192,7 @@ VerifiedKind Witnesses::verified(const Kind& kind, Verification& result) const {
   const bool is_event = kind.name == event_time;
   VerifiedKind summary;
   summary.name = kind.name;
-  summary.unit = unit_of(kind.name, model_.units);
+  summary.unit = kind.unit;
   summary.order = kind.order.value();
   const auto exact_times = exact ? times_in(exact->track) : std::vector<std::optional<double>>();
   const KindOfSeries of{summary.order, kind.scale, t_end_ / dt.back()};
@@ -196,20 +209,45 @@ VerifiedKind Witnesses::verified(const Kind& kind, Verification& result) const {
         const TimedEvent& event = ida.track.events[row];
         result.events.push_back({event.contact, event.type, event.from, event.to, o});
       }
-      ++summary.compared;
-      summary.disagreeing += o.agrees() || o.witnessed() ? 0 : 1;
-      summary.witnessed += o.witnessed() ? 1 : 0;
-      if (!o.agrees() && !o.witnessed() && (!summary.first || o.t < summary.first->t)) {
-        summary.first = o;
-        summary.first_where = series.name;
-      }
-      summary.greatest_bar = std::max(summary.greatest_bar, o.bar);
-      if (summary.compared > 1 && excess(o) <= excess(summary.worst)) continue;
-      summary.worst = o;
-      summary.where = series.name;
+      count(o, series.name, summary);
     }
   }
   return summary;
+}
+
+/// Which step sees an extreme best may be chance, so that extremes have no order: the bar is the greater of what
+/// newmark's steps differ by, each of which knows its own values where ida has its extremes.
+void Witnesses::add_extremes(Verification& result) const {
+  if (!certificate->complete || result.until < t_end_) return;
+  const std::size_t first = columns_.size() - model_.outputs.size();
+  for (std::size_t i = 0; i < model_.outputs.size(); ++i) {
+    const std::size_t column = first + i;
+    Observation o;
+    for (std::size_t row = 0; row < certificate->history.t.size(); ++row)
+      if (const double bound = certificate->history.at(row, column); std::isfinite(bound))
+        o.ida_error = std::max(o.ida_error, between_rows * bound);
+    const std::string name = "extremes [" + columns_[column].unit + "]";
+    auto kind = std::find_if(result.kinds.begin(), result.kinds.end(),
+                             [&](const VerifiedKind& k) { return k.name == name; });
+    if (kind == result.kinds.end()) {
+      kind = result.kinds.emplace(result.kinds.end());
+      kind->name = name;
+      kind->unit = columns_[column].unit;
+    }
+    const auto compare = [&](double OutputExtremes::*value, double t, const char* which) {
+      const auto of = [&](const Observed& run) { return run.report.response.at(i).*value; };
+      o.t = t;
+      o.ida = of(ida);
+      o.richardson = of(newmark[2]);
+      o.bar = std::max(std::abs(of(newmark[0]) - of(newmark[1])), std::abs(of(newmark[1]) - o.richardson)) +
+              rounding::of_many * std::sqrt(std::max(1.0, t_end_ / dt.back())) * std::abs(o.richardson);
+      if (exact && exact->report.outcome.kind == Outcome::Kind::done) o.exact = of(*exact);
+      count(o, columns_[column].name + which, *kind);
+    };
+    const OutputExtremes& own = ida.report.response.at(i);
+    compare(&OutputExtremes::maximum, own.t_maximum, " maximum");
+    compare(&OutputExtremes::minimum, own.t_minimum, " minimum");
+  }
 }
 
 std::string Witnesses::what_differs(const Verification& result) const {
@@ -262,6 +300,7 @@ void Witnesses::judge(Verification& result) {
   const Sequence here = sequence();
   result.until = here.until;
   for (const Kind& kind : kinds(here.until)) result.kinds.push_back(verified(kind, result));
+  add_extremes(result);
   conclude(here, result);
   if (!exact) {
     result.witness = "exact does not take the scene";

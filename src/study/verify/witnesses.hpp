@@ -41,7 +41,7 @@ class Witnesses {
     std::vector<std::size_t> rows;
   };
   struct Kind {
-    std::string name;
+    std::string name, unit;
     std::vector<Series> series;
     ObservedOrder order;
     double scale = 0.0;
@@ -64,6 +64,8 @@ class Witnesses {
   [[nodiscard]] Observation observation(const Series& series, std::size_t i, bool is_event,
                                         const Extrapolated& extrapolated, std::size_t column) const;
   [[nodiscard]] VerifiedKind verified(const Kind& kind, Verification& result) const;
+  void add_extremes(Verification& result) const;
+  static void count(const Observation& o, const std::string& where, VerifiedKind& kind);
   void conclude(const Sequence& sequence, Verification& result) const;
   [[nodiscard]] std::string what_differs(const Verification& result) const;
 

@@ -54,6 +54,26 @@ TEST_CASE("judge: twice the difference, the uncertainty, and the rounding of the
   CHECK(verdict.t_errors[2] == doctest::Approx(0x1p-7).epsilon(1e-12));  // remembered
 }
 
+TEST_CASE("judge: what changes beside a guard that falls is as uncertain as its time") {
+  Track run = track({1.0, 2.0});
+  run.events.push_back(event(2.0, 1, 0, 0x1p-10F));
+  run.events.push_back(event(3.0, 1, 1));
+  const Verdict verdict = judge(run, {run}, 2.0, names);
+  CHECK(verdict.t_errors[0] == 0x1p-51);
+  CHECK(verdict.t_errors[1] == doctest::Approx(0x1p-10).epsilon(1e-12));
+  CHECK(verdict.t_errors[2] == verdict.t_errors[1]);
+  CHECK(verdict.t_errors[3] == doctest::Approx(3.0 * 0x1p-51));
+}
+
+TEST_CASE("judge: an uncertainty is rounded up") {
+  for (const double x : {0.1, 0.3, 0.7, 1e-13}) {
+    Event e;
+    e.t_uncertainty = x;
+    CHECK(static_cast<double>(timed(e).uncertainty) >= x);
+    CHECK(static_cast<double>(timed(e).uncertainty) == doctest::Approx(x).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("judge: the greatest of five, and of several companions") {
   std::vector<double> times, near, far;
   for (int i = 1; i <= 12; ++i) {
@@ -112,6 +132,17 @@ TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") 
   CHECK(verdict.until == doctest::Approx(1.95));
   CHECK(certain(verdict) == 1);
   CHECK(verdict.first_uncertain == 1);
+}
+
+TEST_CASE("judge: an event that may lie beyond the horizon lies beyond the certain part") {
+  Track run = track({1.0, 1.9}), other = run;
+  run.events[1].uncertainty = 0.25F;
+  run.events.push_back(event(2.0, 1, 0));  // without a partner
+  const Verdict verdict = judge(run, {other}, 1.0, names);
+  CHECK(verdict.first_uncertain == 1);
+  CHECK(verdict.until == doctest::Approx(1.65).epsilon(1e-12));  // as early as it may be
+  run.events[1].uncertainty = 4.0F;
+  CHECK(judge(run, {other}, 1.0, names).until == 0.0);
 }
 
 TEST_CASE("judge: what a companion leaves open ends it, what the run leaves open does not") {
@@ -190,4 +221,16 @@ TEST_CASE("judge: nothing is certain from where rounding left several states ope
   run.forgiven_at.reset();
   companion.forgiven_at = 1.5;
   CHECK(judge(run, {companion}, 2.0, names).until == 1.5);
+}
+
+TEST_CASE("judge: nothing is certain from where a witness objects, to either run") {
+  Track run = track({1.0, 2.0, 3.0}), companion = run;
+  run.objection = Track::Objection{2.0, "the witness finds something"};
+  const Verdict own = judge(run, {companion}, 2.0, names);
+  CHECK(own.until == 2.0);
+  CHECK(certain(own) == 1);
+  CHECK(own.reason == "the witness finds something");
+  run.objection.reset();
+  companion.objection = Track::Objection{0.5, "in the companion"};
+  CHECK(judge(run, {companion}, 2.0, names).until == 0.5);
 }

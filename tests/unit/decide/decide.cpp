@@ -260,4 +260,53 @@ TEST_CASE("contacts that land within what rounding has carried into their gaps h
   CHECK(together.crossings[1].failed);
 }
 
+TEST_CASE(
+    "how clearly a mass leaves its floor: its speed over the captured one and over rounding, in any scale") {
+  const auto left = [](double factor, double speed, double captured) {
+    Model model = on_floors({{2.0}}, {-3.0});
+    model.contacts[0].normal.terms[0].second = factor;
+    model.contacts[0].capture_velocity = captured * factor;
+    const Structure structure(model);
+    ModeSystems systems(model, structure);
+    const Forcing forcing(model, 0.0, Side::after);
+    Instant instant;
+    instant.start = instant.knows_low_flights = true;
+    instant.u = Vector::Zero(1);
+    instant.v = Vector::Constant(1, speed);
+    instant.mode = {{State::open, 0.0}};
+    return Decider(systems, 100, 1e-9).decide(std::move(instant), forcing, forcing);
+  };
+  for (const double factor : {0x1p-30, 1.0, 0x1p20}) {
+    CAPTURE(factor);
+    const Decision fast = left(factor, 0.3, 0.2), slow = left(factor, 0.1, 0.2),
+                   free = left(factor, 0.3, 0.0);
+    REQUIRE(fast.departures.size() == 1);
+    CHECK(fast.mode[0].is_open());
+    CHECK(fast.departures[0] == doctest::Approx(1.5).epsilon(1e-12));
+    CHECK_FALSE(slow.mode[0].is_open());
+    CHECK(slow.departures[0] == doctest::Approx(0.5).epsilon(1e-12));
+    // Without a captured speed rounding alone decides: a speed is 1e15 of its own rounding, or so.
+    CHECK(free.mode[0].is_open());
+    CHECK(free.departures[0] > 1e12);
+    CHECK(free.departures[0] < 1e17);
+    CHECK(free.departures[0] == doctest::Approx(left(1.0, 0.3, 0.0).departures[0]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a fast landing after a long time on a stiff structure is a hit") {
+  Model model = on_floors({{1.0}}, {-1.0});
+  model.omega_max = 1e9;
+  Instant instant;
+  instant.t = 1e6;  // rounding may have carried anything: t da alone is 1e-8
+  instant.resolution = 1e-8;
+  instant.u = Vector::Zero(1);
+  instant.v = Vector::Constant(1, -1.0);
+  instant.touched = {0.0};
+  const Decision d = fallen(model, instant);
+  REQUIRE(d.consistent);
+  REQUIRE(!d.impulses.empty());
+  CHECK(d.impulses[0].hit);
+  CHECK(d.impulses[0].normal == doctest::Approx(1.5));  // (1 + e) m v
+}
+
 TEST_SUITE_END();

@@ -32,6 +32,43 @@ TEST_CASE("a load along what a support holds") {
   CHECK(doubts_of("load-on-held", {{"loads.1.direction", "[1.0, 1.0]"}}).empty());
 }
 
+TEST_CASE("initial values that equilibrium decides are named with their line") {
+  const std::string path = SIGNORINI_TEST_DATA "/scenes/massless/initial.toml";
+  const auto found = build_model(read_scene(path, {})).warnings;
+  REQUIRE(found.size() == 2);
+  CHECK(says(found, path + ":6:"));
+  CHECK(says(found, "run.initial.p.ux: found 0.3, which is not used: p.ux has neither mass nor a damper"));
+  CHECK(says(found, "run.initial.p.vx: found 5, which is not used: p.ux has no mass"));
+  // A damper begins from the displacement, and knows no velocity either; what has mass knows both.
+  const auto damped = build_model(read_scene(path, {{"springs.2.damping", "1.0"}})).warnings;
+  REQUIRE(damped.size() == 1);
+  CHECK(says(damped, "run.initial.p.vx"));
+  CHECK(build_model(read_scene(path, {{"run.initial", "{ m = { ux = 0.3, vx = 5.0 } }"}})).warnings.empty());
+}
+
+TEST_CASE("initial values of a matrix scene, in other units") {
+  const auto found = build_model(parse_scene(R"(schema = 1
+units = { force = "MN", mass = "t", length = "mm", time = "ms" }
+[run]
+t_end = 1.0
+initial = { u = [1.0, 0.25], v = [0.0, -3.5] }
+[matrices]
+mass = [[1.0, 0.0], [0.0, 0.0]]
+stiffness = [[1e3, -1e2], [-1e2, 2e3]]
+[[contacts]]
+name = "c"
+law = "compliant"
+normal = { d0 = 1.0 }
+normal_stiffness = 1e3
+gap = 0.1
+)",
+                                             "test.toml"))
+                         .warnings;
+  CHECK(says(found, "test.toml:5:"));
+  CHECK(says(found, "run.initial.u[1]: found 0.25,"));
+  CHECK(says(found, "run.initial.v[1]: found -3.5,"));
+}
+
 TEST_CASE("a body whose contacts lie on the wrong side falls away from them") {
   const auto fallen = doubts_of("wrongnormal");
   CHECK(says(fallen, "nothing stops the fall from contacts 'left' and 'right'"));

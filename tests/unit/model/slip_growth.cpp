@@ -63,6 +63,37 @@ TEST_CASE("flutter of one mass: frequencies that friction brings together") {
   CHECK_FALSE(slip_growth(block(a, b, c, f, 9.0 * shift), {State::slip_plus}));
 }
 
+TEST_CASE("a body that is free along its slip drifts, and neither flutters nor runs away") {
+  // Turned to its slip K_slip = [[0, -s f kn], [0, b + kn]]: lambda = 0 twice, with one shape, which rounding parts.
+  for (const double degrees : {0.0, 7.0, 23.0, 31.0, 48.0, 66.0})
+    for (const double f : {0.1, 0.4, 0.73})
+      for (const State state : {State::slip_plus, State::slip_minus}) {
+        CAPTURE(degrees);
+        CAPTURE(f);
+        const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0), b = 20.0;
+        const Model model =
+            build_model(parse_scene(fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+[run]
+t_end = 1.0
+[matrices]
+mass = [[2.0, 0.0], [0.0, 2.0]]
+stiffness = [[{}, {}], [{}, {}]]
+[[contacts]]
+name = "pad"
+law = "compliant"
+normal = {{ d0 = {}, d1 = {} }}
+tangent = {{ d0 = {}, d1 = {} }}
+normal_stiffness = 1000.0
+tangential_stiffness = 1000.0
+friction = {}
+)",
+                                                b * s * s, b * s * c, b * s * c, b * c * c, s, c, c, -s, f),
+                                    "test.toml"));
+        CHECK_FALSE(slip_growth(model, {state}));
+      }
+}
+
 TEST_CASE("one that runs away: the determinant of the stiffness has changed its sign") {
   // K_slip = [[a, c - s f kn (tangent)], ...]: with t = (1, x) the normal stiffness falls to kn (1 - s f x).
   const double a = 100.0, b = 50.0, kn = 1000.0;

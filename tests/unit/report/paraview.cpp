@@ -18,7 +18,7 @@ Json two_nodes() {
     "contacts": [{"name": "c", "node": 1, "nx": 0.0, "ny": 1.0, "against": [], "slider": false, "gap": 0.0,
                   "motion": {"t": [0.0, 1.0, 1.0, 2.0], "state": [0, 0, 4, 4], "N": [-8.0, -4.0, 0.0, 0.0],
                              "T": [2.0, 2.0, 0.0, 0.0], "gap": [0.0, 0.0, 0.0, null]}}],
-    "curve": {"t": [0.0, 2.0], "u": [[0.0, 0.0], [2.0, 0.75]]},
+    "curve": {"times": [[0.0, 2.0]], "columns": [{"t": 0, "u": [0.0, 2.0]}, {"t": 0, "u": [0.0, 0.75]}]},
     "events": [[1.0, 0, "separation", "stick", "open"], [1.0, -1, "time", "", ""]]})"));
 }
 
@@ -78,6 +78,7 @@ TEST_SUITE("unit/report/paraview") {
     CHECK(frame_times(data, 2, 2) == std::vector<double>{0.0, 2.0});
     CHECK(frame_times(data, 1, 1) == std::vector<double>{0.0});
     CHECK(
-        frame_times(parse_json(std::string(R"({"curve": {"t": [], "u": []}, "events": []})")), 5, 9).empty());
+        frame_times(parse_json(std::string(R"({"curve": {"times": [], "columns": []}, "events": []})")), 5, 9)
+            .empty());
   }
 }

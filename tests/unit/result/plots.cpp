@@ -16,7 +16,26 @@ TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
   CHECK(quoted("two\nlines") == "'two lines'");
   CHECK(quoted("'tis a title") == "'\u2019tis a title'");
   CHECK(quoted("end'") == "'end'''");
+  CHECK(quoted("6'' on a plate") == R"('6'."\047\047".' on a plate')");
+  CHECK(quoted("'''") == R"(''."\047\047\047".'')");
   CHECK(quoted_tick("%s of 100 %") == "'%%s of 100 %%'");
+}
+
+TEST_CASE("plots: a row a contact is as high as a picture allows, and names do not overlap") {
+  const PictureLook screen;
+  CHECK(row_height(34.0, 3, screen) == 34.0);
+  for (const std::size_t count : {800UL, 1000UL, 5000UL}) {
+    const double row = row_height(34.0, count, screen);
+    const double dots = 1.5 * (row * static_cast<double>(count) + room_above + room_below);
+    CHECK(dots <= 32767.0);  // Cairo's limit
+    CHECK(dots >= 20000.0);
+    const std::string ticks = row_ticks(std::vector<RunFacts::Contact>(count), row);
+    CHECK(static_cast<double>(std::count(ticks.begin(), ticks.end(), ',')) * 13.0 <
+          row * static_cast<double>(count));
+  }
+  PictureLook paper;
+  paper.width = 400.0;
+  CHECK(row_height(34.0, 1000, paper) < row_height(34.0, 1000, screen));
 }
 
 TEST_CASE("plots: scripts, and bands that are exact to the event") {

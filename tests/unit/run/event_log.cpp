@@ -15,6 +15,11 @@ TEST_CASE("event log: every change of state has its type") {
   CHECK(classify(stick, slip_plus, false) == EventType::slip);
   CHECK(classify(slip_minus, stick, false) == EventType::stick);
   CHECK(classify(slip_plus, slip_minus, false) == EventType::reversal);
+  CHECK(classify(slip_minus, slip_plus, false) == EventType::reversal);
+  CHECK(classify(slip_minus, closed, false) == EventType::stick);
+  CHECK(classify(closed, slip_minus, false) == EventType::slip);
+  // Of a law of one's own: hold that changes its rows lets go of the old ones.
+  CHECK(classify(stick, closed, false) == EventType::slip);
   CHECK_FALSE(classify(stick, stick, false));
   CHECK(classify(stick, stick, true) == EventType::slip);
 }

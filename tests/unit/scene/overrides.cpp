@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/overrides.hpp"
 #include "signorini/scene.hpp"
 
 using namespace signorini;
@@ -59,6 +60,76 @@ TEST_CASE("overrides choose contacts by name, by number, or all") {
   const Scene all = with({{"contacts.*.friction", "0.9"}});
   CHECK(all.contacts[0].friction.kinetic == 0.9);
   CHECK(all.contacts[1].friction.kinetic == 0.9);
+}
+
+namespace {
+
+/// Three contacts and two stops; `friction` of the stops.
+std::string guided(const std::string& friction) {
+  std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n"
+      "run = { t_end = 1.0 }\nnodes = { a = [0.0, 0.0], b = [1.0, 0.0], c = [2.0, 0.0] }\n"
+      "masses = [{ node = \"a\", mass = 2.0 }, { node = \"b\", mass = 2.0 }, { node = \"c\", mass = 2.0 }]\n";
+  for (const char* node : {"a", "b", "c"})
+    text += std::string("[[contacts]]\nname = \"under-") + node + "\"\nnode = \"" + node +
+            "\"\nlaw = \"compliant\"\nnormal = [0.0, 1.0]\nnormal_stiffness = 1e3\n"
+            "tangential_stiffness = 1e3\nfriction = 0.2\ngap = 0.1\n";
+  for (const char* node : {"a", "c"})
+    text += std::string("[[stops]]\nname = \"guide-") + node + "\"\nnode = \"" + node +
+            "\"\nlaw = \"compliant\"\ndirection = [0.6, 0.8]\nnormal_stiffness = 1e3\n"
+            "gaps = [0.02, 0.03]\n" +
+            friction;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("contacts.* are those of [[stops]], too") {
+  const std::string text = guided("tangential_stiffness = 1e3\nfriction = 0.2\n");
+  const Scene scene = parse_scene(text, "test.toml", {{"contacts.*.friction", "0.7"}});
+  REQUIRE(scene.contacts.size() == 7);
+  for (const ContactSpec& contact : scene.contacts) {
+    CAPTURE(contact.name);
+    CHECK(contact.friction.static_ == 0.7);
+    CHECK(contact.friction.kinetic == 0.7);
+  }
+  const Scene one = parse_scene(text, "test.toml", {{"contacts.*.friction.kinetic", "0.1"}});
+  for (const ContactSpec& contact : one.contacts) {
+    CHECK(contact.friction.static_ == 0.2);
+    CHECK(contact.friction.kinetic == 0.1);
+  }
+  for (const ContactSpec& contact : parse_scene(text, "test.toml", {{"contacts.*.gap", "0.5"}}).contacts)
+    CHECK(contact.gap == 0.5);  // instead of two that differ
+  CHECK_THROWS_WITH_AS((void)parse_scene(text, "test.toml", {{"contacts.*.frction", "0.7"}}),
+                       doctest::Contains("--set contacts.*.frction=0.7"), UsageError);
+  // A scene may have stops alone.
+  std::string stops = text;
+  for (std::size_t at; (at = stops.find("[[contacts]]")) != std::string::npos;)
+    stops.erase(at, stops.find("[[", at + 2) - at);
+  for (const ContactSpec& contact :
+       parse_scene(stops, "test.toml", {{"contacts.*.normal_stiffness", "5e3"}}).contacts)
+    CHECK(contact.normal_stiffness == 5e3);
+}
+
+TEST_CASE("a path with * says how many tables it met") {
+  const toml::table root = toml::parse(guided("tangential_stiffness = 1e3\n"));
+  CHECK(tables_met(root, "contacts.*.friction") == "3 of [[contacts]], 2 of [[stops]]");
+  CHECK(tables_met(root, "stops.*.friction") == "2 of [[stops]]");
+  CHECK(tables_met(root, "masses.*.mass") == "3 of [[masses]]");
+  CHECK(tables_met(root, "contacts.under-a.friction").empty());
+  CHECK(tables_met(root, "contacts.*.tangent") ==
+        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
+  // A guide without a tangential stiffness stays without friction, and is told.
+  const std::string smooth = guided("");
+  CHECK(tables_met(toml::parse(smooth), "contacts.*.friction") ==
+        "3 of [[contacts]], 0 of [[stops]] (2 cannot have this key as they are)");
+  const Scene scene = parse_scene(smooth, "test.toml", {{"contacts.*.friction", "0.7"}});
+  CHECK(scene.contacts[0].friction.static_ == 0.7);
+  CHECK_FALSE(scene.contacts[3].friction.any());
+  // Two paths of one key overlap.
+  const std::vector<std::string> places = places_of(root, "contacts.*.friction");
+  CHECK(places == std::vector<std::string>{"contacts.1.friction", "contacts.2.friction",
+                                           "contacts.3.friction", "stops.1.friction", "stops.2.friction"});
 }
 
 TEST_CASE("friction as a number gives way to a table") {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "own_folder.hpp"
 #include "signorini/scene.hpp"
 
 using namespace signorini;
@@ -115,8 +116,8 @@ TEST_CASE("matrices from files") {
 }
 
 TEST_CASE("large matrices stay in their file, found from anywhere") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "signorini-scene-test";
-  std::filesystem::create_directories(folder);
+  const signorini::tests::OwnFolder own;
+  const std::filesystem::path& folder = own.path();
   std::ofstream file(folder / "I.mtx");
   file << "%%MatrixMarket matrix coordinate real symmetric\n200 200 200\n";
   for (int i = 1; i <= 200; ++i) file << i << " " << i << " 1.0\n";
@@ -127,7 +128,6 @@ TEST_CASE("large matrices stay in their file, found from anywhere") {
   const Scene again = parse_scene(scene.resolved, "/nowhere/run.toml");
   CHECK(again.resolved == scene.resolved);
   CHECK(again.matrices->mass.entries.size() == 200);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("grid: multiples, not sums; t_end last and once") {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "own_folder.hpp"
 #include "scene/data_file.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/saved_state.hpp"
@@ -116,7 +117,8 @@ TEST_CASE("a record of PEER in other units, and what is no acceleration") {
 }
 
 TEST_CASE("a record in cm/s^2 is one in the scene's units, written out or not") {
-  const auto file = std::filesystem::temp_directory_path() / "signorini-record.at2";
+  const signorini::tests::OwnFolder own;
+  const auto file = own.path() / "record.at2";
   std::ofstream(file)
       << "PEER\nmade up\nACCELERATION TIME SERIES IN UNITS OF CM/SEC/SEC\nNPTS= 3, DT= .01\n0 50 -25\n";
   const auto text = [&](const std::string& more) {
@@ -140,7 +142,6 @@ TEST_CASE("a record in cm/s^2 is one in the scene's units, written out or not") 
   const HistorySpec quick = parse_scene(fast, "test.toml").base_motion.at(0).acceleration;
   CHECK(quick.times == std::vector<double>{0.0, 10.0, 20.0});
   CHECK(quick.values.at(1) == doctest::Approx(5e-4).epsilon(1e-15));
-  std::filesystem::remove(file);
 }
 
 TEST_CASE("cells may be parted by blanks, not be empty") {

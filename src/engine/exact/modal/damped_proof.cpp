@@ -242,7 +242,8 @@ void DampedProof::find_turns(const ModalPoint& from, double begin, double length
     Series clock;
     clock.t = begin + done;
     clock.scale = h_;
-    turning.find(series_, clock, step / h_, TurningPoints::Ends::searched);
+    const auto ends = done + step < length ? TurningPoints::Ends::part : TurningPoints::Ends::last_part;
+    turning.find(series_, clock, step / h_, ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     motion_.advance(point, step, next);
     std::swap(point, next);

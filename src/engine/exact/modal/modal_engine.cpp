@@ -155,7 +155,8 @@ Step ModalEngine::advance() {
     if (passage.fired) {
       step.resolution = sharpen(*passage.fired);
       step.kind = Step::Kind::event;
-      step.fired = {{contact_of_guard(*passage.fired), segment_.decision->guards[*passage.fired].kind}};
+      step.fired = {
+          {contact_of_guard(*passage.fired), segment_.decision->guards[*passage.fired].kind, passage.unseen}};
       break;
     }
     if (last) break;

@@ -20,6 +20,7 @@ namespace signorini {
 struct Passage {
   double length = 0.0;
   std::optional<std::size_t> fired;  ///< slot of the guard that falls at its end
+  bool unseen = false;               ///< Fired::unseen
   std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
 };
 

@@ -50,7 +50,8 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
     Series clock;
     clock.t = begin + done;
     clock.scale = proof_.unit();
-    turning.find(proof_.slow(), clock, step / proof_.unit(), TurningPoints::Ends::searched);
+    const auto ends = done + step < length ? TurningPoints::Ends::part : TurningPoints::Ends::last_part;
+    turning.find(proof_.slow(), clock, step / proof_.unit(), ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     oscillators_.advance(point, forces_, step, next);
     std::swap(point, next);

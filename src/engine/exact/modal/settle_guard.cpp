@@ -93,6 +93,7 @@ bool settle_guard(GuardOnStep& guard, std::size_t slot, double h,
     if (x >= event) return;
     event = x;
     passage.fired = slot;
+    passage.unseen = !guard.armed;
   };
   if (guard.leading > 0) return leave_zero(guard, slot, arming, limit);
   if (!guard.armed) {

@@ -126,4 +126,30 @@ TEST_CASE("a quick proof is never wrong, and holds where little changes") {
   CHECK(proofs < 2000);
 }
 
+TEST_CASE("what is told to go one way does, on lines that are bent more and less, up and down") {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int proofs = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    StepHistory history(1);
+    double t = 0.0;
+    const double bent = std::pow(10.0, -5.0 * uniform(random)), slope = trial % 2 == 0 ? 1.0 : -1.0;
+    const int degree = 1 + trial % 5;
+    *history.restart(t) = 3.0;
+    for (int i = 0; i < 6; ++i) {
+      const double h = 0.1 + 0.2 * uniform(random);
+      t += h;
+      *history.push(t, h) = 3.0 + slope * t + bent * (2.0 * uniform(random) - 1.0);
+    }
+    history.prepare(degree);
+    if (!history.clearly_goes_one_way(0)) continue;
+    ++proofs;
+    const Bernstein p = history.polynomial(0);
+    const double way = p.value(1.0) > p.value(0.0) ? 1.0 : -1.0;
+    for (int i = 0; i < 50; ++i) CHECK(way * (p.value((i + 1) / 50.0) - p.value(i / 50.0)) > -1e-13);
+  }
+  CHECK(proofs > 500);
+  CHECK(proofs < 2000);
+}
+
 TEST_SUITE_END();

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace signorini;
 
 namespace {
@@ -57,6 +59,35 @@ TEST_CASE("what turns within all that was before is no extreme, nor is the end o
   again.series.forces *= 0.5;  // a lower peak on a later step
   again.contacts[0].fill(Contact{}, 0, again.series, 2);
   CHECK(again.times().empty());
+}
+
+TEST_CASE("a peak beside an end of a step is found, though all samples go one way") {
+  // Nearer to 1 the peak exceeds the end, by 3 (1 - at)^2, by no more than the rounding of three terms of size 3.
+  for (const double at : {1e-9, 0.003, 0.05, 0.11, 0.89, 0.95, 0.997, 1.0 - 1e-6}) {
+    CAPTURE(at);
+    OneForce peak({-3.0 * at * at, 6.0 * at, -3.0});  // -3 (x - at)^2
+    REQUIRE(peak.times().size() == 1);
+    CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + 2.0 * at).epsilon(1e-12));
+  }
+  OneForce falling({1.0, -2.0, -0.5});
+  CHECK(falling.times().empty());
+  OneForce resting({1.0, 0.0, 0.5});
+  CHECK(resting.times().empty());
+}
+
+TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there") {
+  OneForce rising({0.0, 1.0});
+  rising.turns.find(rising.contacts, rising.series, 1.0, TurningPoints::Ends::part);
+  CHECK(rising.turns.times().empty());
+  for (const double slope : {-1e-3, 0.0, 1e-3}) {  // the peak was a little before, or is a little after
+    CAPTURE(slope);
+    OneForce peak({0.0, slope, -1.0});
+    peak.series.forces(0, 0) = 1.0;
+    peak.contacts[0].fill(Contact{}, 0, peak.series, 2);
+    peak.turns.find(peak.contacts, peak.series, 1.0, TurningPoints::Ends::part);
+    REQUIRE(peak.turns.times().size() == 1);
+    CHECK(peak.turns.times()[0] == doctest::Approx(1.0 + std::max(0.0, slope)).epsilon(1e-12));
+  }
 }
 
 TEST_SUITE_END();

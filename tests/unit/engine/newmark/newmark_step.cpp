@@ -40,7 +40,7 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     Point from{m.u0, m.v0, Vector::Zero(2)}, to;
     ConsistentMotion(systems).make(system, forcing, 0.0, from);
     NewmarkStep step(m, structure);
-    step.set({1}, system->rows(), system->kinds());
+    step.set({1}, system->rows());
     // From a thousandth of a period of the contact's spring to far above it, and to the clock's resolution.
     for (double h : {1e-16, 1e-9, 1e-4, 1e-2, 10.0}) {
       CAPTURE(h);
@@ -68,7 +68,7 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
       for (const Mode& mode : {stick, slip}) {
         const ModeSystemPtr system = systems.of(mode);
         REQUIRE(system);
-        step.set({static_cast<int>(mode[0].state)}, system->rows(), system->kinds());
+        step.set({static_cast<int>(mode[0].state)}, system->rows());
         REQUIRE(step.take(forcing, from, 0.01, 0.01, true, to));
         REQUIRE(step.take(forcing, from, 0.02, 0.01, true, to));
       }

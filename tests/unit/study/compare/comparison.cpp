@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -140,6 +141,61 @@ TEST_CASE("comparison: other output times, other columns, a run that is cut off"
   CHECK(c.notes[0] == "compared up to t = 2, the end of b; a goes on to 4");
   CHECK(c.notes[1] == "history.csv: 3 columns in one of the two runs only, the first is \"A.rz\"");
   CHECK(exceeded(parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
+}
+
+TEST_CASE("comparison: a limit fails where what is compared is not the whole of both runs") {
+  const Folder folder;
+  const ComparedRun a = folder.run("a", reference);
+  struct Case {
+    std::string what, limit, said;
+    Folder::Tables tables;
+  };
+  std::deque<Case> cases;
+  const auto add = [&](const std::string& what, const std::string& limit, const std::string& said) {
+    cases.push_back({what, limit, said, reference});
+    return &cases.back().tables;
+  };
+  add("no such column in both", "displacement=1",
+      "A.ux, B.ux are in one of the two runs only; in both: A.rz, A.vx")
+      ->history = "t,B.ux,A.rz,A.vx\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n4,4,0,0\n";
+  add("no such column in either", "angular_velocity=1",
+      "neither run has any; in both: A.ux, A.rz, A.vx and 2 more");
+  add("forces cut off", "force=1", "contacts.csv of b has 1 row, expected 5 at the times of its history.csv")
+      ->contacts = "0,c,-1,0\n";
+  add("forces cut off", "force_away=1", "contacts.csv of b has 1 row")->contacts = "0,c,-1,0\n";
+  add("energies cut off", "energy=1", "energy.csv of b has 2 rows, expected 5")->energy = "0,0,0\n1,1,0\n";
+  Folder::Tables* const other_times =
+      add("other times", "displacement=1", "2 of 5 and 3 rows of history.csv were compared");
+  other_times->history = "t,A.ux,A.rz,A.vx\n0,0,0,0\n1.5,1.5,0,0\n4,4,0,0\n";
+  other_times->contacts = "0,c,-1,0\n1.5,c,-1,0\n4,c,-1,0\n";
+  other_times->energy = "0,0,0\n1.5,1.5,0\n4,4,0\n";
+  cases.push_back({"the same", "force=1", "2 of 5 and 3 rows of history.csv", *other_times});
+  Folder::Tables* const longer =
+      add("longer", "displacement=1", "b: compared up to t = 4, and b goes on to 5");
+  longer->outcome = R"({"kind": "done", "t": 5, "t_end": 5, "reason": ""})";
+  longer->history += "5,5,0,0\n";
+  longer->contacts += "5,c,-1,0\n";
+  longer->energy += "5,5,0\n";
+  for (const Case& one : cases) {
+    CAPTURE(one.what);
+    CAPTURE(one.limit);
+    const ComparedRun b = folder.run("b", one.tables);
+    const std::vector<std::string> list =
+        exceeded(parse_limits({one.limit}), a.figures, b.figures, compare_runs(a, b));
+    REQUIRE(list.size() == 1);
+    CAPTURE(list[0]);
+    CHECK(list[0].find(one.said) != std::string::npos);
+  }
+  const ComparedRun b = folder.run("b", *other_times);
+  const Comparison c = compare_runs(a, b);
+  CHECK(c.rows.history == RowCount{2, 5, 3});
+  CHECK(rows_compared(c) == "history.csv 2 of 5 and 3, contacts.csv 2 of 5 and 3, energy.csv 2 of 5 and 3");
+  const ComparedRun same = folder.run("same", reference);
+  CHECK(rows_compared(compare_runs(a, same)) == "history.csv 5, contacts.csv 5, energy.csv 5");
+  CHECK(exceeded(parse_limits(
+                     {"displacement=0", "rotation=0", "force=0", "force_away=0", "energy=0", "event_time=0"}),
+                 a.figures, same.figures, compare_runs(a, same))
+            .empty());
 }
 
 TEST_CASE("comparison: what is no number is greater than any limit") {

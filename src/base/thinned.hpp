@@ -1,0 +1,190 @@
+// thinned.hpp: few rows whose straight lines stand for many.
+//
+//   lines:   a row is left out where the straight line between the rows kept beside it passes each of its quantities q
+//            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-9
+//   bins:    where that is not enough, of each bin [i w, (i + 1) w) of time the rows with the least and the greatest of
+//            each quantity, in their order;   w = duration / 10000, doubled as often as needed up to duration / 1250
+//
+// Rows are looked at once for each c, and once more at the end: what is left out is at most 3 c, 0.6 % of the range,
+// off the lines, or is reached by them within a bin. A pixel of a panel of 170 has 0.6 %; the widest picture
+// has a panel of 1234 pixels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace signorini {
+
+/// Values{}(row): an array of `count` quantities, of which bins keep the extremes of the first `drawn`. Rows have a time t,
+/// ascending; it may repeat.
+template <class Row, std::size_t count, class Values, std::size_t drawn = count>
+class Thinned {
+ public:
+  using Quantities = std::array<double, count>;
+
+  struct Wanted {
+    /// As many rows at the end; bins have more if a picture needs them.
+    std::size_t most = 8000;
+    /// No more than `most` in any case, as wide as bins have to be for that.
+    bool crowded = false;
+    /// Lines leave out neither of two rows of one time.
+    bool both_sides = false;
+    /// Nor what would leave a gap of more than that.
+    double widest = std::numeric_limits<double>::infinity();
+  };
+  Thinned(double duration, const Wanted& wanted)
+      : duration_(duration), wanted_(wanted), limit_(2 * wanted.most) {
+    least_.fill(std::numeric_limits<double>::infinity());
+    greatest_.fill(-std::numeric_limits<double>::infinity());
+  }
+
+  void add(const Row& row) {
+    const Quantities q = Values{}(row);
+    for (std::size_t i = 0; i < count; ++i) {
+      least_[i] = std::min(least_[i], q[i]);
+      greatest_[i] = std::max(greatest_[i], q[i]);
+    }
+    rows_.push_back(row);
+    if (rows_.size() > limit_) thin();
+  }
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  /// Hands them over, without what was reserved for more.
+  [[nodiscard]] std::vector<Row> take() {
+    rows_.shrink_to_fit();
+    return std::move(rows_);
+  }
+  /// Of a bin; 0 while there are none.
+  [[nodiscard]] double width() const { return width_; }
+  /// Greatest less least of the first quantity so far.
+  [[nodiscard]] double range() const { return rows_.empty() ? 0.0 : greatest_[0] - least_[0]; }
+  /// The greatest magnitude of the i-th quantity.
+  [[nodiscard]] double size(std::size_t i) const {
+    return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));
+  }
+
+  /// At the end. Differences up to `floors` are none.
+  void close(const Quantities& floors) {
+    floors_ = floors;
+    share_ = std::max(share_, finest);
+    settled_ = 0;
+    leave_out_lines();
+    if (width_ > 0.0) keep_extremes();
+    if (rows_.size() > wanted_.most) thin();
+  }
+
+ private:
+  static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 512.0;
+  static constexpr double first_bins = 10000.0, pixels = 1250.0;
+
+  void thin() {
+    const std::size_t enough = wanted_.most;
+    if (share_ > 0.0) leave_out_lines();
+    while (rows_.size() > enough && share_ < coarsest) {
+      share_ = std::max(2.0 * share_, finest);
+      settled_ = 0;
+      leave_out_lines();
+    }
+    if (width_ > 0.0) keep_extremes();
+    while (rows_.size() > enough && width_ < (wanted_.crowded ? duration_ : duration_ / pixels)) {
+      width_ = std::max(2.0 * width_, duration_ / first_bins);
+      keep_extremes();
+    }
+    limit_ = 2 * std::max(enough, rows_.size());
+  }
+
+  /// Lines from the row kept last that pass all rows since have slopes between low and high.
+  void leave_out_lines() {
+    if (rows_.size() < settled_ + 3) return;
+    Quantities d, low, high, from;
+    for (std::size_t i = 0; i < count; ++i) d[i] = std::max(share_ * (greatest_[i] - least_[i]), floors_[i]);
+    std::size_t kept = settled_;  // its place; the row itself stands at `anchor` until then
+    double t = 0.0;
+    const auto begin_at = [&](const Row& row) {
+      from = Values{}(row);
+      t = row.t;
+      low.fill(-std::numeric_limits<double>::infinity());
+      high.fill(std::numeric_limits<double>::infinity());
+    };
+    begin_at(rows_[kept]);
+    std::size_t anchor = kept;
+    for (std::size_t j = kept + 1; j < rows_.size(); ++j) {
+      const Quantities to = Values{}(rows_[j]);
+      const auto all = [&](const auto& holds) {
+        for (std::size_t i = 0; i < count; ++i)
+          if (!holds(i)) return false;
+        return true;
+      };
+      double h = rows_[j].t - t;
+      const bool side = wanted_.both_sides && rows_[j].t == rows_[j - 1].t;
+      const bool needed = side || h > wanted_.widest || !all([&](std::size_t i) {
+                            return to[i] - from[i] >= low[i] * h && to[i] - from[i] <= high[i] * h;
+                          });
+      if (needed && j - 1 > anchor) {
+        anchor = j - 1;
+        begin_at(rows_[anchor]);
+        rows_[++kept] = rows_[anchor];
+        h = rows_[j].t - t;
+      }
+      if (h > 0.0) {
+        for (std::size_t i = 0; i < count; ++i) {
+          low[i] = std::max(low[i], (to[i] - d[i] - from[i]) / h);
+          high[i] = std::min(high[i], (to[i] + d[i] - from[i]) / h);
+        }
+      } else if (wanted_.both_sides ||
+                 !all([&](std::size_t i) { return std::abs(to[i] - from[i]) <= d[i]; })) {
+        anchor = j;  // the other side of a jump
+        begin_at(rows_[j]);
+        rows_[++kept] = rows_[j];
+      }
+    }
+    if (anchor + 1 < rows_.size()) rows_[++kept] = rows_.back();
+    rows_.resize(kept + 1);
+    settled_ = kept;
+  }
+
+  void keep_extremes() {
+    std::size_t kept = 0;
+    std::array<std::size_t, 2 * drawn + 2> chosen;
+    for (std::size_t begin = 0; begin < rows_.size();) {
+      const double bin = std::floor(rows_[begin].t / width_);
+      std::size_t end = begin + 1;
+      std::ptrdiff_t n = 0;
+      while (end < rows_.size() && std::floor(rows_[end].t / width_) == bin) ++end;
+      const auto choose = [&](std::size_t j) { chosen[static_cast<std::size_t>(n++)] = j; };
+      if (begin == 0) choose(0);
+      if (end == rows_.size()) choose(end - 1);
+      for (std::size_t i = 0; i < drawn; ++i) {
+        std::size_t least = begin, greatest = begin;
+        for (std::size_t j = begin + 1; j < end; ++j) {
+          const double q = Values{}(rows_[j])[i];
+          if (q < Values{}(rows_[least])[i]) least = j;
+          if (q > Values{}(rows_[greatest])[i]) greatest = j;
+        }
+        choose(least);
+        choose(greatest);
+      }
+      std::sort(chosen.begin(), chosen.begin() + n);
+      const auto last = std::unique(chosen.begin(), chosen.begin() + n);
+      for (auto j = chosen.begin(); j != last; ++j) rows_[kept++] = rows_[*j];
+      begin = end;
+    }
+    rows_.resize(kept);
+    settled_ = kept - 1;
+  }
+
+  double duration_;
+  Wanted wanted_;
+  std::size_t limit_;
+  std::vector<Row> rows_;
+  Quantities least_, greatest_, floors_{};
+  double share_ = 0.0, width_ = 0.0;
+  std::size_t settled_ = 0;  // the last row that lines have been looked for at this share
+};
+
+}  // namespace signorini

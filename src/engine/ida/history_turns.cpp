@@ -1,0 +1,56 @@
+#include "engine/ida/history_turns.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+/// a_k = C(n, k) sum_i (-1)^(k-i) C(k, i) b_i: differences of the coefficients.
+std::array<double, max_degree + 1> powers_of(Bernstein p) {
+  std::array<double, max_degree + 1> a{};
+  double choose = 1.0;
+  for (int k = 0; k <= p.degree; ++k) {
+    a[z(k)] = choose * p.b[0];
+    choose *= static_cast<double>(p.degree - k) / static_cast<double>(k + 1);
+    for (int i = 0; i < p.degree - k; ++i) p.b[z(i)] = p.b[z(i + 1)] - p.b[z(i)];
+  }
+  return a;
+}
+
+bool goes_one_way(const Bernstein& p) {
+  bool rises = false, falls = false;
+  for (int i = 0; i < p.degree; ++i) {
+    rises = rises || p.b[z(i + 1)] > p.b[z(i)];
+    falls = falls || p.b[z(i + 1)] < p.b[z(i)];
+  }
+  return !(rises && falls);
+}
+
+}  // namespace
+
+void HistoryTurns::find(const StepHistory& history, double x_end) {
+  turns_.open();
+  std::size_t scalar = first_;
+  for (std::size_t c = 0; c < contacts_; ++c)
+    for (const ContactSeries::Field field : TurningPoints::watched) {
+      const std::size_t i = scalar++;
+      const double last = history.last(i), bend = history.bend(i);
+      const TurningPoints::Range& seen = turns_.range(c, field);
+      if (last + bend <= seen.greatest && last - bend >= seen.least) continue;
+      if (x_end == 1.0 && history.clearly_goes_one_way(i)) {
+        turns_.see(c, field, last);
+        continue;
+      }
+      const Bernstein p = history.polynomial(i);
+      if (goes_one_way(p)) {
+        turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
+        continue;
+      }
+      const std::array<double, max_degree + 1> a = powers_of(p);
+      turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
+                  history.end() - history.begin());
+    }
+  turns_.close();
+}
+
+}  // namespace signorini

@@ -1,0 +1,37 @@
+// undamped_motion.hpp: motions without mass that the dashpots of a mode do not resist.
+//
+//   d_k . z = 0,  z_p = 1:    u_i = u'_i + z_i u'_p,   u_p = u'_p
+//
+// d_k: the velocity that a row of the mode asks for (kn g + cn g': g'), on degrees of freedom with neither mass
+// nor damper. As many of them as there are independent d_k are damped; every other one, p, stands for a motion z
+// along which forces are in equilibrium at once, whatever the angle of d_k with the axes. What the structure itself
+// leaves undamped: model/undamped.hpp.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "linear/dof_kinds.hpp"
+
+namespace signorini {
+
+struct UndampedMotion {
+  int dof = 0;                                 ///< p
+  std::vector<std::pair<int, double>> others;  ///< damped ones, and z there
+};
+
+/// What the equations of a mode are solved for.
+struct MotionKinds {
+  std::vector<DofKind> kinds;  ///< one a degree of freedom
+  std::vector<UndampedMotion> undamped;
+};
+
+/// `own`: of the structure alone (dof_kinds).
+[[nodiscard]] MotionKinds kinds_in_mode(const std::vector<DofKind>& own, const Model& model,
+                                        const std::vector<Rows>& rows);
+
+/// Degrees of freedom that may stand in one such motion together, in any mode; alone: not listed.
+[[nodiscard]] std::vector<std::vector<int>> undamped_together(const std::vector<DofKind>& own,
+                                                              const Model& model);
+
+}  // namespace signorini

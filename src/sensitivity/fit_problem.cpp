@@ -1,0 +1,204 @@
+#include "sensitivity/fit_problem.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.hpp"
+#include "sensitivity/parameter.hpp"
+
+namespace signorini {
+namespace {
+
+std::vector<double> times_of(const Measurements& measured) {
+  std::vector<double> times;
+  for (const Measurement& m : measured.rows)
+    if (m.event == 0) times.push_back(m.t);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+FitProblem::FitProblem(const SceneReader& read, const std::vector<std::string>& paths,
+                       const Measurements& measured, const std::function<bool()>& go_on)
+    : read_(read), paths_(paths), measured_(measured), go_on_(go_on), times_(times_of(measured)) {}
+
+void FitProblem::refuse(std::size_t row, const std::string& message) const {
+  const long line = measured_.rows[row].line;
+  if (measured_.file.empty() || line == 0)
+    throw UsageError(fmt::format("measured number {}: {}", row + 1, message));
+  throw Error(ExitCode::scene, fmt::format("{}:{}: {}", measured_.file, line, message));
+}
+
+double FitProblem::measured_norm() const {
+  double sum = 0.0;
+  for (const Measurement& m : measured_.rows) sum += (m.value / m.sigma) * (m.value / m.sigma);
+  return std::sqrt(sum);
+}
+
+void FitProblem::start(std::vector<double>& keys) {
+  const Scene scene = read_({});
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const Measurement& m = measured_.rows[i];
+    const double t = m.event == 0 ? m.t : m.value;
+    if (t > scene.run.t_end)
+      refuse(i, fmt::format("t: found {}, expected a time of the run, which ends at run.t_end = {} {}", t,
+                            scene.run.t_end, scene.units.time));
+  }
+  if (!run(keys)) return;
+  size_.resize(keys.size());
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    constexpr double steps_of_size = 512.0;  // what Parameter::step is a part of
+    size_[p] = keys[p] != 0.0 ? std::abs(keys[p]) : steps_of_size * std::abs(last_.parameters[p].step);
+  }
+  std::size_t row = 0;
+  if (const std::string why = not_there(row); !why.empty()) refuse(row, "at the start " + why);
+  const std::string why = missing_rate();
+  if (why.empty()) return;
+  // Two events may meet at the very start: alike contacts that begin with the same friction. Beside it they do not.
+  for (std::size_t p = 0; p < keys.size(); ++p)
+    for (const double side : {1.0, -1.0}) {
+      std::vector<double> near = keys;
+      near[p] += side * beside * size_[p];
+      if (!run(near) || !complete(near)) continue;
+      keys = near;
+      return;
+    }
+  throw UsageError("at the start " + why);
+}
+
+bool FitProblem::residuals(const std::vector<double>& keys, gsl_vector& f) {
+  if (!run(keys)) return false;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    const double rest = impossible_ ? EventRates::none : residual(i);
+    gsl_vector_set(&f, i, std::isfinite(rest) ? rest / measured_.rows[i].sigma : missing);
+  }
+  return true;
+}
+
+bool FitProblem::complete(const std::vector<double>& keys) {
+  std::size_t row = 0;
+  return run(keys) && !impossible_ && not_there(row).empty() && missing_rate().empty();
+}
+
+bool FitProblem::derivatives(const std::vector<double>& keys, gsl_matrix& J) {
+  no_derivative_.clear();
+  if (!complete(keys)) {
+    if (failure_ || impossible_) return false;
+    no_derivative_ = missing_rate();
+    std::vector<double> near = keys;
+    for (std::size_t p = 0; p < near.size() && !known_.empty(); ++p)
+      near[p] += std::clamp(known_[p] - keys[p], -beside * size_[p], beside * size_[p]);
+    if (near == keys || !complete(near)) return false;
+  }
+  known_ = keys_;
+  for (std::size_t i = 0; i < rows(); ++i)
+    for (std::size_t p = 0; p < paths_.size(); ++p)
+      gsl_matrix_set(&J, i, p, rate_of(i, p) / measured_.rows[i].sigma);
+  return true;
+}
+
+double FitProblem::residual(std::size_t i) const {
+  const Measurement& m = measured_.rows[i];
+  if (m.event == 0) {
+    const auto [row, column] = place_of(m);
+    return row < last_.values.size() ? last_.values[row][column] - m.value : EventRates::none;
+  }
+  return has(m) ? last_.events[m.event - 1].t - m.value : EventRates::none;
+}
+
+std::string FitProblem::not_there(std::size_t& row) const {
+  for (row = 0; row < rows(); ++row) {
+    const Measurement& m = measured_.rows[row];
+    if (m.event == 0) {
+      if (!std::isfinite(residual(row)))
+        return fmt::format("the run, which ends at t = {}, has no {} at {}", last_.report.outcome.t, m.column,
+                           m.t);
+    } else if (m.event > last_.events.size()) {
+      return fmt::format("the run has {}, and no event {}", count_of(last_.events.size(), "event"), m.event);
+    } else if (!has(m)) {
+      const std::string what = m.type.empty() ? "an event" : m.type;
+      return fmt::format("event {} of the run is {}, measured was {}{}", m.event,
+                         name_of(last_.events[m.event - 1]), what,
+                         m.contact.empty() ? "" : fmt::format(" of contact \"{}\"", m.contact));
+    }
+  }
+  return {};
+}
+
+std::string FitProblem::name_of(const Event& event) const {
+  const std::string of =
+      event.contact < 0
+          ? ""
+          : fmt::format(" of contact \"{}\"", last_.contacts[static_cast<std::size_t>(event.contact)]);
+  return fmt::format("{}{} at t = {:.9g}", to_string(event.type), of, event.t);
+}
+
+std::string FitProblem::missing_rate() const {
+  for (std::size_t i = 0; i < rows(); ++i)
+    for (std::size_t p = 0; p < paths_.size(); ++p)
+      if (!std::isfinite(rate_of(i, p)))
+        return fmt::format("measured number {} has no derivative by {}: {}", i + 1, paths_[p],
+                           last_.parameters[p].reason);
+  return {};
+}
+
+bool FitProblem::has(const Measurement& m) const {
+  if (m.event > last_.events.size()) return false;
+  const Event& event = last_.events[m.event - 1];
+  if (!m.type.empty() && m.type != to_string(event.type)) return false;
+  return m.contact.empty() ||
+         (event.contact >= 0 && last_.contacts[static_cast<std::size_t>(event.contact)] == m.contact);
+}
+
+std::pair<std::size_t, std::size_t> FitProblem::place_of(const Measurement& m) const {
+  const auto column = std::find(last_.columns.begin(), last_.columns.end(), m.column);
+  if (column == last_.columns.end()) throw UsageError(fmt::format("the run has no column \"{}\"", m.column));
+  const auto row = std::find(last_.times.begin(), last_.times.end(), m.t);
+  return {static_cast<std::size_t>(row - last_.times.begin()),
+          static_cast<std::size_t>(column - last_.columns.begin())};
+}
+
+double FitProblem::rate_of(std::size_t i, std::size_t p) const {
+  const Measurement& m = measured_.rows[i];
+  if (m.event > 0) return has(m) ? last_.event_rates[m.event - 1][p].t : EventRates::none;
+  const auto [row, column] = place_of(m);
+  return row < last_.value_rates[p].size() ? last_.value_rates[p][row][column] : EventRates::none;
+}
+
+/// Of these keys, unless it was the last.
+bool FitProblem::run(const std::vector<double>& keys) {
+  if (failure_) return false;
+  if (keys == keys_) return true;
+  if (go_on_ && !go_on_()) return false;
+  keys_ = keys;
+  try {
+    last_ =
+        sensitivities([&](const std::vector<Override>& changes) { return scene_at(keys, changes); }, paths_);
+    for (const Measurement& m : measured_.rows)
+      if (m.event == 0) static_cast<void>(place_of(m));
+    impossible_ = false;
+  } catch (const Error&) {  // not through GSL's frames
+    if (runs_ == 0) failure_ = std::current_exception();
+    impossible_ = true;
+  }
+  ++runs_;
+  return !failure_;
+}
+
+Scene FitProblem::scene_at(const std::vector<double>& keys, const std::vector<Override>& changes) const {
+  std::vector<Override> all;
+  for (std::size_t p = 0; p < paths_.size(); ++p) all.push_back(set_to(paths_[p], keys[p]));
+  if (!times_.empty()) {
+    std::string list;
+    for (const double t : times_) list += (list.empty() ? "[" : ", ") + shortest(t);
+    all.push_back({"run.output_times", list + "]"});
+  }
+  all.insert(all.end(), changes.begin(), changes.end());
+  return read_(all);
+}
+
+}  // namespace signorini

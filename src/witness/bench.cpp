@@ -1,0 +1,131 @@
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "witness/laws.hpp"
+
+namespace signorini {
+
+/// Of M on the degrees of freedom that have mass.
+struct Bench::Factor {
+  std::vector<int> dofs;
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  bool made = false;
+};
+
+Bench::Bench(const Model& model_, const WitnessLimits& limits_)
+    : model(model_),
+      limits(limits_),
+      factor_(std::make_unique<Factor>()),
+      responses_(model_.contacts.size()) {
+  for (int i = 0; i < model.size(); ++i) {
+    massive_.push_back(!model.dofs[static_cast<std::size_t>(i)].massless);
+    if (massive_.back()) factor_->dofs.push_back(i);
+  }
+}
+
+Bench::~Bench() = default;
+
+Vector Bench::per_mass(const Vector& x) const {
+  Factor& f = *factor_;
+  if (!std::exchange(f.made, true)) {
+    std::vector<int> place(static_cast<std::size_t>(model.size()), -1);
+    for (std::size_t i = 0; i < f.dofs.size(); ++i)
+      place[static_cast<std::size_t>(f.dofs[i])] = static_cast<int>(i);
+    std::vector<Eigen::Triplet<double>> terms;
+    for (int j = 0; j < model.mass.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(model.mass, j); it; ++it) {
+        const int row = place[static_cast<std::size_t>(it.row())],
+                  column = place[static_cast<std::size_t>(j)];
+        if (row >= 0 && column >= 0) terms.emplace_back(row, column, it.value());
+      }
+    SparseMatrix mass(static_cast<Eigen::Index>(f.dofs.size()), static_cast<Eigen::Index>(f.dofs.size()));
+    mass.setFromTriplets(terms.begin(), terms.end());
+    f.ldlt.compute(mass);
+  }
+  if (f.ldlt.info() != Eigen::Success) return {};
+  Vector part(static_cast<Eigen::Index>(f.dofs.size()));
+  for (std::size_t i = 0; i < f.dofs.size(); ++i) part[static_cast<Eigen::Index>(i)] = x[f.dofs[i]];
+  part = f.ldlt.solve(part);
+  Vector result = Vector::Zero(model.size());
+  for (std::size_t i = 0; i < f.dofs.size(); ++i) result[f.dofs[i]] = part[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
+const std::array<double, 2>& Bench::lightness() const {
+  if (lightness_) return *lightness_;
+  lightness_.emplace(std::array<double, 2>{0.0, 0.0});
+  for (int i = 0; i < model.size(); ++i) {
+    if (!has_mass(i)) continue;
+    const Vector column = per_mass(Vector::Unit(model.size(), i));
+    if (column.size() == 0) break;
+    double& greatest = (*lightness_)[model.dofs[static_cast<std::size_t>(i)].rotation];
+    greatest = std::max(greatest, std::sqrt(std::max(0.0, column[i])));
+  }
+  return *lightness_;
+}
+
+const OwnResponse* Bench::own_response(std::size_t k) const {
+  const Contact& c = model.contacts[k];
+  for (const Combination* form : {&c.normal, &c.tangent})
+    for (const auto& [dof, factor] : form->terms)
+      if (!has_mass(dof)) return nullptr;
+  if (!responses_[k]) {
+    Vector n = Vector::Zero(model.size()), t = n;
+    c.normal.add_to(n, 1.0);
+    c.tangent.add_to(t, 1.0);
+    n = per_mass(n);
+    t = per_mass(t);
+    if (n.size() == 0 || t.size() == 0) return nullptr;
+    const double nn = c.normal.dot(n), nt = c.normal.dot(t), tt = c.tangent.dot(t);
+    responses_[k] = OwnResponse{std::move(n), std::move(t), nn, nt, tt};
+  }
+  return &*responses_[k];
+}
+
+double Bench::balance(const WitnessedSide& side) const {
+  Vector sum = Vector::Zero(model.size());
+  const auto add = [&](const SparseMatrix& matrix, const Vector* x) {
+    if (x == nullptr) return;
+    for (int j = 0; j < matrix.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(matrix, j); it; ++it)
+        sum[it.row()] += std::abs(it.value() * (*x)[j]);
+  };
+  add(model.mass, side.a);
+  add(model.damping, side.v);
+  add(model.stiffness, side.u);
+  for (std::size_t k = 0; side.forces != nullptr && k < model.contacts.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    for (const auto& [dof, factor] : model.contacts[k].normal.terms)
+      sum[dof] += std::abs(factor * (*side.forces)[at]);
+    for (const auto& [dof, factor] : model.contacts[k].tangent.terms)
+      sum[dof] += std::abs(factor * (*side.forces)[at + 1]);
+  }
+  return sum.size() > 0 ? sum.maxCoeff() : 0.0;
+}
+
+double Bench::pull(const InstantRecord& record, std::size_t k) const {
+  const Sight m = see(model.contacts[k], k, record.after);
+  const OwnResponse* own = own_response(k);
+  return std::abs(m.ddg) + (own != nullptr ? own->nn * std::abs(m.N) : 0.0);
+}
+
+double Bench::slowest(const InstantRecord& record, std::size_t k) const {
+  const Contact& c = model.contacts[k];
+  const Sight m = see(c, k, record.after), b = see(c, k, record.before);
+  const double pull = this->pull(record, k);
+  const double size = m.place + b.place, speed = m.speed + b.speed;
+  double clock = record.resolution;
+  for (const RecordedEvent& event : record.events)
+    if (event.contact == k) clock = std::max(clock, of_uncertainty * event.t_uncertainty);
+  double low = c.capture_velocity.value_or(limits.capture_velocity) + rounding::of_elimination * speed +
+               of_tolerance * (limits.rtol * speed + limits.velocity) + clock * pull;
+  const double gap =
+      rounding::of_elimination * size + of_tolerance * (limits.rtol * size + limits.displacement);
+  if (!limits.knows_low_flights) low += std::sqrt(2.0 * pull * gap);
+  return low;
+}
+
+}  // namespace signorini

@@ -1,0 +1,94 @@
+#include "witness/sight.hpp"
+
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+/// |form| |x|, whatever the angle between them; x no less than it has reached.
+double size_on(const Combination& form, const Vector& x, double reach) {
+  double of_form = 0.0, of_x = reach * reach;
+  for (const auto& [dof, factor] : form.terms) {
+    of_form += factor * factor;
+    of_x += x[dof] * x[dof];
+  }
+  return std::sqrt(of_form * of_x);
+}
+
+/// kt of the spring between body and sliding point; 0: none, or with a dashpot beside it.
+double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_or(0.0); }
+
+}  // namespace
+
+int sign_of_slip(State state) {
+  return kind_of(state) == State::slip_plus ? 1 : kind_of(state) == State::slip_minus ? -1 : 0;
+}
+
+double size_of_normal(const Contact& c, const Sight& m) {
+  return c.normal_stiffness * m.place + c.normal_damping * m.speed;
+}
+
+Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
+  const auto at = static_cast<Eigen::Index>(2 * k);
+  const Driven& d = side.driven[k];
+  Sight m;
+  m.N = (*side.forces)[at];
+  m.T = (*side.forces)[at + 1];
+  m.g = c.gap + c.normal.dot(*side.u);
+  m.ut = c.tangent.dot(*side.u) - d.s;
+  m.dg = c.normal.dot(*side.v);
+  m.dut = c.tangent.dot(*side.v) - d.ds;
+  m.place = size_on(c.normal, *side.u, side.u_reach[0]) + size_on(c.tangent, *side.u, side.u_reach[0]) +
+            std::abs(c.gap) + std::abs(d.s);
+  m.speed = size_on(c.normal, *side.v, side.v_reach[0]) + size_on(c.tangent, *side.v, side.v_reach[0]) +
+            std::abs(d.ds);
+  if (side.a != nullptr) {
+    m.ddg = c.normal.dot(*side.a);
+    m.ddut = c.tangent.dot(*side.a) - d.dds;
+    m.push = size_on(c.normal, *side.a, 0.0) + size_on(c.tangent, *side.a, 0.0) + std::abs(d.dds);
+  }
+  m.q = d.q;
+  m.dq = d.dq;
+  return m;
+}
+
+SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m, const WitnessLimits& tol) {
+  SeenGuards guards;
+  const double kn = c.normal_stiffness, cn = c.normal_damping, kt = shear_stiffness(c);
+  const double of_u = tol.rtol * m.place + tol.displacement, of_v = tol.rtol * m.speed + tol.velocity;
+  const double of_N = c.has_spring() ? kn * of_u + cn * of_v : tol.rtol * std::abs(m.N) + tol.force;
+  const double size_N = c.has_spring() ? size_of_normal(c, m) : std::abs(m.N);
+  const double dN = c.has_spring() ? kn * m.dg + cn * m.ddg : c.is_pressed() ? -m.dq : 0.0;
+  if (is_open(state.state)) {
+    if (c.is_pressed()) return guards;
+    if (state.state == State::inside) {
+      guards.add(
+          {"penetration", m.g + cn / kn * m.dg, m.place + cn / kn * m.speed, m.dg, of_u + cn / kn * of_v});
+      guards.add({"lasting gap", -m.g, m.place, -m.dg, of_u});
+      return guards;
+    }
+    guards.add({"penetration", m.g, m.place, m.dg, of_u});
+    return guards;
+  }
+  if (!c.is_pressed()) guards.add({"tension", -m.N, size_N, -dN, of_N});
+  if (!c.has_friction() || kind_of(state.state) == State::closed) return guards;
+  const double fs = c.friction.static_, fk = c.friction.kinetic;
+  if (const int s = sign_of_slip(state.state); s == 0) {
+    const double size = fs * size_N + (kt > 0.0 ? kt * (m.place + std::abs(state.anchor)) : std::abs(m.T));
+    const double off = fs * of_N + (kt > 0.0 ? kt * of_u : tol.rtol * std::abs(m.T) + tol.force);
+    const double side = m.T >= 0.0 ? 1.0 : -1.0;
+    guards.add({"friction", -fs * m.N - std::abs(m.T), size, -fs * dN - side * kt * m.dut, off});
+  } else {
+    double rate = s * m.dut, size = m.speed, off = of_v;
+    if (kt > 0.0) {
+      const double f = fk / kt;
+      rate += c.is_pressed() ? -f * m.dq : f * (kn * m.dg + cn * m.ddg);
+      size += f * (kn * m.speed + cn * m.push + std::abs(m.dq));
+      off += f * (kn * of_v + cn * (tol.rtol * m.push + tol.force));
+    }
+    guards.add({"slip direction", rate, size, s * m.ddut, off});
+  }
+  return guards;
+}
+
+}  // namespace signorini

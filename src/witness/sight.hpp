@@ -1,0 +1,44 @@
+// sight.hpp: a contact as the witness sees it: its motion, the guards of its states, and what rounding leaves of both.
+//
+//   g = g0 + n.u,  ut = t.u - s,  g' = n.v,  ut' = t.v - s',  g'' = n.a,  ut'' = t.a - s''
+//   size of a form on x: |n| |x|, x at the contact's own degrees of freedom
+#pragma once
+
+#include <array>
+
+#include "witness/witness.hpp"
+
+namespace signorini {
+
+struct Sight {
+  double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0;
+  // Sizes of the terms of g and ut, of g' and ut', of g'' and ut''.
+  double place = 0.0, speed = 0.0, push = 0.0;
+};
+
+/// A guard, positive while its state holds, and the size of the terms that it is a sum of.
+struct SeenGuard {
+  const char* law = "";
+  double value = 0.0, size = 0.0;
+  double rate = 0.0;       ///< of the value, as far as the motion tells; else 0
+  double tolerance = 0.0;  ///< what the engine's tolerances make of it
+};
+
+struct SeenGuards {
+  std::array<SeenGuard, 3> list;
+  std::size_t count = 0;
+  void add(const SeenGuard& guard) { list[count++] = guard; }
+  [[nodiscard]] const SeenGuard* begin() const { return list.data(); }
+  [[nodiscard]] const SeenGuard* end() const { return list.data() + count; }
+};
+
+[[nodiscard]] Sight see(const Contact& contact, std::size_t k, const WitnessedSide& side);
+/// +1, -1 while slipping, else 0; open; sticking.
+[[nodiscard]] int sign_of_slip(State state);
+/// The guards of a state at a motion whose forces are those of the state's own rows.
+[[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
+                                   const WitnessLimits& limits);
+/// The size of kn g + cn g'.
+[[nodiscard]] double size_of_normal(const Contact& contact, const Sight& m);
+
+}  // namespace signorini

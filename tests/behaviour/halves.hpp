@@ -1,0 +1,166 @@
+// halves.hpp: a run, and the same run in two halves, the second of which goes on from the files of the first.
+#pragma once
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "own_folder.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::halves {
+
+struct Difference {
+  bool events_agree = true;
+  std::string first;  ///< event that differs
+  double time = 0.0;  ///< of events, over t_end
+  double state =
+      0.0;  ///< of u, v, N, T, ut, slip at nine times after the split, over their greatest in the run
+  std::size_t events = 0;
+};
+
+using Reader = std::function<Scene(const std::vector<Override>&)>;
+
+inline constexpr int compared_rows = 9;
+
+/// All that depends on time happens so much earlier.
+inline void shift(Scene& scene, double t) {
+  const auto earlier = [t](HistorySpec& history) { history.shift -= t; };
+  for (LoadSpec& load : scene.loads) earlier(load.history);
+  for (Member& member : scene.members) {
+    earlier(member.temperature);
+    earlier(member.initial_strain);
+  }
+  for (Support& support : scene.supports)
+    if (support.motion) earlier(*support.motion);
+  for (ContactSpec& contact : scene.contacts) {
+    earlier(contact.normal_force);
+    earlier(contact.surface_velocity);
+  }
+  for (BaseMotionSpec& base : scene.base_motion) earlier(base.acceleration);
+}
+
+struct Sizes {
+  double u = 0.0, v = 0.0, force = 0.0;
+};
+
+inline Sizes sizes_of(const Result& result) {
+  Sizes s;
+  for (const Result::Row& row : result.rows) {
+    s.u = std::max(s.u, row.u.cwiseAbs().maxCoeff());
+    s.v = std::max(s.v, row.v.cwiseAbs().maxCoeff());
+    for (const ContactSample& c : row.contacts) s.force = std::max({s.force, std::abs(c.N), std::abs(c.T)});
+  }
+  return s;
+}
+
+inline double over(double difference, double size) {
+  return size > 0.0 ? std::abs(difference) / size : std::abs(difference);
+}
+
+inline double apart(const Result::Row& a, const Result::Row& b, const Sizes& size) {
+  double most = std::max(over((a.u - b.u).cwiseAbs().maxCoeff(), size.u),
+                         over((a.v - b.v).cwiseAbs().maxCoeff(), size.v));
+  for (std::size_t k = 0; k < a.contacts.size(); ++k) {
+    const ContactSample &x = a.contacts[k], &y = b.contacts[k];
+    most = std::max({most, over(x.N - y.N, size.force), over(x.T - y.T, size.force),
+                     over(x.ut - y.ut, size.u), over(x.slip - y.slip, size.u)});
+  }
+  return most;
+}
+
+inline std::string show(const Event& e) {
+  return fmt::format("t = {:.15g} contact {} {} -> {}", e.t, e.contact, to_string(e.from), to_string(e.to));
+}
+
+inline Difference split_scene(const Reader& read, const std::vector<Override>& settings, double part) {
+  const OwnFolder own;
+  const auto folder = own.path() / "first";
+  Scene whole = read(settings);
+  const double t_end = whole.run.t_end;
+  // Of steps of a given length a multiple.
+  const double t = whole.run.dt ? std::round(part * t_end / *whole.run.dt) * *whole.run.dt : part * t_end;
+  whole.run.output_dt.reset();
+  whole.run.frames = {t};
+  std::vector<double> times, later;
+  for (int i = 1; i <= compared_rows; ++i) later.push_back((t_end - t) * i / compared_rows);
+  for (const double s : later) times.push_back(s == later.back() ? t_end : t + s);
+  times.insert(times.begin(), t);
+  whole.run.output_times = times;
+
+  const Model model = build_model(whole);
+  const Result all = simulate(model, whole.run);
+  {
+    RunDirectory directory(folder, whole, model, {true, {"test"}});
+    static_cast<void>(directory.finish(simulate(model, whole.run, directory)));
+  }
+  std::vector<Override> on = settings;
+  on.push_back({"run.initial", fmt::format("{{ run = \"{}\", t = {} }}", folder.string(), t)});
+  Scene second = read(on);
+  REQUIRE(second.initial.saved);
+  CHECK(second.initial.saved->differing.empty());
+  shift(second, t);
+  second.run.t_end = t_end - t;
+  second.run.output_dt.reset();
+  second.run.frames.clear();
+  second.run.output_times = later;
+  const Result rest = simulate(build_model(second), second.run);
+
+  Difference d;
+  const double same_instant = 1e-9 * t_end;
+  std::vector<Event> expected, found;
+  for (const Event& e : all.events)
+    if (e.t > t + same_instant) expected.push_back(e);
+  for (const Event& e : rest.events)
+    if (e.t > same_instant) found.push_back(e);
+  d.events = expected.size();
+  for (std::size_t i = 0; i < std::max(expected.size(), found.size()) && d.events_agree; ++i) {
+    const bool both = i < expected.size() && i < found.size();
+    d.events_agree = both && expected[i].contact == found[i].contact && expected[i].to == found[i].to;
+    if (both) d.time = std::max(d.time, std::abs(found[i].t + t - expected[i].t) / t_end);
+    if (!d.events_agree)
+      d.first = fmt::format("{} of {}: {}, found {} of {}", i, expected.size(),
+                            i < expected.size() ? show(expected[i]) : "none",
+                            i < found.size() ? show(found[i]) : "none", found.size());
+  }
+  const Sizes size = sizes_of(all);
+  CHECK(rest.report.outcome.kind == all.report.outcome.kind);
+  const std::size_t first = all.rows.size() - compared_rows;
+  for (std::size_t i = 0; i < compared_rows && all.rows.size() == rest.rows.size() + 1; ++i)
+    d.state = std::max(d.state, apart(all.rows[first + i], rest.rows[i], size));
+  return d;
+}
+
+/// A run that goes on has no stages of a start.
+inline std::string without_stages(std::string text) {
+  const std::string stage = "[[run.stages]]";
+  for (std::size_t at = text.find(stage); at != std::string::npos; at = text.find(stage))
+    text.erase(at, text.find("\n[", at) + 1 - at);
+  return text;
+}
+
+inline Difference split_text(const std::string& text, const std::vector<Override>& settings, double part,
+                             const std::string& file = "test.toml") {
+  return split_scene(
+      [&](const std::vector<Override>& changes) {
+        return parse_scene(changes.size() > settings.size() ? without_stages(text) : text, file, changes);
+      },
+      settings, part);
+}
+
+/// The scene of a file, split at this part of its t_end.
+inline Difference split(const std::string& file, const std::vector<Override>& settings, double part) {
+  std::ifstream in(file);
+  return split_text({std::istreambuf_iterator<char>(in), {}}, settings, part, file);
+}
+
+}  // namespace signorini::tests::halves

@@ -1,0 +1,111 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "behaviour/one_mass.hpp"
+#include "unit/engine/stretch.hpp"
+
+namespace signorini::tests::newmark_engines {
+namespace {
+
+const std::vector<Override> steps{{"run.engine", "newmark"}, {"run.dt", "0.3"}};
+
+/// A block that friction stops: u'' = -1, u' = 1 - t, at rest from t = 1 on.
+const std::string block =
+    matrix_scene("t_end = 3.0\ninitial = { u = [0.0], v = [1.0] }", "mass = [[2.0]]\nstiffness = [[0.0]]",
+                 "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 4.0\nfriction = 0.5");
+
+/// A ball under gravity above a floor: u = 0.5 - 0.2 t - 5 t^2.
+const std::string ball =
+    matrix_scene("t_end = 3.0\ninitial = { u = [0.5], v = [-0.2] }", "mass = [[2.0]]\nstiffness = [[0.0]]",
+                 "law = \"rigid\"\nnormal = { d0 = 1.0 }\nrestitution = 0.5",
+                 "[[loads]]\ndirection = { d0 = -1.0 }\namplitude = 20.0\n");
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/engine/newmark/newmark_engine");
+
+TEST_CASE("a block that friction stops: the steps are exact, the slip rate falls at t = 1, works are f N u") {
+  Stretch s(block, steps);
+  Works works(1);
+  long taken = 0;
+  const Step last = s.go([&](const Step& step) {
+    ++taken;
+    for (const double x : {0.2, 0.5, 1.0}) {
+      const double t = step.begin + x * (step.end - step.begin);
+      const Point p = s.at(t);
+      CHECK(p.u[0] == doctest::Approx(t - 0.5 * t * t).epsilon(1e-13));
+      CHECK(p.v[0] == doctest::Approx(1.0 - t).epsilon(1e-12));
+      CHECK(p.T(0) == doctest::Approx(2.0).epsilon(1e-14));
+      Point curve;
+      s.engine->interpolate(t, curve);
+      CHECK(curve.u[0] == doctest::Approx(p.u[0]).epsilon(1e-13));
+    }
+    const double middle = step.begin + 0.4 * (step.end - step.begin);
+    s.engine->integrate(step.begin, middle, works);
+    s.engine->integrate(middle, step.end, works);
+  });
+  CHECK(taken == 4);
+  REQUIRE(last.kind == Step::Kind::event);
+  REQUIRE(last.fired.size() == 1);
+  CHECK(last.fired[0].guard == Guard::sliding);
+  CHECK(last.end == doctest::Approx(1.0).epsilon(1e-14));
+  CHECK(works.friction[0] == doctest::Approx(2.0 * 0.5).epsilon(1e-13));
+  CHECK(works.pressing[0] == doctest::Approx(4.0).epsilon(1e-13));
+  // Constant acceleration: what a step leaves out is nothing.
+  Form rate;
+  rate.vt = 1.0;
+  CHECK(s.engine->guard_error(rate, {}, 0) < 1e-14);
+  REQUIRE(s.pass(last));
+  CHECK(s.go().end == 3.0);
+  CHECK(s.at(3.0).u[0] == doctest::Approx(0.5).epsilon(1e-13));
+}
+
+TEST_CASE("a fall between steps is found where the motion has it, the rebound half as fast") {
+  for (const char* refine : {"root", "linear"}) {
+    CAPTURE(refine);
+    std::vector<Override> changes = steps;
+    changes.push_back({"run.refine", refine});
+    Stretch s(ball, changes);
+    double t = (-0.2 + std::sqrt(0.04 + 10.0)) / 10.0, speed = 0.2 + 10.0 * t, begin = 0.0;
+    for (int hit = 0; hit < 4; ++hit) {
+      CAPTURE(hit);
+      const Step last = s.go();
+      REQUIRE(last.kind == Step::Kind::event);
+      CHECK(last.fired[0].guard == Guard::closing);
+      CHECK(last.end == doctest::Approx(begin + t).epsilon(1e-13));
+      CHECK(s.at(last.end).v[0] == doctest::Approx(-speed).epsilon(1e-12));
+      REQUIRE(s.pass(last));
+      CHECK(s.decision.v[0] == doctest::Approx(0.5 * speed).epsilon(1e-12));
+      begin += t;
+      speed *= 0.5;
+      t = 0.2 * speed;
+    }
+  }
+}
+
+TEST_CASE("what a step leaves out of a guard: h^2/12 of the change of u'', and h/12 of the change of that") {
+  // u'' = -w^2 u from rest at 1: in one step from the start a changes by w^2 (1 - u1)
+  Stretch s(
+      matrix_scene("t_end = 3.0\ninitial = { u = [1.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[4.0]]",
+                   "law = \"compliant\"\nnormal = { d0 = 1.0 }\ngap = 10.0\nnormal_stiffness = 7.0"),
+      {{"run.engine", "newmark"}, {"run.dt", "0.1"}});
+  const double h = 0.1, half = 0.01;                            // (w h / 2)^2
+  const double angle = std::acos((1.0 - half) / (1.0 + half));  // of a step
+  Form gap, rate;
+  gap.gap = rate.vn = 1.0;
+  for (int i = 1; i < 5; ++i) {
+    CAPTURE(i);
+    (void)s.engine->advance();
+    const auto a = [&](int j) { return -4.0 * std::cos(angle * j); };
+    CHECK(s.engine->guard_error(gap, {}, 0) ==
+          doctest::Approx(h * h / 12.0 * std::abs(a(i) - a(i - 1))).epsilon(1e-9));
+    const double before = i > 1 ? a(i - 1) - a(i - 2) : 0.0;
+    CHECK(s.engine->guard_error(rate, {}, 0) ==
+          doctest::Approx(h / 12.0 * std::abs(a(i) - a(i - 1) - before)).epsilon(1e-9));
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::newmark_engines

@@ -1,0 +1,120 @@
+// stretch.hpp: an engine on its way through one state, without the loop around it.
+//
+//   scene -> decision at t = 0 -> engine -> advance() ... -> the first event or the end
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "decide/decider.hpp"
+#include "decide/driven_states.hpp"
+#include "engine/tolerance.hpp"
+#include "motion/clock.hpp"
+#include "run/engines.hpp"
+
+namespace signorini::tests {
+
+class Stretch {
+ public:
+  explicit Stretch(const std::string& text, const std::vector<Override>& changes = {})
+      : Stretch(parse_scene(text, "test.toml", changes)) {}
+  explicit Stretch(const Scene& scene) : Stretch(build_model(scene), scene.run) {}
+  Stretch(Model of, const RunSpec& as)
+      : model(std::move(of)),
+        run(as),
+        structure(model),
+        systems(model, structure),
+        tolerance(tolerance_of(model, run)),
+        decider(systems, 100, tolerance.capture_velocity()),
+        forcing(model, 0.0, Side::after),
+        row(engine_row(run.engine)),
+        engine(row.make({model, structure, systems, run, tolerance, row.method(model, run).max_order})),
+        decision(begun()) {
+    engine->start({run.t_end, &decision, &forcing});
+  }
+
+  /// To the first event or the end; after each step `see`.
+  Step go(const std::function<void(const Step&)>& see = {}) {
+    Step step;
+    do {
+      step = engine->advance();
+      if (step.kind == Step::Kind::failed) return step;
+      if (see) see(step);
+    } while (step.kind == Step::Kind::accepted && step.end < run.t_end);
+    return step;
+  }
+
+  /// What stood in the point before must not matter.
+  [[nodiscard]] Point at(double t) {
+    const Vector nothing = Vector::Constant(model.size(), std::numeric_limits<double>::quiet_NaN());
+    Point point{nothing, nothing, nothing, nothing};
+    engine->evaluate(t, point);
+    engine->accelerate(t, point);
+    return point;
+  }
+
+  /// Integrals of the powers along the engine's own motion, by Gauss's rule on `parts` parts.
+  void add_powers(double from, double to, int parts, Works& works) {
+    constexpr std::array x{0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
+                           0.9739065285171717};
+    constexpr std::array w{0.2955242247147529, 0.2692667193099963, 0.2190863625159820, 0.1494513491505806,
+                           0.0666713443086881};
+    Powers powers(model, structure);
+    std::vector<double> now(powers.count(), std::numeric_limits<double>::quiet_NaN());
+    const double half = 0.5 * (to - from) / parts;
+    for (int part = 0; part < parts; ++part)
+      for (std::size_t i = 0; i < x.size(); ++i)
+        for (const double side : {-1.0, 1.0}) {
+          const double t = from + half * (2 * part + 1 + side * x[i]);
+          powers.at(forcing, t, decision.mode, at(t), now.data());
+          powers.add(now.data(), half * w[i], works);
+        }
+  }
+
+  /// Across the event that a step has found: false where no state goes on.
+  bool pass(const Step& event) {
+    Instant now = instant(event.end, event.resolution);
+    const Point point = at(event.end);
+    now.u = point.u;
+    now.v = point.v;
+    now.mode = decision.mode;
+    now.fired = event.fired;
+    now.rested = resting(decision);
+    decision =
+        event.adopted ? decider.adopt(now, *event.adopted, forcing) : decider.decide(now, forcing, forcing);
+    if (decision.consistent) engine->start({run.t_end, &decision, &forcing});
+    return decision.consistent;
+  }
+
+  Model model;
+  RunSpec run;
+  Structure structure;
+  ModeSystems systems;
+  Tolerance tolerance;
+  Decider decider;
+  Forcing forcing;
+  const EngineRow& row;
+  std::unique_ptr<Stepper> engine;
+  Decision decision;
+
+ private:
+  [[nodiscard]] Instant instant(double t, double resolution) const {
+    Instant now;
+    now.t = t;
+    now.resolution = resolution;
+    now.knows_low_flights = engine->knows_low_flights();
+    return now;
+  }
+  Decision begun() {
+    Instant now = instant(0.0, resolution_at(0.0, 0.0));
+    now.u = model.u0;
+    now.v = model.v0;
+    now.start = true;
+    now.mode = first_mode(model, forcing, 0.0, model.u0, model.v0);
+    return decider.decide(std::move(now), forcing, forcing);
+  }
+};
+
+}  // namespace signorini::tests

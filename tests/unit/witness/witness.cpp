@@ -1,0 +1,296 @@
+// witness/witness.hpp: every law, at records that keep it and at one that does not. Numbers by hand.
+#include "witness/witness.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace signorini;
+
+TEST_SUITE_BEGIN("unit/witness/witness");
+
+namespace {
+
+constexpr double mass = 2.0, angle = 0.7;  // of the ground
+
+/// A block of 2 kg on ground that is inclined by 0.7 rad; mass couples nothing.
+Model block(const Contact& contact) {
+  Model model;
+  model.dofs.resize(2);
+  model.mass.resize(2, 2);
+  model.mass.insert(0, 0) = mass;
+  model.mass.insert(1, 1) = mass;
+  model.damping.resize(2, 2);
+  model.stiffness.resize(2, 2);
+  model.contacts.push_back(contact);
+  return model;
+}
+
+Contact ground(Law law) {
+  Contact c;
+  c.name = "ground";
+  c.law = law;
+  c.normal.terms = {{0, -std::sin(angle)}, {1, std::cos(angle)}};
+  c.tangent.terms = {{0, std::cos(angle)}, {1, std::sin(angle)}};
+  c.friction.static_ = 0.4;
+  c.friction.kinetic = 0.3;
+  if (law == Law::rigid) c.restitution = 0.5;
+  if (law == Law::compliant) {
+    c.normal_stiffness = 1e4;
+    c.tangential_stiffness = 8e3;
+  }
+  return c;
+}
+
+Vector along(double n, double t) {
+  return Eigen::Vector2d(-std::sin(angle) * n + std::cos(angle) * t,
+                         std::cos(angle) * n + std::sin(angle) * t);
+}
+
+/// Both sides of an instant, in terms of n and t.
+struct Recorded {
+  Vector u_before, u_after, v_before, v_after, a, forces_before, forces_after;
+  std::vector<ContactState> before, after;
+  InstantRecord record;
+
+  explicit Recorded(double g = 0.0, double ut = 0.0)
+      : u_before(along(g, ut)),
+        u_after(u_before),
+        v_before(along(0, 0)),
+        v_after(v_before),
+        a(along(0, 0)),
+        forces_before(Vector::Zero(2)),
+        forces_after(Vector::Zero(2)) {}
+
+  std::vector<Violation> by(const Model& model, const WitnessLimits& limits = {}) {
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    record.before = {&u_before, &v_before, nullptr, &before, &forces_before, {Driven{}}};
+    record.after = {&u_after, &v_after, &a, &after, &forces_after, {Driven{}}};
+    if (before[0].state != after[0].state && record.events.empty())
+      record.events.push_back({0, "event", before[0].state, after[0].state});
+    return Witness(model, limits).instant(record);
+  }
+};
+
+bool names(const std::vector<Violation>& found, const char* law) {
+  for (const Violation& v : found)
+    if (v.law == law) return true;
+  return false;
+}
+
+/// 3 m/s down, 1 m/s along: Pn = m (1 + e) 3 = 9, it slides: Pt = -fk Pn, vt+ = 1 - 0.3 9 / 2... of kinetic friction.
+Recorded rebound() {
+  Recorded r;
+  r.v_before = along(-3.0, 4.0);
+  r.v_after = along(1.5, 4.0 - 0.3 * 9.0 / mass);
+  r.before = r.after = {{State::open, 0.0}};
+  r.record.impulses = {{9.0, -2.7, 1, false}};
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("a rebound by Newton's and Coulomb's laws keeps all of them") {
+  CHECK(rebound().by(block(ground(Law::rigid))).empty());
+}
+
+TEST_CASE("an impulse that is not recorded breaks the balance of momentum, gravely") {
+  Recorded r = rebound();
+  r.record.impulses.clear();
+  const auto found = r.by(block(ground(Law::rigid)));
+  REQUIRE(names(found, "momentum"));
+  CHECK(found[0].grave);
+}
+
+TEST_CASE("a rebound with another coefficient breaks restitution") {
+  Recorded r = rebound();  // e = 0.4: Pn = 2 1.4 3
+  r.record.impulses = {{8.4, -2.52, 1, false}};
+  r.v_after = along(1.2, 4.0 - 0.3 * 8.4 / mass);
+  const auto found = r.by(block(ground(Law::rigid)));
+  CHECK(names(found, "restitution"));
+  CHECK_FALSE(names(found, "momentum"));
+}
+
+TEST_CASE("hits of one instant come one after the other: each by its own velocities") {
+  // On a surface that moves at -10 m/s the body lands first, e = 0, and is thrown by friction against a wall that it was
+  // about to leave: along (t, n) from (0.9, -1) by 1 (-1, 1), f = 1, to (-0.1, 0), and by 0.12 (0.8, 0.6), e = 1/2.
+  Contact floor = ground(Law::rigid), wall = ground(Law::rigid);
+  floor.restitution = 0.0;
+  floor.friction.static_ = floor.friction.kinetic = 1.0;
+  const Vector normal = along(0.6, 0.8), tangent = along(-0.8, 0.6);
+  wall.normal.terms = {{0, normal[0]}, {1, normal[1]}};
+  wall.tangent.terms = {{0, tangent[0]}, {1, tangent[1]}};
+  wall.friction.static_ = wall.friction.kinetic = 0.0;
+  Model model = block(wall);
+  model.contacts.push_back(floor);
+  const Vector u = along(0.0, 0.0), before = along(-1.0, 0.9), none = Vector::Zero(4);
+  const std::vector<ContactState> open = {{State::open, 0.0}, {State::open, 0.0}};
+  const auto found = [&](double at_wall, int turn_of_wall) {
+    const Vector after = along(0.6 * at_wall, -0.1 + 0.8 * at_wall), a = u;
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    Driven surface;
+    surface.ds = -10.0;
+    record.before = {&u, &before, nullptr, &open, &none, {Driven{}, surface}};
+    record.after = {&u, &after, &a, &open, &none, {Driven{}, surface}};
+    record.impulses = {{at_wall * mass, 0.0, 1, false, turn_of_wall}, {mass, -mass, 1, false, 1}};
+    record.events.push_back({0, "impact", State::open, State::open});
+    record.events.push_back({1, "impact", State::open, State::open});
+    return Witness(model, {}).instant(record);
+  };
+  CHECK(found(0.12, 2).empty());
+  CHECK(names(found(0.13, 2), "restitution"));  // another e
+  CHECK(names(found(0.12, 1), "restitution"));  // at once it would not be hit
+}
+
+TEST_CASE("an impulse of friction outside its cone, or against the law of sliding") {
+  for (const double tangent : {-9.0 * 0.41, -9.0 * 0.35, 9.0 * 0.3}) {
+    CAPTURE(tangent);
+    Recorded r = rebound();
+    r.record.impulses = {{9.0, tangent, 1, false}};
+    r.v_after = along(1.5, 4.0 + tangent / mass);
+    const auto found = r.by(block(ground(Law::rigid)));
+    CHECK(names(found, "friction impulse"));
+    CHECK_FALSE(names(found, "momentum"));
+  }
+}
+
+TEST_CASE("a hit is no capture: rest is for what is slower than capture_velocity") {
+  for (const double fell : {1e-9, 25.29}) {
+    CAPTURE(fell);
+    Recorded r;
+    r.v_before = along(-fell, 0.0);
+    r.before = {{State::open, 0.0}};
+    r.after = {{State::stick, 0.0}};
+    r.forces_after = Eigen::Vector2d(-10.0, 1.0);
+    r.record.captures = Eigen::Vector2d(mass * fell, 0.0);
+    WitnessLimits limits;
+    limits.capture_velocity = 1e-8;
+    const auto found = r.by(block(ground(Law::rigid)), limits);
+    CHECK(names(found, "capture") == (fell > 1.0));
+    CHECK_FALSE(names(found, "momentum"));
+  }
+}
+
+TEST_CASE("a contact that touches and still falls") {
+  Recorded r;
+  r.v_before = r.v_after = along(-0.1, 0.0);
+  r.before = r.after = {{State::open, 0.0}};
+  CHECK(names(r.by(block(ground(Law::rigid))), "penetration rate"));
+}
+
+namespace {
+
+/// Pressed 1 mm into its spring: N = -10, sliding at its limit along +t.
+Recorded sliding(double speed) {
+  Recorded r(-1e-3, 0.02);
+  r.v_before = r.v_after = along(0.0, speed);
+  r.forces_before = r.forces_after = Eigen::Vector2d(-10.0, 3.0);
+  r.before = r.after = {{State::slip_plus, 0.0}};
+  return r;
+}
+
+/// It sticks from there on, T as it was.
+void stick(Recorded& r, double T = 3.0) {
+  r.after = {{State::stick, 0.02 - T / 8e3}};
+  r.forces_after[1] = T;
+}
+
+}  // namespace
+
+TEST_CASE("what slides and goes on sliding has no reason to stick") {
+  Recorded r = sliding(0.5);
+  CHECK(r.by(block(ground(Law::compliant))).empty());
+  stick(r);
+  const auto found = r.by(block(ground(Law::compliant)));
+  REQUIRE(names(found, "necessity"));
+  CHECK(found[0].value == doctest::Approx(0.5));
+}
+
+TEST_CASE("what has come to rest may stick, with T as it was, and not with another") {
+  Recorded r = sliding(0.0);
+  stick(r);
+  CHECK(r.by(block(ground(Law::compliant))).empty());
+  stick(r, 0.0);  // the anchor where it is
+  CHECK(names(r.by(block(ground(Law::compliant))), "continuity of friction"));
+}
+
+TEST_CASE("T at its static limit lets go in its own direction, down to kinetic friction") {
+  Recorded r(-1e-3, 0.02);
+  r.forces_before = Eigen::Vector2d(-10.0, 4.0);
+  r.forces_after = Eigen::Vector2d(-10.0, 3.0);
+  r.before = {{State::stick, 0.02 - 4.0 / 8e3}};
+  r.after = {{State::slip_plus, 0.0}};
+  CHECK(r.by(block(ground(Law::compliant))).empty());
+  Contact like = ground(Law::compliant);  // fs = fk: T goes on where it was
+  like.friction.static_ = like.friction.kinetic = 0.4;
+  r.after = {{State::slip_minus, 0.0}};
+  r.forces_after[1] = -4.0;
+  CHECK(names(r.by(block(like)), "continuity of friction"));
+}
+
+TEST_CASE("T below its limit does not let go") {
+  Recorded r(-1e-3, 0.02);
+  r.forces_before = Eigen::Vector2d(-10.0, 3.9);
+  r.forces_after = Eigen::Vector2d(-10.0, 3.0);
+  r.before = {{State::stick, 0.02 - 3.9 / 8e3}};
+  r.after = {{State::slip_plus, 0.0}};
+  CHECK(names(r.by(block(ground(Law::compliant))), "necessity"));
+}
+
+TEST_CASE("an event that is ten uncertainties late") {
+  for (const double late : {0.5, 10.0}) {
+    CAPTURE(late);
+    constexpr double uncertainty = 1e-9, speed = 2.0;
+    Recorded r(-late * uncertainty * speed, 0.0);
+    r.v_before = r.v_after = along(-speed, 0.0);
+    r.before = {{State::open, 0.0}};
+    r.after = {{State::stick, 0.0}};
+    r.forces_after = Eigen::Vector2d(1e4 * -late * uncertainty * speed, 0.0);
+    r.record.events = {{0, "contact", State::open, State::stick, -speed, uncertainty}};
+    CHECK(names(r.by(block(ground(Law::compliant))), "time of the event") == (late > 1.0));
+  }
+}
+
+TEST_CASE("forces of the new state: its rows, no tension, no friction outside the cone") {
+  Recorded r = sliding(0.5);
+  r.forces_after = Eigen::Vector2d(-10.0, 2.9);
+  CHECK(names(r.by(block(ground(Law::compliant))), "friction force"));
+  r.forces_after = Eigen::Vector2d(-9.9, 2.97);
+  CHECK(names(r.by(block(ground(Law::compliant))), "normal force"));
+  r = sliding(-0.5);
+  CHECK(names(r.by(block(ground(Law::compliant))), "slip direction"));
+}
+
+TEST_CASE("displacements do not jump") {
+  Recorded r = sliding(0.5);
+  r.u_before = along(-1e-3, 0.02001);
+  CHECK(names(r.by(block(ground(Law::compliant))), "continuity"));
+}
+
+TEST_CASE("a change of state without its row in the list of events") {
+  Recorded r = sliding(0.0);
+  stick(r);
+  r.record.events = {{0, "stick", State::slip_minus, State::stick}};
+  CHECK(names(r.by(block(ground(Law::compliant))), "record"));
+}
+
+TEST_CASE("between events: what is open has a gap, what presses does not pull") {
+  const Model model = block(ground(Law::compliant));
+  const Witness witness(model, {});
+  Recorded r(-1e-3, 0.0);
+  const std::vector<ContactState> open = {{State::open, 0.0}}, closed = {{State::stick, 0.0}};
+  WitnessedSide side{&r.u_before, &r.v_before, nullptr, &open, &r.forces_before, {Driven{}}};
+  CHECK(names(witness.between(1.0, side), "penetration"));
+  side.mode = &closed;
+  r.forces_before = Eigen::Vector2d(0.5, 0.0);
+  CHECK(names(witness.between(1.0, side), "tension"));
+  r.forces_before = Eigen::Vector2d(-10.0, 4.1);
+  CHECK(names(witness.between(1.0, side), "friction"));
+  r.forces_before = Eigen::Vector2d(-10.0, 3.9);
+  CHECK(witness.between(1.0, side).empty());
+}
+
+TEST_SUITE_END();

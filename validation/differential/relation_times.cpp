@@ -1,0 +1,131 @@
+// Relations of time: later, and in two parts.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "differential/random.hpp"
+#include "differential/relation.hpp"
+#include "result/run_directory.hpp"
+#include "scene/history_from_spec.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::differential {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a history moves: a static start has taken the loads that have always acted, and only those.
+enum class Drives { load, motion, surface };
+
+void each_history(Scene& scene, const std::function<void(HistorySpec&, Drives)>& visit) {
+  for (Member& member : scene.members) {
+    visit(member.temperature, Drives::motion);
+    visit(member.initial_strain, Drives::motion);
+  }
+  for (Support& support : scene.supports)
+    if (support.motion) visit(*support.motion, Drives::motion);
+  for (ContactSpec& contact : scene.contacts) {
+    visit(contact.normal_force, Drives::motion);
+    visit(contact.surface_velocity, Drives::surface);
+  }
+  for (LoadSpec& load : scene.loads) visit(load.history, Drives::load);
+  for (BaseMotionSpec& motion : scene.base_motion) visit(motion.acceleration, Drives::surface);
+}
+
+void shift_histories(Scene& scene, double by) {
+  each_history(scene, [by](HistorySpec& history, Drives /*of*/) { history.shift += by; });
+}
+
+/// Before t = 0 it stands still, as the state at t = 0 takes it; what follows is continuous there but for loads.
+bool waits(const HistorySpec& spec, Drives of) {
+  const History history = make_history(spec, "history");
+  const Piece &before = history.piece_before(0.0), &after = history.piece(0.0);
+  for (const int order : {1, 2})
+    if (before.value(0.0, order) != 0.0 || before.value(-1.0, order) != 0.0) return false;
+  if (of == Drives::surface) return before.value(0.0) == 0.0;
+  if (of == Drives::load) return before.value(0.0) == 0.0 || history.is_constant();
+  return before.value(0.0) == after.value(0.0) && after.value(0.0, 1) == 0.0;
+}
+
+/// A run in a directory, removed with the object.
+class KeptRun {
+ public:
+  explicit KeptRun(const Scene& scene) {
+    static std::atomic<long> number{0};
+    path_ = fs::temp_directory_path() / fmt::format("signorini-relation-{}-{}", getpid(), number++);
+    const Model model = build_model(scene);
+    RunDirectory directory(path_, scene, model, {true, {"relations"}});
+    report_ = simulate(model, scene.run, directory);
+    static_cast<void>(directory.finish(report_));
+  }
+  ~KeptRun() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  KeptRun(const KeptRun&) = delete;
+  KeptRun& operator=(const KeptRun&) = delete;
+  [[nodiscard]] const Report& report() const { return report_; }
+
+  /// As the reader of scenes finds it; which scene asks is nothing to it.
+  [[nodiscard]] SavedState state() const {
+    const std::string text = fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n[run]\nt_end "
+        "= 1.0\n"
+        "initial = {{ run = '{}' }}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n",
+        path_.string());
+    SavedState saved = *parse_scene(text, (path_ / "reader.toml").string()).initial.saved;
+    saved.differing.clear();
+    return saved;
+  }
+
+ private:
+  fs::path path_;
+  Report report_;
+};
+
+}  // namespace
+
+std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
+  const InitialSpec& initial = scene.initial;
+  if (!initial.is_static && !initial.is_frictional) return std::nullopt;
+  bool all_wait = true;
+  Scene copy = scene;
+  each_history(copy, [&](HistorySpec& history, Drives of) { all_wait = all_wait && waits(history, of); });
+  if (!all_wait) return std::nullopt;
+  Random draw(seed);
+  double later = scene.run.t_end * draw.real(0.05, 0.5);
+  if (scene.run.dt) later = std::ceil(later / *scene.run.dt) * *scene.run.dt;
+  Related result{fmt::format("shifted by {:.6g}", later), scene};
+  result.later = later;
+  result.scene.run.t_end += later;
+  shift_histories(result.scene, later);
+  return result;
+}
+
+std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed) {
+  Random draw(seed);
+  const double at = scene.run.t_end * draw.real(0.1, 0.9);
+  Scene first = scene;
+  first.run.t_end = at;
+  first.run.certify = Certify::no;
+  first.run.output_times.reset();
+  first.run.output_dt = at;
+  const KeptRun kept(first);
+  if (kept.report().outcome.kind != Outcome::Kind::done) return std::nullopt;
+  Related result{fmt::format("going on at {:.6g}", at), scene};
+  result.later = -at;
+  result.from = at;
+  result.extremes_before = kept.report().response;
+  Scene& second = result.scene;
+  second.run.t_end -= at;
+  second.initial = {};
+  second.initial.saved = kept.state();
+  shift_histories(second, -at);
+  return result;
+}
+
+}  // namespace signorini::differential

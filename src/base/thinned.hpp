@@ -49,6 +49,8 @@ class Thinned {
       least_[i] = std::min(least_[i], q[i]);
       greatest_[i] = std::max(greatest_[i], q[i]);
     }
+    // No more than is ever needed: a vector that doubles by itself holds up to twice that.
+    if (rows_.size() == rows_.capacity()) rows_.reserve(std::min(2 * rows_.size() + 16, limit_ + 1));
     rows_.push_back(row);
     if (rows_.size() > limit_) thin();
   }

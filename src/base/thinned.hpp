@@ -38,7 +38,7 @@ class Thinned {
     double widest = std::numeric_limits<double>::infinity();
   };
   Thinned(double duration, const Wanted& wanted)
-      : duration_(duration), wanted_(wanted), limit_(2 * wanted.most) {
+      : duration_(duration), wanted_(wanted), limit_(room(wanted.most)) {
     least_.fill(std::numeric_limits<double>::infinity());
     greatest_.fill(-std::numeric_limits<double>::infinity());
   }
@@ -49,18 +49,16 @@ class Thinned {
       least_[i] = std::min(least_[i], q[i]);
       greatest_[i] = std::max(greatest_[i], q[i]);
     }
-    // No more than is ever needed: a vector that doubles by itself holds up to twice that.
-    if (rows_.size() == rows_.capacity()) rows_.reserve(std::min(2 * rows_.size() + 16, limit_ + 1));
+    // At once what is ever needed: pages that are not used cost nothing, vectors that grow leave holes.
+    if (rows_.capacity() == 0)
+      rows_.reserve(room(std::max(wanted_.most, wanted_.crowded ? 0 : most_of_bins)) + 1);
     rows_.push_back(row);
     if (rows_.size() > limit_) thin();
   }
 
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-  /// Hands them over, without what was reserved for more.
-  [[nodiscard]] std::vector<Row> take() {
-    rows_.shrink_to_fit();
-    return std::move(rows_);
-  }
+  /// Hands them over.
+  [[nodiscard]] std::vector<Row> take() { return std::move(rows_); }
   /// Of a bin; 0 while there are none.
   [[nodiscard]] double width() const { return width_; }
   /// Greatest less least of the first quantity so far.
@@ -83,6 +81,11 @@ class Thinned {
  private:
   static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 512.0;
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
+  static constexpr std::size_t most_of_bins = 2 * drawn * static_cast<std::size_t>(pixels) + 2;
+
+  /// Rows held before they are thinned to so many: each is then looked at five times, and a record is no longer than
+  /// what it keeps and a quarter more.
+  static std::size_t room(std::size_t kept) { return kept + kept / 4; }
 
   void thin() {
     const std::size_t enough = wanted_.most;
@@ -97,7 +100,7 @@ class Thinned {
       width_ = std::max(2.0 * width_, duration_ / first_bins);
       keep_extremes();
     }
-    limit_ = 2 * std::max(enough, rows_.size());
+    limit_ = room(std::max(enough, rows_.size()));
   }
 
   /// Lines from the row kept last that pass all rows since have slopes between low and high.

@@ -52,7 +52,11 @@ void ContactWriter::write(const Sample& sample) {
 }
 
 void ContactWriter::write(int contact, const std::vector<MotionRow>& rows) {
-  for (const MotionRow& r : rows) row(r.t, static_cast<std::size_t>(contact), r.sample);
+  constexpr std::size_t most = 1000;  // a block: the text of all takes more memory than the rows
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    row(rows[i].t, static_cast<std::size_t>(contact), rows[i].sample);
+    if (i % most == most - 1) file_.write(block_);
+  }
   file_.write(block_);
 }
 

@@ -15,7 +15,7 @@
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
-#include "result/writers.hpp"
+#include "result/run_tables.hpp"
 #include "signorini/error.hpp"
 #include "study/key_unit.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
@@ -178,8 +178,7 @@ ExitCode code_of(const Outcome& outcome) {
 }
 
 void write_events(const fs::path& path, const Model& model, const Sensitivities& s) {
-  EventWriter writer(path / "events.csv", model);
-  for (const Event& event : s.events) writer.write(event);
+  write_file(path / "events.csv", event_table(model).text(s.events));
 }
 
 ExitCode run(const SensitivityOptions& options) {

@@ -75,7 +75,7 @@ Displacements evenly(CsvReader& reader) {
   std::vector<double> t;
   std::vector<std::vector<double>> columns(index.size());
   while (reader.next()) {
-    t.push_back(reader.number(0));
+    t.push_back(reader.t());
     for (std::size_t i = 0; i < index.size(); ++i) columns[i].push_back(reader.number(index[i]));
   }
   const std::vector<std::size_t> rows = kept_rows(t, most_values / std::max<std::size_t>(1, index.size()));
@@ -216,7 +216,7 @@ std::map<std::string, Json> load_histories(const fs::path& directory) {
   std::vector<double> t;
   std::vector<std::vector<double>> columns(reader.header().size());
   while (reader.next()) {
-    t.push_back(reader.number(0));
+    t.push_back(reader.t());
     for (std::size_t k = 1; k < columns.size(); ++k) columns[k].push_back(reader.number(k));
   }
   for (std::size_t k = 1; k < columns.size(); ++k) {

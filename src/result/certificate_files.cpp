@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
+#include "result/table.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -42,18 +42,12 @@ void add_columns(const fs::path& path, const Certificate& certificate) {
 }
 
 void write_errors(const fs::path& path, const Model& model, const HistoryErrors& errors) {
-  CsvFile file(path);
-  CsvBlock block;
-  block.text("t");
-  for (const Column& column : model.columns) block.text(column.name);
-  block.end_row();
-  for (std::size_t row = 0; row < errors.t.size(); ++row) {
-    block.number(errors.t[row]);
-    for (std::size_t j = 0; j < model.columns.size(); ++j) block.number(errors.at(row, j));
-    block.end_row();
-    if (block.str().size() > much) file.write(block);
-  }
-  file.write(block);
+  Table<std::size_t> table = {{"t", [&](std::size_t row) { return errors.t[row]; }}};
+  for (std::size_t j = 0; j < model.columns.size(); ++j)
+    table.add(model.columns[j].name, [&errors, j](std::size_t row) { return errors.at(row, j); });
+  TableFile<std::size_t> file(path, std::move(table));
+  for (std::size_t row = 0; row < errors.t.size(); ++row) file.add(row);
+  file.flush();
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ CsvReader::CsvReader(const std::filesystem::path& path) : path_(path) {
   file_.open(path, std::ios::binary);
   if (!file_) throw FileError(path.string(), "cannot be read" + because(errno));
   if (!read_csv_row(file_, header_)) throw FileError(path.string(), "is empty; expected a header row");
+  const auto time = std::find(header_.begin(), header_.end(), "t");
+  if (time != header_.end()) time_ = static_cast<std::size_t>(time - header_.begin());
 }
 
 std::size_t CsvReader::column(const std::string& name) const {

@@ -2,7 +2,7 @@
 //
 //   CsvReader reader("pipeline-run/events.csv");
 //   const auto contact = reader.column("contact");
-//   while (reader.next()) use(reader.cell(contact), reader.number(0));
+//   while (reader.next()) use(reader.cell(contact), reader.t());
 //
 // A last line without its line break (a run that is being written, or was killed) is left out. gnuplot does
 // not know that: what it is to read of a table are the rows that were counted here.
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class CsvReader {
   /// Index of a column of that name.
   [[nodiscard]] std::size_t column(const std::string& name) const;
 
+  /// The row's `t`.
+  [[nodiscard]] double t() const { return number(time_ ? *time_ : column("t")); }
+
   /// Moves to the next row; false at the end.
   bool next();
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
@@ -35,6 +39,7 @@ class CsvReader {
   std::filesystem::path path_;
   std::ifstream file_;
   std::vector<std::string> header_, cells_;
+  std::optional<std::size_t> time_;
 };
 
 }  // namespace signorini

@@ -12,17 +12,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-FrameEnd end_of(const CsvReader& row, std::size_t first) {
-  return {row.number(first), row.number(first + 1), row.number(first + 2), row.number(first + 3),
-          row.number(first + 4)};
-}
+/// Where a row of frames.csv has a node, and how that has moved.
+class EndColumns {
+ public:
+  explicit EndColumns(const CsvReader& rows)
+      : x_(rows.column("x")),
+        y_(rows.column("y")),
+        ux_(rows.column("ux")),
+        uy_(rows.column("uy")),
+        rz_(rows.column("rz")) {}
+  [[nodiscard]] FrameEnd of(const CsvReader& row) const {
+    return {row.number(x_), row.number(y_), row.number(ux_), row.number(uy_), row.number(rz_)};
+  }
+
+ private:
+  std::size_t x_, y_, ux_, uy_, rz_;
+};
 
 void read_shapes(const fs::path& directory, double from, double to, std::vector<Frame>& frames) {
   CsvReader rows(directory / "frames.csv");
-  const std::size_t kind = rows.column("kind"), node = rows.column("node"), x = rows.column("x");
+  const std::size_t kind = rows.column("kind"), node = rows.column("node");
+  const EndColumns ends(rows);
   bool half = false;
   while (rows.next()) {
-    const double t = rows.number(0);
+    const double t = rows.t();
     if (t < from || t > to) continue;
     if (frames.empty() || frames.back().t != t) {
       frames.emplace_back().t = t;
@@ -31,12 +44,12 @@ void read_shapes(const fs::path& directory, double from, double to, std::vector<
     Frame& frame = frames.back();
     const std::string& what = rows.cell(kind);
     if (what == "node" || what == "support") {
-      frame.points.push_back({rows.cell(node), what == "support", end_of(rows, x)});
+      frame.points.push_back({rows.cell(node), what == "support", ends.of(rows)});
     } else if (half) {
-      frame.elements.back().b = end_of(rows, x);
+      frame.elements.back().b = ends.of(rows);
       half = false;
     } else {
-      frame.elements.push_back({what, end_of(rows, x), end_of(rows, x)});
+      frame.elements.push_back({what, ends.of(rows), ends.of(rows)});
       half = true;
     }
   }
@@ -47,7 +60,7 @@ void read_forces(const fs::path& directory, std::vector<Frame>& frames) {
   const auto number = [&](const char* name) { return rows.number(rows.column(name)); };
   std::size_t i = 0;
   while (rows.next()) {
-    const double t = rows.number(0);
+    const double t = rows.t();
     while (i < frames.size() && frames[i].t < t) ++i;
     if (i == frames.size() || frames[i].t != t) continue;
     Frame::Force f;

@@ -10,8 +10,7 @@
 
 #include <filesystem>
 
-#include "result/csv.hpp"
-#include "signorini/result.hpp"
+#include "result/run_tables.hpp"
 
 namespace signorini {
 
@@ -21,13 +20,12 @@ class FrameWriter {
   void write(const Sample& sample);
 
  private:
-  void node_cells(const DrawnNode& node, const Vector& u);
   void write_shape(const Sample& sample);
   void write_contacts(const Sample& sample);
 
   const Model& model_;
-  CsvBlock block_;
-  CsvFile shapes_, contacts_;
+  TableFile<FrameRow> shapes_;
+  TableFile<FrameContactRow> contacts_;
 };
 
 }  // namespace signorini

@@ -5,6 +5,7 @@
 
 #include "base/number.hpp"
 #include "result/plot_parts.hpp"
+#include "result/run_tables.hpp"
 
 namespace signorini {
 
@@ -51,7 +52,10 @@ std::string colour_functions() {
 std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
   const RunFacts::Contact& contact = run.facts.contacts[k];
   const std::string data = contact_rows(run, k);
-  const std::string inside = "($1 >= from && $1 <= to ? -$8 : NaN)";
+  const Table<ContactRow>& rows = contact_table();
+  const std::string inside = fmt::format("({0} >= from && {0} <= to ? -{1} : NaN):{2}", rows.value("t"),
+                                         rows.value("N"), rows.number("T"));
+  const Table<Mark>& marks = mark_table();
   std::vector<std::string> elements;
   const std::string red = " with lines linecolor '#c0182b' linewidth 1.2";
   const auto cone = [&](double f, const std::string& dash) {
@@ -65,14 +69,14 @@ std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
   cone(contact.static_friction, "");
   if (contact.kinetic_friction != contact.static_friction) cone(contact.kinetic_friction, " dashtype 2");
   // Output times may lie far apart: the thin line only says in which order the points come.
-  elements.push_back(data + " using " + inside + ":9 with lines linewidth 0.4 linecolor '#b8b8b8' notitle");
-  elements.push_back(data + " using " + inside +
-                     ":9:(state_colour(strcol(3))) with points pointtype 7 pointsize " +
-                     (small ? "0.2" : "0.35") + " linecolor rgb variable notitle");
-  elements.push_back(
-      fmt::format("'marks.csv' skip 1 using ($1 == {} ? -$4 : NaN):5:(event_colour(strcol(3))) "
-                  "with points pointtype 6 pointsize {} linecolor rgb variable notitle",
-                  k, small ? 0.4 : 0.7));
+  elements.push_back(data + " using " + inside + " with lines linewidth 0.4 linecolor '#b8b8b8' notitle");
+  elements.push_back(data + " using " + inside + ":(state_colour(" + rows.word("state") +
+                     ")) with points pointtype 7 pointsize " + (small ? "0.2" : "0.35") +
+                     " linecolor rgb variable notitle");
+  elements.push_back(fmt::format(
+      "'marks.csv' skip 1 using ({} == {} ? -{} : NaN):{}:(event_colour({})) "
+      "with points pointtype 6 pointsize {} linecolor rgb variable notitle",
+      marks.value("row"), k, marks.value("N"), marks.number("T"), marks.word("event"), small ? 0.4 : 0.7));
   return plot_command(elements);
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "result/plot_parts.hpp"
+#include "result/run_tables.hpp"
 
 namespace signorini {
 
@@ -16,7 +17,7 @@ std::string friction_text(const PlottedRun& run, const RunFacts::Contact& contac
 
 std::vector<std::string> limit_elements(const std::string& data, double friction, const std::string& name,
                                         const std::string& look) {
-  const std::string limit = fmt::format("{}*abs($8)", friction);
+  const std::string limit = fmt::format("{}*abs({})", friction, contact_table().value("N"));
   return {data + " using 1:(" + limit + ") with lines " + look + " title " + quoted(name),
           data + " using 1:(-" + limit + ") with lines " + look + " notitle"};
 }
@@ -81,7 +82,7 @@ class ContactScript {
 
   [[nodiscard]] std::string normal_force() const {
     auto elements = bands();
-    elements.push_back(curve(8, "#1a1a1a", "N"));
+    elements.push_back(curve("N", "#1a1a1a", "N"));
     const auto legend = band_legend(run_, k_);
     elements.insert(elements.end(), legend.begin(), legend.end());
     // N <= 0; a constant one stands below zero
@@ -101,7 +102,7 @@ class ContactScript {
                                         say(run_, "kinetic limit") + " ±f|N|", red + " dashtype 2");
       elements.insert(elements.end(), inner.begin(), inner.end());
     }
-    elements.push_back(curve(9, "#1a1a1a", "T"));
+    elements.push_back(curve("T", "#1a1a1a", "T"));
     Range range = ranges_.T;
     const double limit = contact_.static_friction * ranges_.N.size();
     range.take(limit);
@@ -111,27 +112,27 @@ class ContactScript {
 
   [[nodiscard]] std::string gap() const {
     auto elements = bands();
-    elements.push_back(curve(4, "#2166ac", say(run_, "gap g")));
+    elements.push_back(curve("gap", "#2166ac", say(run_, "gap g")));
     return steady(ranges_.gap, scales_.length) + plot_command(elements);
   }
 
   [[nodiscard]] std::string sliding() const {
     auto elements = bands();
-    elements.push_back(curve(5, "#1a1a1a", say(run_, "motion ut")));
+    elements.push_back(curve("ut", "#1a1a1a", say(run_, "motion ut")));
     Range range = ranges_.ut;
     if (contact_.static_friction > 0.0) {
-      elements.push_back(curve(7, "#b35806", say(run_, "slip p"), " dashtype 2"));
+      elements.push_back(curve("slip", "#b35806", say(run_, "slip p"), " dashtype 2"));
       range.take(ranges_.slip);
     }
     return steady(range, scales_.length) + plot_command(elements);
   }
 
   [[nodiscard]] std::vector<std::string> bands() const { return band_elements(run_, k_, 0.28); }
-  /// Of a column of the contact's table, counted from 1.
-  [[nodiscard]] std::string curve(int column, const char* colour, const std::string& title,
+  /// Of a column of the contact's table.
+  [[nodiscard]] std::string curve(std::string_view column, const char* colour, const std::string& title,
                                   const char* look = "") const {
-    return fmt::format("{} using 1:{} with lines linewidth 1.4 linecolor '{}'{} title {}", data_, column,
-                       colour, look, quoted(title));
+    return fmt::format("{} using 1:{} with lines linewidth 1.4 linecolor '{}'{} title {}", data_,
+                       contact_table().number(column), colour, look, quoted(title));
   }
 
   const PlottedRun& run_;
@@ -164,8 +165,8 @@ std::string states_script(const PlottedRun& run) {
       bool occurs = false;
       for (const auto& band : run.bands[k]) occurs = occurs || band.state == state;
       if (!occurs) continue;
-      elements.push_back(quoted("states-" + run.slugs[k] + ".csv") + " skip 1 using (strcol(3) eq " +
-                         quoted(state) + fmt::format(" ? $1 : NaN):({0}):1:2:({0}-0.38):({0}+0.38)", k) +
+      elements.push_back(quoted("states-" + run.slugs[k] + ".csv") + " skip 1 using " + band_at(state) +
+                         fmt::format(":({0}):1:2:({0}-0.38):({0}+0.38)", k) +
                          " with boxxy fillstyle solid 1.0 noborder linecolor '" + state_colour(state) + "' " +
                          (named ? "notitle" : "title " + quoted(say(run, state))));
       named = true;

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
 #include "result/frame_data.hpp"
+#include "result/table.hpp"
 
 namespace signorini {
 
@@ -20,41 +20,55 @@ constexpr std::size_t most_pictures = 40;  // evenly chosen of more
 constexpr std::size_t most_labelled = 6;   // contacts with their forces in figures; more only by name
 constexpr std::size_t most_names = 30;
 
+struct ShapePoint {
+  std::string kind;
+  FrameEnd at;
+  double magnification;
+};
+
+/// Undeformed, and deformed as it is drawn.
+const Table<ShapePoint>& shape_table() {
+  using P = ShapePoint;
+  static const Table<P> table = {{"kind", &P::kind},
+                                 {"x", [](const P& p) { return p.at.x; }},
+                                 {"y", [](const P& p) { return p.at.y; }},
+                                 {"X", [](const P& p) { return p.at.x + p.magnification * p.at.ux; }},
+                                 {"Y", [](const P& p) { return p.at.y + p.magnification * p.at.uy; }}};
+  return table;
+}
+
 /// A blank line ends a line; elements that continue each other are one, so that no joint shows.
-std::string shape_table(const Frame& frame, double magnification) {
+std::string shape_text(const Frame& frame, double magnification) {
   const int steps = frame.elements.size() > 2000 ? 1 : 12;
-  std::string text = "kind,x,y,X,Y\n";
+  CsvBlock all;
+  shape_table().put_header(all);
+  std::string text = all.str();
   for (std::size_t k = 0; k < frame.elements.size(); ++k) {
     const Frame::Element& e = frame.elements[k];
     const int n = e.kind == "beam" ? steps : 1;
     CsvBlock block;
-    for (int i = 0; i <= n; ++i) {
-      const FrameEnd p = between(e, static_cast<double>(i) / n);
-      block.text(e.kind).number(p.x).number(p.y);
-      block.number(p.x + magnification * p.ux).number(p.y + magnification * p.uy).end_row();
-    }
+    for (int i = 0; i <= n; ++i)
+      shape_table().put_row(block, {e.kind, between(e, static_cast<double>(i) / n), magnification});
     text += block.str();
     const Frame::Element* next = k + 1 < frame.elements.size() ? &frame.elements[k + 1] : nullptr;
     if (!next || next->kind != e.kind || next->a.x != e.b.x || next->a.y != e.b.y) text += "\n";
   }
   CsvBlock block;
-  for (const Frame::Point& p : frame.points) {
-    block.text(p.support ? "support" : "node").number(p.at.x).number(p.at.y);
-    block.number(p.at.x + magnification * p.at.ux).number(p.at.y + magnification * p.at.uy).end_row();
-  }
+  for (const Frame::Point& p : frame.points)
+    shape_table().put_row(block, {p.support ? "support" : "node", p.at, magnification});
   return text + block.str();
 }
 
-std::string force_table(const Frame& frame, const FrameScales& scales) {
-  CsvBlock block;
-  for (const char* name : {"contact", "state", "x", "y", "dx", "dy"}) block.text(name);
-  block.end_row();
-  for (const Frame::Force& f : frame.forces) {
-    block.text(f.contact).text(f.state);
-    block.number(f.x + scales.magnification * f.ux).number(f.y + scales.magnification * f.uy);
-    block.number(scales.force_scale * f.fx).number(scales.force_scale * f.fy).end_row();
-  }
-  return block.str();
+/// The arrow of a contact's force: its tip, and what leads there.
+Table<Frame::Force> force_table(const FrameScales& scales) {
+  using F = Frame::Force;
+  const double m = scales.magnification, s = scales.force_scale;
+  return {{"contact", &F::contact},
+          {"state", &F::state},
+          {"x", [m](const F& f) { return f.x + m * f.ux; }},
+          {"y", [m](const F& f) { return f.y + m * f.uy; }},
+          {"dx", [s](const F& f) { return s * f.fx; }},
+          {"dy", [s](const F& f) { return s * f.fy; }}};
 }
 
 struct Layout {
@@ -138,15 +152,17 @@ std::vector<std::string> shape_elements(const Frame& frame, const std::string& n
     return std::any_of(frame.elements.begin(), frame.elements.end(),
                        [&](const auto& e) { return e.kind == kind; });
   };
-  const auto only = [](const std::string& kind, const std::string& x, const std::string& y) {
-    return "(strcol(1) eq '" + kind + "' ? " + x + " : NaN):" + y;
+  const auto only = [](const std::string& kind, const char* x, const char* y) {
+    const Table<ShapePoint>& table = shape_table();
+    return fmt::format("({} eq '{}' ? {} : NaN):{}", table.word("kind"), kind, table.value(x),
+                       table.number(y));
   };
   std::vector<std::string> elements;
   const auto line = [&](const char* kind, const char* look, const char* title) {
     if (!has(kind)) return;
-    elements.push_back(shape + only(kind, "$2", "3") +
+    elements.push_back(shape + only(kind, "x", "y") +
                        " with lines linewidth 0.8 linecolor '#b0b0b0' notitle");
-    elements.push_back(shape + only(kind, "$4", "5") + " with lines " + look + " title " +
+    elements.push_back(shape + only(kind, "X", "Y") + " with lines " + look + " title " +
                        quoted(say(run, title)));
   };
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
@@ -155,15 +171,15 @@ std::vector<std::string> shape_elements(const Frame& frame, const std::string& n
   if (has("beam") || has("bar") || has("spring"))
     elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title " +
                        quoted(say(run, "undeformed")));
-  elements.push_back(shape + only("node", "$2", "3") +
+  elements.push_back(shape + only("node", "x", "y") +
                      " with points pointtype 6 pointsize 0.5 linecolor '#b0b0b0' notitle");
-  elements.push_back(shape + only("node", "$4", "5") +
+  elements.push_back(shape + only("node", "X", "Y") +
                      " with points pointtype 7 pointsize 0.6 linecolor '#1a1a1a' title " +
                      quoted(say(run, "nodes")));
   const bool held =
       std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; });
   if (held)
-    elements.push_back(shape + only("support", "$4", "5") +
+    elements.push_back(shape + only("support", "X", "Y") +
                        " with points pointtype 5 pointsize 1 linecolor '#555555' title " +
                        quoted(say(run, "supports")));
   return elements;
@@ -174,17 +190,22 @@ std::vector<std::string> force_elements(const Frame& frame, const std::string& n
   std::vector<std::string> elements;
   if (frame.forces.empty()) return elements;
   const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
-  elements.push_back(forces +
-                     "($3-$5):($4-$6):5:6 with vectors head filled size screen 0.009,18 linewidth 1.8 "
-                     "linecolor '#c0182b' title " +
-                     quoted(say(run, "contact force")));
+  const Table<Frame::Force> table = force_table({});
+  elements.push_back(
+      forces +
+      fmt::format("({}-{}):({}-{}):{}:{} with vectors head filled size screen 0.009,18 linewidth 1.8 "
+                  "linecolor '#c0182b' title ",
+                  table.value("x"), table.value("dx"), table.value("y"), table.value("dy"),
+                  table.number("dx"), table.number("dy")) +
+      quoted(say(run, "contact force")));
   for (const std::string& state : state_names()) {
     const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
                                     [&](const auto& f) { return f.state == state; });
     if (!occurs) continue;
-    elements.push_back(forces + "(strcol(2) eq " + quoted(state) +
-                       " ? $3 : NaN):4 with points pointtype 7 pointsize 1.1 linecolor '" +
-                       state_colour(state) + "' title " + quoted(say(run, state)));
+    elements.push_back(forces + "(" + table.word("state") + " eq " + quoted(state) +
+                       fmt::format(" ? {} : NaN):{}", table.value("x"), table.number("y")) +
+                       " with points pointtype 7 pointsize 1.1 linecolor '" + state_colour(state) +
+                       "' title " + quoted(say(run, state)));
   }
   return elements;
 }
@@ -219,8 +240,8 @@ std::vector<FramePicture> frame_pictures(const fs::path& directory, const Plotte
     const FrameScales scales = scales_of(frame, shared);
     const std::string name = fmt::format("frame-{}", i + 1);
     const fs::path folder = directory / "plots";
-    write_file(folder / (name + "-shape.csv"), shape_table(frame, scales.magnification));
-    write_file(folder / (name + "-forces.csv"), force_table(frame, scales));
+    write_file(folder / (name + "-shape.csv"), shape_text(frame, scales.magnification));
+    write_file(folder / (name + "-forces.csv"), force_table(scales).text(frame.forces));
     pictures.push_back({name, script_of(frame, scales, run, name)});
   }
   return pictures;

@@ -6,6 +6,7 @@
 
 #include "base/number.hpp"
 #include "result/plot_parts.hpp"
+#include "result/run_tables.hpp"
 
 namespace signorini {
 
@@ -69,7 +70,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
 }
 
 /// One a unit.
-std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
+std::vector<PanelOfLines> response_panels(const PlottedRun& run, const CsvReader& table) {
   std::vector<PanelOfLines> panels;
   for (std::size_t i = 0; i < run.facts.response.size(); ++i) {
     const RunFacts::Response& column = run.facts.response[i];
@@ -78,7 +79,8 @@ std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
     PanelOfLines& p = same == panels.end()
                           ? panels.emplace_back(PanelOfLines{column.unit, "[" + column.unit + "]", {}})
                           : *same;
-    p.lines.push_back({column.name, {"'../response.csv'", 1, i + 2}});
+    p.lines.push_back(
+        {column.name, {"'../response.csv'", table.column("t") + 1, table.column(column.name) + 1}});
   }
   for (PanelOfLines& p : panels)
     if (p.lines.size() == 1) p.label = p.lines[0].title + " " + p.label;
@@ -121,20 +123,23 @@ std::string displacement_script(const PlottedRun& run) {
                          displacement_panels(run));
 }
 
-std::string response_script(const PlottedRun& run) {
-  return script_of_lines(run, {"response", say(run, "Response quantities"), {}}, response_panels(run));
+std::string response_script(const PlottedRun& run, const CsvReader& table) {
+  return script_of_lines(run, {"response", say(run, "Response quantities"), {}}, response_panels(run, table));
 }
 
-std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start) {
-  static const std::array<std::pair<const char*, const char*>, 8> parts = {{
-      {"kinetic", "linewidth 1.2 linecolor '#1f77b4'"},
-      {"elastic", "linewidth 1.2 linecolor '#17a2a2'"},
-      {"contact springs", "linewidth 1.2 linecolor '#7b3294'"},
-      {"lost by damping", "linewidth 1.6 linecolor '#8c6d31'"},
-      {"lost by friction", "linewidth 1.6 linecolor '#d95f02'"},
-      {"lost by impacts", "linewidth 1.6 linecolor '#c0182b'"},
-      {"work of loads", "linewidth 1.8 linecolor '#1a1a1a'"},
-      {"work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
+std::string energy_script(const PlottedRun& run, const std::set<std::string>& used, double start) {
+  struct Look {
+    const char *column, *words, *line;
+  };
+  static constexpr std::array<Look, energy_columns.size()> parts = {{
+      {"kinetic", "kinetic", "linewidth 1.2 linecolor '#1f77b4'"},
+      {"elastic", "elastic", "linewidth 1.2 linecolor '#17a2a2'"},
+      {"contact", "contact springs", "linewidth 1.2 linecolor '#7b3294'"},
+      {"damping", "lost by damping", "linewidth 1.6 linecolor '#8c6d31'"},
+      {"friction", "lost by friction", "linewidth 1.6 linecolor '#d95f02'"},
+      {"impact", "lost by impacts", "linewidth 1.6 linecolor '#c0182b'"},
+      {"loads", "work of loads", "linewidth 1.8 linecolor '#1a1a1a'"},
+      {"surface", "work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
   }};
   const std::string unit = run.facts.units.force + " " + run.facts.units.length;
   const Canvas canvas = canvas_of(run.look, 768, true);
@@ -143,13 +148,16 @@ std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, 
       begin_script(run, {"energy", say(run, "Where the energy is, where it went, and the balance"), canvas});
   s += panel(run, canvas, edges[0], say(run, "energy") + " [" + unit + "]", false);
   std::vector<std::string> elements;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!used[i + 1]) continue;
-    const TableColumn curve = curve_of(run, "energy.csv", energy_columns[i].name, i + 2);
+  const auto curve_in = [&](const char* column) {
+    return curve_of(run, "energy.csv", column, energy_table().number(column));
+  };
+  for (const Look& part : parts) {
+    if (!used.contains(part.column)) continue;
+    const TableColumn curve = curve_in(part.column);
     elements.push_back(fmt::format("{} using {}:{} with lines {} title {}", curve.data, curve.time,
-                                   curve.number, parts[i].second, quoted(say(run, parts[i].first))));
+                                   curve.number, part.line, quoted(say(run, part.words))));
   }
-  const TableColumn balance = curve_of(run, "energy.csv", balance_column, 10);
+  const TableColumn balance = curve_in(balance_column);
   if (elements.empty())
     elements.push_back(balance.data + fmt::format(" using {}:(0) with lines title ", balance.time) +
                        quoted(say(run, "kinetic")));

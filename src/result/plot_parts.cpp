@@ -8,6 +8,7 @@
 
 #include "base/number.hpp"
 #include "result/picture_words.hpp"
+#include "result/run_tables.hpp"
 
 namespace signorini {
 
@@ -66,7 +67,7 @@ TableColumn curve_of(const PlottedRun& run, const std::string& table, const std:
   if (found != run.curves.end() && found->second.count > 1)
     return {fmt::format("'../curves.csv' skip 1 every ::{}::{}", found->second.first,
                         found->second.first + found->second.count - 1),
-            2, 3};
+            curve_table().number("t"), curve_table().number("value")};
   return {quoted("../" + table) + " skip 1" + every(run, 1, 0), 1, number};
 }
 
@@ -220,13 +221,24 @@ const std::vector<std::string>& state_names() {
   return names;
 }
 
+const Table<PlottedRun::Band>& band_table() {
+  using Band = PlottedRun::Band;
+  static const Table<Band> table = {{"from", &Band::from}, {"to", &Band::to}, {"state", &Band::state}};
+  return table;
+}
+
+std::string band_at(const std::string& state) {
+  return "(" + band_table().word("state") + " eq " + quoted(state) + " ? " + band_table().value("from") +
+         " : NaN)";
+}
+
 std::vector<std::string> band_elements(const PlottedRun& run, std::size_t k, double opacity) {
   std::vector<std::string> elements;
   for (const std::string& state : state_names()) {
     const auto& bands = run.bands[k];
     if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
     std::string e = quoted("states-" + run.slugs[k] + ".csv") + " skip 1 using ";
-    e += "(strcol(3) eq " + quoted(state) + " ? $1 : NaN):(0.5):1:2:(0):(1) axes x1y2 with boxxy ";
+    e += band_at(state) + ":(0.5):1:2:(0):(1) axes x1y2 with boxxy ";
     e += fmt::format("fillstyle solid {} noborder linecolor '{}' notitle", opacity, state_colour(state));
     elements.push_back(e);
   }

@@ -16,9 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include "result/csv_read.hpp"
 #include "result/picture_look.hpp"
 #include "result/plot_ranges.hpp"
 #include "result/summary.hpp"
+#include "result/table.hpp"
 
 namespace signorini {
 
@@ -121,6 +123,10 @@ struct Picture {
                                 const std::string& label, bool last);
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
+/// states-CONTACT.csv.
+[[nodiscard]] const Table<PlottedRun::Band>& band_table();
+/// For gnuplot: where a band of this state begins, and nothing for the other bands.
+[[nodiscard]] std::string band_at(const std::string& state);
 /// States in the order of legends.
 [[nodiscard]] const std::vector<std::string>& state_names();
 /// Plot elements that fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.
@@ -148,15 +154,23 @@ static_assert(event_looks.size() + 1 == all_event_types.size(),
               "every type but the jump of a load has a colour");
 /// The events of all contacts over time, a row a contact, a lane a type.
 [[nodiscard]] std::string raster_script(const PlottedRun& run);
-/// row,t,event,N,T for both: thinned to what a picture can resolve.
-[[nodiscard]] std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run);
+/// An event in marks.csv, for both: thinned to what a picture can resolve.
+struct Mark {
+  int row = -1;  ///< the contact's; -1: a jump of a load
+  double t = 0.0;
+  std::string event;
+  double N = 0.0, T = 0.0;
+};
+[[nodiscard]] const Table<Mark>& mark_table();
+[[nodiscard]] std::vector<Mark> marks_of(const std::filesystem::path& directory, const PlottedRun& run);
 /// The states of all contacts over time, a row a contact.
 [[nodiscard]] std::string states_script(const PlottedRun& run);
 /// Loads over time, and the base's acceleration; `columns`: of loads.csv. Empty when there are none.
 [[nodiscard]] std::string loads_script(const PlottedRun& run, const std::vector<std::string>& columns);
-/// The outputs over time, a panel a unit; empty when there are none.
-[[nodiscard]] std::string response_script(const PlottedRun& run);
-/// `used`: which columns of energy.csv are not zero throughout; `start`: the first balance.
-[[nodiscard]] std::string energy_script(const PlottedRun& run, const std::vector<bool>& used, double start);
+/// The outputs over time, a panel a unit; `table`: response.csv. Empty when there are none.
+[[nodiscard]] std::string response_script(const PlottedRun& run, const CsvReader& table);
+/// `used`: the columns of energy.csv that are not zero throughout; `start`: the first balance.
+[[nodiscard]] std::string energy_script(const PlottedRun& run, const std::set<std::string>& used,
+                                        double start);
 
 }  // namespace signorini

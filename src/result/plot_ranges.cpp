@@ -39,7 +39,7 @@ void read_contacts(const fs::path& directory, PlottedRun& run) {
   const std::size_t name = reader.column("contact"), gap = reader.column("gap"), ut = reader.column("ut"),
                     slip = reader.column("slip"), n = reader.column("N"), t = reader.column("T");
   while (reader.next()) {
-    if (const double at = reader.number(0); at < run.from || at > run.to) continue;
+    if (const double at = reader.t(); at < run.from || at > run.to) continue;
     ContactRanges& ranges = run.ranges[number_of(numbers, reader.cell(name), file)];
     if (!reader.cell(gap).empty()) ranges.gap.take(reader.number(gap));
     ranges.ut.take(reader.number(ut));
@@ -55,7 +55,7 @@ void read_displacements(const fs::path& file, PlottedRun& run) {
   for (std::size_t i = 1; i < reader.header().size(); ++i)
     if (is_displacement(reader.header()[i])) columns.emplace_back(i, &run.moves[reader.header()[i]]);
   while (reader.next()) {
-    if (const double at = reader.number(0); at < run.from || at > run.to) continue;
+    if (const double at = reader.t(); at < run.from || at > run.to) continue;
     for (const auto& [i, range] : columns) range->take(reader.number(i));
   }
 }

@@ -28,30 +28,34 @@ std::vector<EventLook> lanes_of(const PlottedRun& run) {
 
 }  // namespace
 
-std::string marks_table(const std::filesystem::path& directory, const PlottedRun& run) {
-  std::map<std::string, std::size_t> rows;
-  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) rows[run.facts.contacts[k].name] = k;
+const Table<Mark>& mark_table() {
+  static const Table<Mark> table = {
+      {"row", &Mark::row}, {"t", &Mark::t}, {"event", &Mark::event}, {"N", &Mark::N}, {"T", &Mark::T}};
+  return table;
+}
+
+std::vector<Mark> marks_of(const std::filesystem::path& directory, const PlottedRun& run) {
+  std::map<std::string, int> rows;
+  for (std::size_t k = 0; k < run.facts.contacts.size(); ++k)
+    rows[run.facts.contacts[k].name] = static_cast<int>(k);
   CsvReader events(directory / "events.csv");
   const std::size_t who = events.column("contact"), type = events.column("event");
-  const std::size_t n = events.column("N"), t_column = events.column("T");
+  const std::size_t n = events.column("N"), friction = events.column("T");
   const double least = (run.to - run.from) / most_marks;
   std::map<std::pair<std::string, std::string>, double> last;
-  CsvBlock block;
-  for (const char* name : {"row", "t", "event", "N", "T"}) block.text(name);
-  block.end_row();
+  std::vector<Mark> marks;
   while (events.next()) {
-    const double t = events.number(0);
+    const double t = events.t();
     if (t < run.from || t > run.to) continue;
     const auto [place, first] = last.try_emplace({events.cell(who), events.cell(type)}, t);
     if (!first && t - place->second < least) continue;
     place->second = t;
     // A load's own time event belongs to no contact: row -1.
     const bool any = events.cell(who).empty();
-    block.number(any ? -1.0 : static_cast<double>(rows.at(events.cell(who))));
-    block.number(t).text(events.cell(type));
-    block.number(any ? 0.0 : events.number(n)).number(any ? 0.0 : events.number(t_column)).end_row();
+    marks.push_back({any ? -1 : rows.at(events.cell(who)), t, events.cell(type), any ? 0.0 : events.number(n),
+                     any ? 0.0 : events.number(friction)});
   }
-  return block.str();
+  return marks;
 }
 
 std::string raster_script(const PlottedRun& run) {
@@ -75,18 +79,19 @@ std::string raster_script(const PlottedRun& run) {
         "set arrow from graph 0, first {0}.5 to graph 1, first {0}.5 nohead linecolor '#bbbbbb'\n", k - 1);
   }
   const std::string data = "'marks" + run.suffix + ".csv' skip 1 using ";
+  const std::string row_of = mark_table().value("row"), at = mark_table().value("t");
   std::vector<std::string> elements;
   elements.push_back(
-      data + fmt::format("($1 < 0 ? $2 : NaN):(-0.5):(0):({}) with vectors nohead linecolor '#aaaaaa' "
+      data + fmt::format("({} < 0 ? {} : NaN):(-0.5):(0):({}) with vectors nohead linecolor '#aaaaaa' "
                          "dashtype 3 title {}",
-                         count, quoted(say(run, "load changes"))));
+                         row_of, at, count, quoted(say(run, "load changes"))));
   if (!occurs(run, EventType::time)) elements.clear();
   const double lane = 0.84 / static_cast<double>(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const std::string look = fmt::format("linewidth 1.6 linecolor '{}'", lanes[i].colour);
-    elements.push_back(data + "(strcol(3) eq " + quoted(to_string(lanes[i].type)) +
-                       fmt::format(" ? $2 : NaN):($1 + {:.4f}):(0):({:.4f}) with vectors nohead {} notitle",
-                                   -0.42 + lane * static_cast<double>(i), 0.86 * lane, look));
+    elements.push_back(data + "(" + mark_table().word("event") + " eq " + quoted(to_string(lanes[i].type)) +
+                       fmt::format(" ? {} : NaN):({} + {:.4f}):(0):({:.4f}) with vectors nohead {} notitle",
+                                   at, row_of, -0.42 + lane * static_cast<double>(i), 0.86 * lane, look));
   }
   for (const EventLook& look : lanes)
     elements.push_back(fmt::format("keyentry with lines linewidth 4 linecolor '{}' title {}", look.colour,

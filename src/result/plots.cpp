@@ -45,7 +45,7 @@ std::size_t read_times(const fs::path& directory, const PlotWindow& window, Plot
   CsvReader history(directory / "history.csv");
   run.columns = history.header();
   while (history.next()) {
-    run.t_last = history.number(0);
+    run.t_last = history.t();
     if (run.times++ == 0) run.t_first = run.t_last;
     shown += run.t_last >= window.from.value_or(run.t_last) && run.t_last <= window.to.value_or(run.t_last);
   }
@@ -77,17 +77,18 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
 
   CsvReader events(directory / "events.csv");
   const std::size_t who = events.column("contact"), to = events.column("to");
+  const std::size_t normal = events.column("N");
   const double shortest_band = (run.t_last - run.t_first) / static_cast<double>(most_bands);
   const std::size_t type = events.column("event");
   while (events.next()) {
-    const double t = events.number(0);
+    const double t = events.t();
     if (std::find(run.event_types.begin(), run.event_types.end(), events.cell(type)) == run.event_types.end())
       run.event_types.push_back(events.cell(type));
     if (events.cell(who).empty()) continue;
     const std::size_t k = number_of(index, events.cell(who), directory / "events.csv");
     if (t <= run.t_first || t > run.t_last) continue;
     run.occurring.emplace(k, events.cell(type));
-    compressed(k, -events.number(events.column("N")));
+    compressed(k, -events.number(normal));
     auto& bands = run.bands[k];
     if (bands.empty() || bands.back().state == events.cell(to)) continue;
     bands.back().to = t;
@@ -102,30 +103,22 @@ void read_bands(const fs::path& directory, PlottedRun& run) {
   }
 }
 
-std::string band_table(const std::vector<PlottedRun::Band>& bands) {
-  CsvBlock block;
-  block.text("from").text("to").text("state").end_row();
-  for (const auto& band : bands) block.number(band.from).number(band.to).text(band.state).end_row();
-  return block.str();
-}
-
 std::string energy_script_of(const fs::path& directory, PlottedRun run) {
   CsvReader energy(directory / "energy.csv");
-  std::vector<bool> used(energy_columns.size() + 1, false);  // as columns of energy.csv
+  std::set<std::string> used;
   double start = 0.0;
   run.times = 0;
   for (; energy.next(); ++run.times) {
-    for (std::size_t i = 0; i < energy_columns.size(); ++i)
-      used[i + 1] = used[i + 1] || energy.number(energy.column(energy_columns[i].name)) != 0.0;
+    for (const EnergyColumn& column : energy_columns)
+      if (energy.number(energy.column(column.name)) != 0.0) used.insert(column.name);
     if (run.times == 0) start = energy.number(energy.column(balance_column));
   }
   if (!run.curves.empty()) {
     CsvReader curves(directory / "curves.csv");
     const std::size_t name = curves.column("curve"), value = curves.column("value");
     while (curves.next())
-      for (std::size_t i = 0; i < energy_columns.size(); ++i)
-        used[i + 1] =
-            used[i + 1] || (curves.cell(name) == energy_columns[i].name && curves.number(value) != 0.0);
+      if (curves.number(value) != 0.0)
+        used.insert(curves.cell(name));  // those of displacements are not asked for
   }
   return energy_script(run, used, start);
 }
@@ -210,18 +203,19 @@ std::vector<fs::path> write_plots(const fs::path& directory, const PlotWindow& w
     write_file(scripts.back(), text);
   };
   add("displacement", displacement_script(run));
-  if (fs::is_regular_file(directory / "response.csv", missing)) add("response", response_script(run));
+  if (fs::is_regular_file(directory / "response.csv", missing))
+    add("response", response_script(run, CsvReader(directory / "response.csv")));
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
-    write_file(folder / ("states-" + run.slugs[k] + ".csv"), band_table(run.bands[k]));
+    write_file(folder / ("states-" + run.slugs[k] + ".csv"), band_table().text(run.bands[k]));
     add("contact-" + run.slugs[k], contact_script(run, k));
     if (closer) add("contact-" + run.slugs[k] + zoomed.suffix, contact_script(zoomed, k));
   }
   if (!run.facts.contacts.empty()) {
-    write_file(folder / "marks.csv", marks_table(directory, run));
+    write_file(folder / "marks.csv", mark_table().text(marks_of(directory, run)));
     add("states", states_script(run));
     add("raster", raster_script(run));
     if (closer) {
-      write_file(folder / "marks-events.csv", marks_table(directory, zoomed));
+      write_file(folder / "marks-events.csv", mark_table().text(marks_of(directory, zoomed)));
       add("raster-events", raster_script(zoomed));
     }
     add("cone", cone_script(run));

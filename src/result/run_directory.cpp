@@ -10,9 +10,9 @@
 #include "result/load_table.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plots.hpp"
+#include "result/run_tables.hpp"
 #include "result/states.hpp"
 #include "result/summary.hpp"
-#include "result/writers.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -97,21 +97,21 @@ void check_run_directory(const fs::path& path, bool force) {
 
 struct RunDirectory::Writers {
   Writers(const fs::path& path, const Model& model)
-      : events(path / "events.csv", model),
-        history(path / "history.csv", model),
-        contacts(path / "contacts.csv", model),
-        energy(path / "energy.csv") {
-    if (!model.outputs.empty()) response.emplace(path / "response.csv", model);
+      : events(path / "events.csv", event_table(model)),
+        history(path / "history.csv", history_table(model)),
+        contacts(path / "contacts.csv", contact_table()),
+        energy(path / "energy.csv", energy_table()) {
+    if (!model.outputs.empty()) response.emplace(path / "response.csv", response_table(model));
   }
 
-  EventWriter events;
-  HistoryWriter history;
-  ContactWriter contacts;
-  EnergyWriter energy;
-  std::optional<ResponseWriter> response;
+  TableFile<Event> events;
+  TableFile<Sample> history;
+  TableFile<ContactRow> contacts;
+  TableFile<Sample> energy;
+  std::optional<TableFile<ResponseRow>> response;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<StateWriter> states;
-  std::unique_ptr<ContactWriter> motion;
+  std::unique_ptr<TableFile<ContactRow>> motion;
 };
 
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
@@ -142,13 +142,21 @@ RunDirectory::Writers& RunDirectory::writers() {
   return *writers_;
 }
 
-void RunDirectory::event(const Event& event) { writers().events.write(event); }
+void RunDirectory::event(const Event& event) {
+  Writers& w = writers();
+  w.events.add(event);
+  w.events.flush();
+}
 
 void RunDirectory::sample(const Sample& sample) {
   Writers& w = writers();
-  w.history.write(sample);
-  w.contacts.write(sample);
-  w.energy.write(sample);
+  w.history.add(sample);
+  w.history.flush();
+  for (std::size_t k = 0; k < sample.contacts.size(); ++k)
+    w.contacts.add({sample.t, model_.contacts[k], sample.contacts[k]});
+  w.contacts.flush();
+  w.energy.add(sample);
+  w.energy.flush();
   if (sample.t == scene_.run.t_end) keep_state(sample);
 }
 
@@ -167,25 +175,24 @@ void RunDirectory::frame(const Sample& sample) {
 
 void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
   Writers& w = writers();
-  if (!w.motion) w.motion = std::make_unique<ContactWriter>(path_ / "motion.csv", model_);
-  w.motion->write(contact, rows);
+  if (!w.motion) w.motion = std::make_unique<TableFile<ContactRow>>(path_ / "motion.csv", contact_table());
+  const Contact& of = model_.contacts[static_cast<std::size_t>(contact)];
+  for (const MotionRow& row : rows) w.motion->add({row.t, of, row.sample});
+  w.motion->flush();
 }
 
 void RunDirectory::curves(const Curves& curves) {
   writers();
-  CsvFile file(path_ / "curves.csv");
-  CsvBlock block;
-  block.text("curve").text("t").text("value").end_row();
-  file.write(block);
-  for (std::size_t i = 0; i < curves.names.size(); ++i) {
-    for (const CurvePoint& point : curves.points[i])
-      block.text(curves.names[i]).number(point.t).number(point.value).end_row();
-    file.write(block);  // one by one: the text of all takes more memory than the run
-  }
+  TableFile<CurveRow> file(path_ / "curves.csv", curve_table());
+  for (std::size_t i = 0; i < curves.names.size(); ++i)
+    for (const CurvePoint& point : curves.points[i]) file.add({curves.names[i], point});
+  file.flush();
 }
 
 void RunDirectory::response(double t, const std::vector<double>& values) {
-  writers().response->write(t, values);
+  TableFile<ResponseRow>& file = *writers().response;
+  file.add({t, values});
+  file.flush();
 }
 
 bool RunDirectory::progress(double /*t*/) {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
+#include "study/compare/comparison_tables.hpp"
 #include "study/compare/joined_tables.hpp"
 
 namespace signorini {
@@ -60,40 +60,21 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
   return columns;
 }
 
-/// A table of differences over time, where one is wanted.
-class Series {
- public:
-  Series(const ComparisonSettings& settings, const char* kind, std::initializer_list<const char*> columns) {
-    if (settings.folder.empty()) return;
-    file_ = std::make_unique<CsvFile>(settings.folder / (std::string(kind) + settings.slug + ".csv"));
-    block_.text("t");
-    for (const char* column : columns) block_.text(column);
-    block_.end_row();
-    file_->write(block_);
-  }
-  void row(double t, std::initializer_list<double> values) {
-    if (!file_) return;
-    block_.number(t);
-    for (const double value : values) block_.number(value);
-    block_.end_row();
-    constexpr std::size_t much = 1 << 16;
-    if (block_.str().size() > much) file_->write(block_);
-  }
-  void close() {
-    if (file_) file_->write(block_);
-  }
-
- private:
-  std::unique_ptr<CsvFile> file_;
-  CsvBlock block_;
-};
+/// Where a table of differences over time is wanted.
+template <class Row>
+std::optional<TableFile<Row>> series_of(const ComparisonSettings& settings, const char* kind,
+                                        const Table<Row>& table) {
+  if (settings.folder.empty()) return std::nullopt;
+  return std::optional<TableFile<Row>>(std::in_place, settings.folder / (kind + settings.slug + ".csv"),
+                                       table);
+}
 
 void compare_motion(const ComparedRun& a, const ComparedRun& b, const ComparisonSettings& settings,
                     double split, Comparison& c) {
   TimeJoin join(a.figures.directory / "history.csv", b.figures.directory / "history.csv", c.t_end);
   const std::vector<CommonColumn> columns = common_columns(join.a(), join.b(), c, "history.csv");
   for (const CommonColumn& column : columns) c.columns.emplace_back(column.name, Deviation());
-  Series series(settings, "motion-", {"displacement", "velocity"});
+  auto series = series_of(settings, "motion-", motion_difference_table());
   while (join.next()) {
     double displacement = 0.0, velocity = 0.0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -104,11 +85,11 @@ void compare_motion(const ComparedRun& a, const ComparedRun& b, const Comparison
       if (column.quantity == &c.displacement) displacement = std::max(displacement, difference);
       if (column.quantity == &c.velocity) velocity = std::max(velocity, difference);
     }
-    series.row(join.t(), {displacement, velocity});
+    if (series) series->add({join.t(), displacement, velocity});
     ++c.common_times;
   }
   c.rows.history = join.rows();
-  series.close();
+  if (series) series->flush();
 }
 
 void compare_response(const ComparedRun& a, const ComparedRun& b, double split, Comparison& c) {
@@ -186,7 +167,7 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
                     double split, Comparison& c) {
   ContactRowReader rows_a(a.figures.directory / "contacts.csv"), rows_b(b.figures.directory / "contacts.csv");
   EventsBetween events(a, b);
-  Series series(settings, "forces-", {"N", "T"});
+  auto series = series_of(settings, "forces-", force_difference_table());
   ForcesByContact by_contact;
 
   // A time is judged when the next one is known: is there an event from the time before up to the next?
@@ -230,14 +211,14 @@ void compare_forces(const ComparedRun& a, const ComparedRun& b, const Comparison
       N = std::max(N, dN);
       T = std::max(T, dT);
     }
-    series.row(t, {N, T});
+    if (series) series->add({t, N, T});
     more_a = next_a();
     more_b = next_b();
   }
   while (more_a) more_a = next_a();
   while (more_b) more_b = next_b();
   judge(before);
-  series.close();
+  if (series) series->flush();
   add_columns(by_contact, a, c);
 }
 

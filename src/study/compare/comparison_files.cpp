@@ -4,91 +4,115 @@
 
 #include "base/json.hpp"
 
-#include "result/csv.hpp"
 #include "result/units_json.hpp"
+#include "study/compare/comparison_tables.hpp"
 #include "study/figures.hpp"
 
 namespace signorini {
 
 namespace {
 
+using Audit = std::map<std::string, double>;
+
+/// Of runs; audits have the columns of the reference.
+Table<RunFigures> run_table(const Audit& audit) {
+  using R = RunFigures;
+  Table<R> table = {{"run", &R::name},
+                    {"engine", &R::engine},
+                    {"directory", [](const R& r) { return r.directory.string(); }},
+                    {"outcome", [](const R& r) { return r.facts.outcome; }},
+                    {"t", &R::t},
+                    {"reason", &R::reason},
+                    {"events", [](const R& r) { return changes_in(r.events_by_type); }},
+                    {"wall_time", &R::wall_time},
+                    {"steps", &R::steps},
+                    {"factorisations", &R::factorisations},
+                    {"solves", &R::solves},
+                    {"restarts", &R::restarts},
+                    {"friction", &R::friction},
+                    {"damping", &R::damping}};
+  for (const auto& [name, value] : audit)
+    table.add("audit_" + name, [name = name](const R& r) {
+      const auto found = r.audit.find(name);
+      return found == r.audit.end() ? std::nullopt : std::optional(found->second);
+    });
+  return table;
+}
+
 std::string runs_csv(const ComparisonReport& report) {
+  const Table<RunFigures> table = run_table(report.runs.front().figures.audit);
   CsvBlock block;
-  for (const char* name : {"run", "engine", "directory", "outcome", "t", "reason", "events", "wall_time",
-                           "steps", "factorisations", "solves", "restarts", "friction", "damping"})
-    block.text(name);
-  const auto& audit = report.runs.front().figures.audit;
-  for (const auto& [name, value] : audit) block.text("audit_" + name);
-  block.end_row();
-  for (const ComparedRun& compared : report.runs) {
-    const RunFigures& run = compared.figures;
-    block.text(run.name).text(run.engine).text(run.directory.string()).text(run.facts.outcome);
-    block.number(run.t).text(run.reason).number(static_cast<double>(changes_in(run.events_by_type)));
-    block.number(run.wall_time).number(number_of(run.steps)).number(number_of(run.factorisations));
-    block.number(number_of(run.solves)).number(number_of(run.restarts));
-    block.number(run.friction).number(run.damping);
-    for (const auto& [name, value] : audit) {
-      const auto found = run.audit.find(name);
-      block.number(found == run.audit.end() ? std::nullopt : std::optional<double>(found->second));
-    }
-    block.end_row();
-  }
+  table.put_header(block);
+  for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
   for (const auto& [name, reason] : report.refused) {
-    block.text(name).text(name).empty().text("refused").empty().text(reason);
-    for (std::size_t i = 0; i < 8 + audit.size(); ++i) block.empty();
+    // An engine that refused the scene has a name and a reason.
+    const std::map<std::string, std::string> cells = {
+        {"run", name}, {"engine", name}, {"outcome", "refused"}, {"reason", reason}};
+    for (const auto& column : table.columns()) {
+      const auto found = cells.find(column.name);
+      put_cell(block, found == cells.end() ? std::nullopt : std::optional(found->second));
+    }
     block.end_row();
   }
   return block.str();
 }
+
+/// A quantity of one run.
+struct Difference {
+  const std::string& run;
+  Quantity quantity;
+  [[nodiscard]] const Greatest& whole() const { return quantity.deviation->whole; }
+  [[nodiscard]] const Greatest& until_split() const { return quantity.deviation->until_split; }
+};
 
 std::string differences_csv(const ComparisonReport& report) {
-  CsvBlock block;
-  for (const char* name : {"run", "quantity", "unit", "value", "t", "where", "value_until_split",
-                           "t_until_split", "where_until_split"})
-    block.text(name);
-  block.end_row();
-  for (const Comparison& c : report.comparisons) {
-    for (const Quantity& q : quantities(c, report.runs.front().figures.facts.units)) {
-      if (q.deviation->count == 0) continue;
-      const Greatest &whole = q.deviation->whole, &until = q.deviation->until_split;
-      block.text(c.name).text(q.name).text(q.unit).number(whole.value).number(whole.t).text(whole.where);
-      block.number(until.value).number(until.t).text(until.where).end_row();
-    }
-  }
-  return block.str();
+  using D = Difference;
+  const Table<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
+                          {"quantity", [](const D& d) { return d.quantity.name; }},
+                          {"unit", [](const D& d) { return d.quantity.unit; }},
+                          {"value", [](const D& d) { return d.whole().value; }},
+                          {"t", [](const D& d) { return d.whole().t; }},
+                          {"where", [](const D& d) { return d.whole().where; }},
+                          {"value_until_split", [](const D& d) { return d.until_split().value; }},
+                          {"t_until_split", [](const D& d) { return d.until_split().t; }},
+                          {"where_until_split", [](const D& d) { return d.until_split().where; }}};
+  std::vector<D> rows;
+  for (const Comparison& c : report.comparisons)
+    for (const Quantity& q : quantities(c, report.runs.front().figures.facts.units))
+      if (q.deviation->count > 0) rows.push_back({c.name, q});
+  return table.text(rows);
 }
 
+/// A column of one run.
+struct ColumnDifference {
+  const std::string &run, &column;
+  const Deviation& deviation;
+};
+
 std::string columns_csv(const ComparisonReport& report) {
-  CsvBlock block;
-  for (const char* name : {"run", "column", "value", "t", "value_until_split", "t_until_split"})
-    block.text(name);
-  block.end_row();
-  for (const Comparison& c : report.comparisons) {
-    for (const auto& [name, deviation] : c.columns) {
-      block.text(c.name).text(name).number(deviation.whole.value).number(deviation.whole.t);
-      block.number(deviation.until_split.value).number(deviation.until_split.t).end_row();
-    }
-  }
-  return block.str();
+  using D = ColumnDifference;
+  const Table<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
+                          {"column", [](const D& d) { return std::string_view(d.column); }},
+                          {"value", [](const D& d) { return d.deviation.whole.value; }},
+                          {"t", [](const D& d) { return d.deviation.whole.t; }},
+                          {"value_until_split", [](const D& d) { return d.deviation.until_split.value; }},
+                          {"t_until_split", [](const D& d) { return d.deviation.until_split.t; }}};
+  std::vector<D> rows;
+  for (const Comparison& c : report.comparisons)
+    for (const auto& [name, deviation] : c.columns) rows.push_back({c.name, name, deviation});
+  return table.text(rows);
 }
 
 std::string events_csv(const ComparisonReport& report) {
-  CsvBlock block;
-  for (const char* name :
-       {"run", "t_reference", "t", "difference", "contact", "event", "from", "to", "swapped"})
-    block.text(name);
-  block.end_row();
   const auto& reference = report.runs.front().events;
+  std::vector<EventPair> rows;
   for (std::size_t i = 0; i < report.comparisons.size(); ++i) {
     const Comparison& c = report.comparisons[i];
-    for (const AlignedPair& pair : c.alignment.pairs) {
-      const LoggedEvent& event = reference[pair.reference];
-      const double t = report.runs[i + 1].events[pair.other].t;
-      block.text(c.name).number(event.t).number(t).number(t - event.t).text(event.contact);
-      block.text(event.type).text(event.from).text(event.to).text(pair.swapped ? "true" : "false").end_row();
-    }
+    for (const AlignedPair& pair : c.alignment.pairs)
+      rows.push_back(
+          {c.name, reference[pair.reference], report.runs[i + 1].events[pair.other].t, pair.swapped});
   }
-  return block.str();
+  return event_pair_table().text(rows);
 }
 
 Json event_json(const LoggedEvent& event) {

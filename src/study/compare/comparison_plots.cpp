@@ -12,6 +12,8 @@
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
 #include "result/plot_rows.hpp"
+#include "result/run_tables.hpp"
+#include "study/compare/comparison_tables.hpp"
 
 namespace signorini {
 
@@ -37,7 +39,7 @@ PlottedRun plotted(const RunFigures& figures, double t_end) {
   run.facts = figures.facts;
   CsvReader history(figures.directory / "history.csv");
   while (history.next()) {
-    run.t_last = history.number(0);
+    run.t_last = history.t();
     if (run.times++ == 0) run.t_first = run.t_last;
   }
   // What is killed may lack the last row in contacts.csv, or have a part of it.
@@ -57,9 +59,18 @@ std::string path_from(const fs::path& folder, const fs::path& file) {
   return error ? file.string() : target.lexically_proximate(base).string();
 }
 
+/// A panel of a contact.
+struct ContactCurve {
+  std::string label;
+  const char* column;  ///< of contacts.csv
+  Range ContactRanges::*range;
+  double ContactScales::*scale;
+};
+
+/// A panel of differences.
 struct Curve {
   std::string label, name;
-  int column;
+  std::size_t column;
 };
 
 class Pictures {
@@ -85,15 +96,17 @@ class Pictures {
     const PlottedRun& first = runs_.front();
     const RunFacts::Contact& contact = first.facts.contacts[k];
     const Units& units = first.facts.units;
-    std::vector<Curve> curves = {{"ut [" + units.length + "]", "ut", 5}};
-    if (!contact.slider) curves.push_back({"gap [" + units.length + "]", "gap", 4});
-    curves.push_back({"N [" + units.force + "]", "N", 8});
-    curves.push_back({"T [" + units.force + "]", "T", 9});
+    const std::string length = " [" + units.length + "]", force = " [" + units.force + "]";
+    std::vector<ContactCurve> curves = {{"ut" + length, "ut", &ContactRanges::ut, &ContactScales::length}};
+    if (!contact.slider)
+      curves.push_back({"gap" + length, "gap", &ContactRanges::gap, &ContactScales::length});
+    curves.push_back({"N" + force, "N", &ContactRanges::N, &ContactScales::force});
+    curves.push_back({"T" + force, "T", &ContactRanges::T, &ContactScales::force});
     const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
     std::string s = begin_script(first, {name, "Contact '" + contact.name + "': motion and forces", canvas});
     for (std::size_t i = 0; i < curves.size(); ++i) {
       s += panel(first, canvas, stacked(i, curves.size(), canvas), curves[i].label, i + 1 == curves.size());
-      s += axis(contact.name, curves[i].column);
+      s += axis(contact.name, curves[i]);
       std::vector<std::string> elements;
       for (std::size_t r = 0; r < runs_.size(); ++r) {
         const auto& contacts = runs_[r].facts.contacts;
@@ -104,7 +117,8 @@ class Pictures {
         elements.push_back(
             fmt::format("{} using 1:{} with lines {} title {}",
                         contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
-                        curves[i].column, look(r), quoted(legend_name(report_.runs[r].figures.name))));
+                        contact_table().number(curves[i].column), look(r),
+                        quoted(legend_name(report_.runs[r].figures.name))));
       }
       s += plot_command(elements);
     }
@@ -114,12 +128,17 @@ class Pictures {
   [[nodiscard]] std::string differences() const {
     const PlottedRun& first = runs_.front();
     const Units& units = first.facts.units;
-    std::vector<Curve> curves = {{"displacement [" + units.length + "]", "motion", 2}};
-    if (!first.facts.contacts.empty()) curves.push_back({"N [" + units.force + "]", "forces", 2});
-    if (!first.facts.contacts.empty()) curves.push_back({"T [" + units.force + "]", "forces", 3});
+    std::vector<Curve> curves = {
+        {"displacement [" + units.length + "]", "motion", motion_difference_table().number("displacement")}};
+    for (const char* force : {"N", "T"})
+      if (!first.facts.contacts.empty())
+        curves.push_back(
+            {force + (" [" + units.force + "]"), "forces", force_difference_table().number(force)});
     const bool events = std::any_of(report_.comparisons.begin(), report_.comparisons.end(),
                                     [](const Comparison& c) { return !c.alignment.pairs.empty(); });
-    if (events) curves.push_back({"event time [" + units.time + "]", "events", 4});
+    if (events)
+      curves.push_back(
+          {"event time [" + units.time + "]", "events", event_pair_table().number("difference")});
     const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
     std::string s = begin_script(
         first, {"differences", "Greatest differences from " + report_.runs.front().figures.name, canvas});
@@ -143,19 +162,17 @@ class Pictures {
 
  private:
   /// Where the curves of all runs together hardly move.
-  [[nodiscard]] std::string axis(const std::string& contact, int column) const {
+  [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
     Range all;
     ContactScales scales;
     for (const PlottedRun& run : runs_) {
       const ContactScales own = scales_of(run.ranges);
       scales = {std::max(scales.length, own.length), std::max(scales.force, own.force)};
       for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
-        if (run.facts.contacts[k].name != contact) continue;
-        const ContactRanges& r = run.ranges[k];
-        all.take(column == 4 ? r.gap : column == 5 ? r.ut : column == 8 ? r.N : r.T);
+        if (run.facts.contacts[k].name == contact) all.take(run.ranges[k].*curve.range);
       }
     }
-    return steady(all, column < 8 ? scales.length : scales.force);
+    return steady(all, scales.*curve.scale);
   }
 
   /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
@@ -166,7 +183,7 @@ class Pictures {
       if (curve.name == "motion") greatest = std::max(greatest, c.displacement.whole.value);
       if (curve.name == "events") greatest = std::max(greatest, c.event_time.whole.value);
       if (curve.name != "forces") continue;
-      const std::string end = curve.column == 2 ? ".N" : ".T";
+      const std::string end = curve.column == force_difference_table().number("N") ? ".N" : ".T";
       for (const auto& [column, deviation] : c.columns)
         if (column.ends_with(end)) greatest = std::max(greatest, deviation.whole.value);
     }
@@ -180,11 +197,13 @@ class Pictures {
   [[nodiscard]] std::string difference(const Curve& curve, std::size_t r) const {
     const std::string name = report_.runs[r].figures.name;
     if (curve.name == "events") {
+      const auto& table = event_pair_table();
       return fmt::format(
-          "'../events.csv' skip 1 using 2:(strcol(1) eq {0} && $4 != 0 ? abs($4) : NaN) with points "
+          "'../events.csv' skip 1 using {3}:({4} eq {0} && {5} != 0 ? abs({5}) : NaN) with points "
           "pointtype 7 "
           "pointsize 0.7 linecolor '{1}' title {2}",
-          quoted(name), colours[r % colours.size()], quoted(legend_name(name)));
+          quoted(name), colours[r % colours.size()], quoted(legend_name(name)), table.number("t_reference"),
+          table.word("run"), table.value("difference"));
     }
     return fmt::format(
         "'{}-{}.csv' skip 1{} using 1:(${} > 0 ? ${} : NaN) with lines linewidth 1.1 linecolor '{}' "

@@ -11,7 +11,7 @@ bool same_time(double a, double b) {
 }
 
 bool TimeJoin::read(CsvReader& reader, std::size_t& count) const {
-  if (!reader.next() || beyond(reader.number(0), until_)) return false;
+  if (!reader.next() || beyond(reader.t(), until_)) return false;
   ++count;
   return true;
 }
@@ -19,7 +19,7 @@ bool TimeJoin::read(CsvReader& reader, std::size_t& count) const {
 bool TimeJoin::next() {
   bool more_a = read(a_, rows_.reference), more_b = read(b_, rows_.other);
   while (more_a && more_b) {
-    const double ta = a_.number(0), tb = b_.number(0);
+    const double ta = a_.t(), tb = b_.t();
     t_ = ta;
     if (same_time(ta, tb)) {
       ++rows_.compared;
@@ -42,12 +42,12 @@ ContactRowReader::ContactRowReader(const std::filesystem::path& path)
 
 bool ContactRowReader::next() {
   if (!pending_) return false;
-  t_ = reader_.number(0);
+  t_ = reader_.t();
   forces_.clear();
   do {
     forces_[reader_.cell(contact_)] = {reader_.number(N_), reader_.number(T_)};
     pending_ = reader_.next();
-  } while (pending_ && reader_.number(0) == t_);
+  } while (pending_ && reader_.t() == t_);
   return true;
 }
 

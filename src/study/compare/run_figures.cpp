@@ -22,7 +22,7 @@ std::optional<Value> optional_value(const Json& json, const char* key) {
 double last_output_time(const std::filesystem::path& directory) {
   double t = 0.0;
   CsvReader history(directory / "history.csv");
-  while (history.next()) t = history.number(0);
+  while (history.next()) t = history.t();
   return t;
 }
 

@@ -1,9 +1,10 @@
 #include "study/sensitivity/fit_files.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "base/json.hpp"
-#include "result/csv.hpp"
+#include "result/table.hpp"
 
 namespace signorini {
 
@@ -37,29 +38,27 @@ std::string fit_json(const Fit& fit, const Measurements& measured) {
 }
 
 void write_fit(const std::filesystem::path& directory, const Fit& fit, const Measurements& measured) {
-  CsvBlock block;
-  for (const char* name : {"row", "event_index", "column", "t", "measured", "residual", "sigma"})
-    block.text(name);
-  block.end_row();
-  for (std::size_t i = 0; i < measured.rows.size(); ++i) {
-    const Measurement& m = measured.rows[i];
-    block.text(std::to_string(i + 1));
-    if (m.event > 0)
-      block.text(std::to_string(m.event)).empty().empty();
-    else
-      block.empty().text(m.column).number(m.t);
-    block.number(m.value);
-    if (std::isfinite(fit.residuals[i]))
-      block.number(fit.residuals[i]);
-    else
-      block.empty();
-    if (measured.has_sigma)
-      block.number(m.sigma);
-    else
-      block.empty();
-    block.end_row();
-  }
-  write_file(directory / "residuals.csv", block.str());
+  const auto of_event = [&](std::size_t i) { return measured.rows[i].event > 0; };
+  const auto given = [&](std::size_t i, double value) {
+    return of_event(i) ? std::nullopt : std::optional(value);
+  };
+  const Table<std::size_t> table = {
+      {"row", [](std::size_t i) { return std::to_string(i + 1); }},
+      {"event_index",
+       [&](std::size_t i) { return of_event(i) ? std::to_string(measured.rows[i].event) : std::string(); }},
+      {"column", [&](std::size_t i) { return of_event(i) ? std::string() : measured.rows[i].column; }},
+      {"t", [&](std::size_t i) { return given(i, measured.rows[i].t); }},
+      {"measured", [&](std::size_t i) { return measured.rows[i].value; }},
+      {"residual",
+       [&](std::size_t i) {
+         return std::isfinite(fit.residuals[i]) ? std::optional(fit.residuals[i]) : std::nullopt;
+       }},
+      {"sigma", [&](std::size_t i) {
+         return measured.has_sigma ? std::optional(measured.rows[i].sigma) : std::nullopt;
+       }}};
+  std::vector<std::size_t> rows(measured.rows.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  write_file(directory / "residuals.csv", table.text(rows));
   write_file(directory / "fit.json", fit_json(fit, measured));
 }
 

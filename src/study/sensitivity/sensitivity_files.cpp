@@ -3,9 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "base/json.hpp"
-#include "result/csv.hpp"
+#include "result/table.hpp"
 #include "result/units_json.hpp"
 
 namespace signorini {
@@ -16,112 +17,120 @@ namespace fs = std::filesystem;
 std::optional<double> known(double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; }
 Json json_number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-std::string event_table(const Sensitivities& s) {
-  CsvBlock block;
-  for (const char* name : {"event_index", "t", "contact", "event", "parameter"}) block.text(name);
-  for (const EventRateColumn& column : event_rate_columns) block.text(column.name);
-  block.text("elasticity").end_row();
-  for (std::size_t i = 0; i < s.events.size(); ++i)
-    for (std::size_t p = 0; p < s.parameters.size(); ++p) {
-      const Event& event = s.events[i];
-      block.text(std::to_string(i + 1))
-          .number(event.t)
-          .text(contact_of(s, event))
-          .text(to_string(event.type));
-      block.text(s.parameters[p].path);
-      for (const EventRateColumn& column : event_rate_columns)
-        block.number(known(s.event_rates[i][p].*column.value));
-      block.number(known(elasticity(s.parameters[p].value, event.t, s.event_rates[i][p].t))).end_row();
-    }
-  return block.str();
+/// A figure's row for one key.
+template <class Figure>
+struct KeyRow {
+  const Figure& figure;
+  std::size_t index, key;
+};
+
+template <class Figure>
+std::vector<KeyRow<Figure>> rows_of(const std::vector<Figure>& figures, const Sensitivities& s) {
+  std::vector<KeyRow<Figure>> rows;
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    for (std::size_t p = 0; p < s.parameters.size(); ++p) rows.push_back({figures[i], i, p});
+  return rows;
 }
 
-std::string figure_table(const Sensitivities& s) {
-  CsvBlock block;
-  for (const char* name :
-       {"figure", "contact", "value", "t", "parameter", "dvalue_dp", "dt_dp", "elasticity"})
-    block.text(name);
-  block.end_row();
-  for (const Response& r : s.responses)
-    for (std::size_t p = 0; p < s.parameters.size(); ++p) {
-      block.text(r.name).text(contact_of(s, r)).number(r.value).number(r.t);
-      block.text(s.parameters[p].path).number(known(r.rates[p])).number(known(r.t_rates[p]));
-      block.number(known(elasticity(s.parameters[p].value, r.value, r.rates[p]))).end_row();
-    }
-  return block.str();
+/// sensitivities.csv
+std::string event_text(const Sensitivities& s) {
+  using R = KeyRow<Event>;
+  Table<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
+                    {"t", [](const R& r) { return r.figure.t; }},
+                    {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
+                    {"event", [](const R& r) { return to_string(r.figure.type); }},
+                    {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }}};
+  for (const EventRateColumn& column : event_rate_columns)
+    table.add(column.name,
+              [&s, &column](const R& r) { return known(s.event_rates[r.index][r.key].*column.value); });
+  table.add("elasticity", [&s](const R& r) {
+    return known(elasticity(s.parameters[r.key].value, r.figure.t, s.event_rates[r.index][r.key].t));
+  });
+  return table.text(rows_of(s.events, s));
 }
 
-std::string landing_table(const Sensitivities& s) {
-  CsvBlock block;
-  for (const char* name : {"contact", "landing", "start", "end", "impulse", "peak_force", "parameter",
-                           "dstart_dp", "dend_dp", "dimpulse_dp", "dpeak_force_dp"})
-    block.text(name);
-  block.end_row();
-  int number = 0;
-  for (std::size_t i = 0; i < s.landings.size(); ++i) {
-    const MovingLanding& landing = s.landings[i];
-    number = i > 0 && s.landings[i - 1].contact == landing.contact ? number + 1 : 1;
-    for (std::size_t p = 0; p < s.parameters.size(); ++p) {
-      block.text(s.contacts[static_cast<std::size_t>(landing.contact)]).text(std::to_string(number));
-      const Landing& l = landing.value;
-      for (const double x : {l.start, l.end, l.impulse, l.peak_force}) block.number(x);
-      block.text(s.parameters[p].path);
-      const LandingRates& rates = landing.rates[p];
-      for (const double x : {rates.start, rates.end, rates.impulse, rates.peak_force}) block.number(known(x));
-      block.end_row();
-    }
-  }
-  return block.str();
+/// figures.csv
+std::string figure_text(const Sensitivities& s) {
+  using R = KeyRow<Response>;
+  const Table<R> table = {
+      {"figure", [](const R& r) { return r.figure.name; }},
+      {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
+      {"value", [](const R& r) { return r.figure.value; }},
+      {"t", [](const R& r) { return r.figure.t; }},
+      {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }},
+      {"dvalue_dp", [](const R& r) { return known(r.figure.rates[r.key]); }},
+      {"dt_dp", [](const R& r) { return known(r.figure.t_rates[r.key]); }},
+      {"elasticity", [&s](const R& r) {
+         return known(elasticity(s.parameters[r.key].value, r.figure.value, r.figure.rates[r.key]));
+       }}};
+  return table.text(rows_of(s.responses, s));
+}
+
+/// landings.csv
+std::string landing_text(const Sensitivities& s) {
+  using R = KeyRow<MovingLanding>;
+  std::vector<int> numbers;  // of a landing among those of its contact, from 1
+  for (std::size_t i = 0; i < s.landings.size(); ++i)
+    numbers.push_back(i > 0 && s.landings[i - 1].contact == s.landings[i].contact ? numbers.back() + 1 : 1);
+  const Table<R> table = {
+      {"contact", [&s](const R& r) { return s.contacts[static_cast<std::size_t>(r.figure.contact)]; }},
+      {"landing", [&numbers](const R& r) { return numbers[r.index]; }},
+      {"start", [](const R& r) { return r.figure.value.start; }},
+      {"end", [](const R& r) { return r.figure.value.end; }},
+      {"impulse", [](const R& r) { return r.figure.value.impulse; }},
+      {"peak_force", [](const R& r) { return r.figure.value.peak_force; }},
+      {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }},
+      {"dstart_dp", [](const R& r) { return known(r.figure.rates[r.key].start); }},
+      {"dend_dp", [](const R& r) { return known(r.figure.rates[r.key].end); }},
+      {"dimpulse_dp", [](const R& r) { return known(r.figure.rates[r.key].impulse); }},
+      {"dpeak_force_dp", [](const R& r) { return known(r.figure.rates[r.key].peak_force); }}};
+  return table.text(rows_of(s.landings, s));
 }
 
 const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; }
 
-std::string sequence_table(const Sensitivities& s) {
-  CsvBlock block;
-  for (const char* name : {"parameter", "value", "change", "kind", "first", "second", "t"}) block.text(name);
-  block.end_row();
-  for (const Swap& swap : least_swaps(s))
-    block.text(s.parameters[swap.parameter].path)
-        .number(s.parameters[swap.parameter].value)
-        .number(swap.change)
-        .text(kind_of(swap))
-        .text(std::to_string(swap.first + 1))
-        .text(std::to_string(swap.second + 1))
-        .number(s.events[swap.first].t)
-        .end_row();
-  return block.str();
+/// sequence.csv
+std::string sequence_text(const Sensitivities& s) {
+  const Table<Swap> table = {{"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
+                             {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
+                             {"change", &Swap::change},
+                             {"kind", kind_of},
+                             {"first", [](const Swap& w) { return w.first + 1; }},
+                             {"second", [](const Swap& w) { return w.second + 1; }},
+                             {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
+  return table.text(least_swaps(s));
 }
 
-std::string column_table(const Sensitivities& s, std::size_t p) {
-  CsvBlock block;
-  block.text("t");
-  for (const std::string& name : s.columns) block.text(name);
-  block.end_row();
-  for (std::size_t i = 0; i < s.times.size(); ++i) {
-    block.number(s.times[i]);
-    for (const double x : s.value_rates[p][i]) block.number(known(x));
-    block.end_row();
-  }
-  return block.str();
+/// The derivatives of history's columns by the p-th key.
+std::string column_text(const Sensitivities& s, std::size_t p) {
+  Table<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
+  for (std::size_t j = 0; j < s.columns.size(); ++j)
+    table.add(s.columns[j], [&s, p, j](std::size_t i) { return known(s.value_rates[p][i][j]); });
+  std::vector<std::size_t> rows(s.times.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return table.text(rows);
 }
 
-std::string spread_table(const Sensitivities& s, const Spread& spread) {
-  CsvBlock block;
-  for (const char* name : {"what", "contact", "value", "sigma"}) block.text(name);
-  block.end_row();
+/// What is uncertain, and by how much.
+struct SpreadRow {
+  std::string what, contact;
+  double value, sigma;
+};
+
+/// spread.csv
+std::string spread_text(const Sensitivities& s, const Spread& spread) {
+  const Table<SpreadRow> table = {{"what", &SpreadRow::what},
+                                  {"contact", &SpreadRow::contact},
+                                  {"value", &SpreadRow::value},
+                                  {"sigma", [](const SpreadRow& r) { return known(r.sigma); }}};
+  std::vector<SpreadRow> rows;
   for (std::size_t i = 0; i < s.events.size(); ++i)
-    block.text(fmt::format("t of event {}", i + 1))
-        .text(contact_of(s, s.events[i]))
-        .number(s.events[i].t)
-        .number(known(spread.events[i]))
-        .end_row();
+    rows.push_back(
+        {fmt::format("t of event {}", i + 1), contact_of(s, s.events[i]), s.events[i].t, spread.events[i]});
   for (std::size_t i = 0; i < s.responses.size(); ++i)
-    block.text(s.responses[i].name)
-        .text(contact_of(s, s.responses[i]))
-        .number(s.responses[i].value)
-        .number(known(spread.responses[i]))
-        .end_row();
-  return block.str();
+    rows.push_back(
+        {s.responses[i].name, contact_of(s, s.responses[i]), s.responses[i].value, spread.responses[i]});
+  return table.text(rows);
 }
 
 }  // namespace
@@ -185,13 +194,13 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
 }
 
 void write_sensitivities(const fs::path& directory, const Sensitivities& s, const Sigmas& sigmas) {
-  write_file(directory / "sensitivities.csv", event_table(s));
-  write_file(directory / "figures.csv", figure_table(s));
-  write_file(directory / "sequence.csv", sequence_table(s));
-  if (!s.landings.empty()) write_file(directory / "landings.csv", landing_table(s));
+  write_file(directory / "sensitivities.csv", event_text(s));
+  write_file(directory / "figures.csv", figure_text(s));
+  write_file(directory / "sequence.csv", sequence_text(s));
+  if (!s.landings.empty()) write_file(directory / "landings.csv", landing_text(s));
   for (std::size_t p = 0; p < s.parameters.size(); ++p)
-    write_file(directory / fmt::format("columns-{}.csv", p + 1), column_table(s, p));
-  if (!sigmas.empty()) write_file(directory / "spread.csv", spread_table(s, spread(s, sigmas)));
+    write_file(directory / fmt::format("columns-{}.csv", p + 1), column_text(s, p));
+  if (!sigmas.empty()) write_file(directory / "spread.csv", spread_text(s, spread(s, sigmas)));
 }
 
 }  // namespace signorini

@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "result/table.hpp"
 #include "study/key_unit.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 
@@ -56,12 +56,23 @@ void sort_bars(std::vector<Bar>& bars) {
   std::reverse(bars.begin(), bars.end());
 }
 
-std::string bar_table(const std::vector<Bar>& bars) {
-  CsvBlock block;
-  block.text("place").text("length").text("parameter").end_row();
-  for (std::size_t i = 0; i < bars.size(); ++i)
-    block.text(std::to_string(i + 1)).number(bars[i].length).text(bars[i].name).end_row();
-  return block.str();
+/// A bar and its place from below, from 1.
+struct PlacedBar {
+  std::size_t place;
+  const Bar& bar;
+};
+
+/// `length`: the name of its column.
+Table<PlacedBar> bar_table(const char* length) {
+  return {{"place", &PlacedBar::place},
+          {length, [](const PlacedBar& b) { return b.bar.length; }},
+          {"parameter", [](const PlacedBar& b) { return std::string_view(b.bar.name); }}};
+}
+
+std::vector<PlacedBar> placed(const std::vector<Bar>& bars) {
+  std::vector<PlacedBar> list;
+  for (const Bar& bar : bars) list.push_back({list.size() + 1, bar});
+  return list;
 }
 
 std::string bar_ticks(const std::vector<Bar>& bars) {
@@ -97,11 +108,12 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
 /// Room for names of keys at the left of a panel.
 std::string wide_margin() { return "set lmargin at screen 0.3\n"; }
 
-std::string bars_plot(const std::string& table) {
+std::string bars_plot(const std::string& file) {
+  const Table<PlacedBar> table = bar_table("length");
   return plot_command(
-      {fmt::format("'{0}' skip 1 using (0.5*$2):1:(0.5*abs($2)):(0.36):($2 < 0 ? {1} : {2}) with boxxyerror "
-                   "fillstyle solid 0.75 noborder linecolor rgb variable notitle",
-                   table, "0xc0182b", "0x2166ac")});
+      {fmt::format("'{0}' skip 1 using (0.5*{3}):{4}:(0.5*abs({3})):(0.36):({3} < 0 ? {1} : {2}) with "
+                   "boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable notitle",
+                   file, "0xc0182b", "0x2166ac", table.value("length"), table.number("place"))});
 }
 
 std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder,
@@ -128,7 +140,7 @@ std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path
         bars.push_back({s.parameters[p].path, x});
     sort_bars(bars);
     const std::string table = fmt::format("tornado-{}.csv", i + 1);
-    write_file(folder / table, bar_table(bars));
+    write_file(folder / table, bar_table("length").text(placed(bars)));
     text += panel(run, canvas, stacked(i, figures.size(), canvas, 64.0), "", true) + wide_margin();
     text += "set xlabel " +
             quoted(r.name + (r.contact < 0 ? "" : " of '" + contact_of(s, r) + "'") +
@@ -153,24 +165,37 @@ double span_of(const Sensitivities& s, std::size_t p) {
   return least > 0.0 ? std::min(3.0 * least, most) : most;
 }
 
-std::string tangent_table(const Sensitivities& s, std::size_t p, double span) {
-  CsvBlock block;
-  block.text("p").text("t").text("dp").text("dt").text("contact").end_row();
+/// An event's time over a parameter: from (p, t) by (dp, dt).
+struct Tangent {
+  double p, t, dp, dt;
+  int contact;  ///< from 1; 0: a load
+};
+
+const Table<Tangent>& tangent_table() {
+  static const Table<Tangent> table = {{"p", &Tangent::p},
+                                       {"t", &Tangent::t},
+                                       {"dp", &Tangent::dp},
+                                       {"dt", &Tangent::dt},
+                                       {"contact", &Tangent::contact}};
+  return table;
+}
+
+std::vector<Tangent> tangents_of(const Sensitivities& s, std::size_t p, double span) {
+  std::vector<Tangent> list;
   for (std::size_t i = 0; i < std::min(s.events.size(), first_events); ++i) {
     const double rate = s.event_rates[i][p].t;
     if (!std::isfinite(rate)) continue;
-    block.number(s.parameters[p].value - span).number(s.events[i].t - span * rate);
-    block.number(2.0 * span).number(2.0 * span * rate);
-    block.text(std::to_string(s.events[i].contact + 1)).end_row();
+    list.push_back({s.parameters[p].value - span, s.events[i].t - span * rate, 2.0 * span, 2.0 * span * rate,
+                    s.events[i].contact + 1});
   }
-  return block.str();
+  return list;
 }
 
 std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder, const PictureLook& look) {
   const Parameter& parameter = s.parameters[p];
   const double span = span_of(s, p);
   const std::string name = fmt::format("times-{}", p + 1);
-  write_file(folder / (name + ".csv"), tangent_table(s, p, span));
+  write_file(folder / (name + ".csv"), tangent_table().text(tangents_of(s, p, span)));
   const PlottedRun run = facts_of(s, look);
   const Canvas canvas = canvas_of(run.look, 760, false);
   std::string text =
@@ -195,12 +220,15 @@ std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder,
                       arrow++, shortest(parameter.value + swap.change), falling);
   std::vector<std::string> elements;
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
+  const Table<Tangent>& table = tangent_table();
   for (std::size_t c = 0; c <= count; ++c) {
     const std::string title = c == 0 ? "" : s.contacts[c - 1];
-    elements.push_back(fmt::format(
-        "'{}.csv' skip 1 using 1:2:($5 == {} ? $3 : NaN):4 with vectors nohead linewidth 1.2 "
-        "linecolor '{}' {}",
-        name, c, c == 0 ? "#808080" : contact_colours[c - 1], c == 0 ? "notitle" : "title " + quoted(title)));
+    elements.push_back(
+        fmt::format("'{}.csv' skip 1 using {}:{}:({} == {} ? {} : NaN):{} with vectors nohead linewidth 1.2 "
+                    "linecolor '{}' {}",
+                    name, table.number("p"), table.number("t"), table.value("contact"), c, table.value("dp"),
+                    table.number("dt"), c == 0 ? "#808080" : contact_colours[c - 1],
+                    c == 0 ? "notitle" : "title " + quoted(title)));
   }
   elements.push_back(
       fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
@@ -219,11 +247,8 @@ std::string sequence(const Sensitivities& s, const fs::path& folder, const Pictu
   if (bars.empty()) return {};
   sort_bars(bars);
   std::reverse(bars.begin(), bars.end());  // the least change on top
-  CsvBlock block;
-  block.text("place").text("per_cent").text("parameter").end_row();
-  for (std::size_t i = 0; i < bars.size(); ++i)
-    block.text(std::to_string(i + 1)).number(bars[i].length).text(bars[i].name).end_row();
-  write_file(folder / "sequence.csv", block.str());
+  const Table<PlacedBar> table = bar_table("per_cent");
+  write_file(folder / "sequence.csv", table.text(placed(bars)));
   const PlottedRun run = facts_of(s, look);
   const Canvas canvas = canvas_of(
       run.look, room_above + room_below + 38.0 + 30.0 * static_cast<double>(bars.size()), false, true);
@@ -232,13 +257,13 @@ std::string sequence(const Sensitivities& s, const fs::path& folder, const Pictu
   text += panel(run, canvas, stacked(0, 1, canvas), "", true) + wide_margin();
   text += "set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\nset xrange [*:*]\n" +
           bar_ticks(bars);
-  const std::string point =
-      "'sequence.csv' skip 1 using ($2 {0} 0 ? abs($2) : NaN):1 with points pointtype 7 pointsize 1.4 "
-      "linecolor '{1}' "
-      "title '{2}'";
-  return text +
-         plot_command({fmt::format(fmt::runtime(point), ">", rising, "upwards"),
-                       fmt::format(fmt::runtime(point), "<", falling, "downwards")}) +
+  const auto points = [&](const char* sign, const char* colour, const char* title) {
+    return fmt::format(
+        "'sequence.csv' skip 1 using ({3} {0} 0 ? abs({3}) : NaN):{4} with points pointtype 7 pointsize 1.4 "
+        "linecolor '{1}' title '{2}'",
+        sign, colour, title, table.value("per_cent"), table.number("place"));
+  };
+  return text + plot_command({points(">", rising, "upwards"), points("<", falling, "downwards")}) +
          end_script();
 }
 

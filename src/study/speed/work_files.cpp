@@ -8,7 +8,7 @@
 
 #include "base/number.hpp"
 #include "base/version.hpp"
-#include "result/csv.hpp"
+#include "result/table.hpp"
 #include "result/units_json.hpp"
 #include "study/compare/limits.hpp"
 #include "study/figures.hpp"
@@ -68,41 +68,45 @@ ErrorRange range_of(const WorkReport& report, const std::string& quantity) {
   return found == report.range.end() ? ErrorRange() : found->second;
 }
 
+/// study.csv
 std::string study_csv(const WorkReport& report) {
-  CsvBlock block;
-  for (const char* name : {"run", "engine", "setting", "line", "reference", "outcome", "reason", "t",
-                           "events", "events_of_reference", "alike", "complete", "t_split", "split"})
-    block.text(name);
+  using R = WorkRow;
+  const auto error_of = [](const std::string& quantity, double WorkError::*value) {
+    return [quantity, value](const R& r) {
+      const WorkError* error = r.error(quantity);
+      return error ? std::optional(error->*value) : std::nullopt;
+    };
+  };
+  Table<R> table = {{"run", [](const R& r) { return r.point.name(); }},
+                    {"engine", [](const R& r) { return r.point.engine; }},
+                    {"setting", [](const R& r) { return r.point.setting(); }},
+                    {"line", [](const R& r) { return r.point.line(); }},
+                    {"reference", [](const R& r) { return r.reference ? "true" : "false"; }},
+                    {"outcome", &R::outcome},
+                    {"reason", &R::reason},
+                    {"t", &R::t},
+                    {"events", &R::events},
+                    {"events_of_reference", &R::events_of_reference},
+                    {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
+                    {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
+                    {"t_split", &R::t_split},
+                    {"split", &R::split}};
   std::vector<std::string> names = quantity_names();
   for (std::string& name : response_names(report)) names.push_back(std::move(name));
-  for (const std::string& name : names) block.text(name);
-  for (const char* name : {"displacement_whole_run", "wall_time", "wall_time_max", "repeats", "steps",
-                           "factorisations", "solves", "restarts", "energy_balance"})
-    block.text(name);
-  block.end_row();
-  for (const WorkRow& row : report.rows) {
-    const bool ran = row.t.has_value();
-    block.text(row.point.name()).text(row.point.engine).text(row.point.setting()).text(row.point.line());
-    block.text(row.reference ? "true" : "false").text(row.outcome).text(row.reason).number(row.t);
-    block.number(number_of(row.events)).number(number_of(row.events_of_reference));
-    block.number(ran ? std::optional(static_cast<double>(row.alike)) : std::nullopt);
-    block.text(row.complete() ? "true" : "false").number(row.t_split).text(row.split);
-    for (const std::string& name : names) {
-      const WorkError* error = row.error(name);
-      block.number(error ? std::optional(error->value) : std::nullopt);
-    }
-    const WorkError* displacement = row.error("displacement");
-    block.number(displacement ? std::optional(displacement->whole) : std::nullopt);
-    block.number(row.wall_time());
-    block.number(row.wall_times.empty()
-                     ? std::nullopt
-                     : std::optional(*std::max_element(row.wall_times.begin(), row.wall_times.end())));
-    block.number(static_cast<double>(row.wall_times.size()));
-    for (const auto& count : {row.steps, row.factorisations, row.solves, row.restarts})
-      block.number(number_of(count));
-    block.number(row.balance).end_row();
-  }
-  return block.str();
+  for (const std::string& name : names) table.add(name, error_of(name, &WorkError::value));
+  table.add("displacement_whole_run", error_of("displacement", &WorkError::whole));
+  table.add("wall_time", &R::wall_time);
+  table.add("wall_time_max", [](const R& r) {
+    const auto greatest = std::max_element(r.wall_times.begin(), r.wall_times.end());
+    return greatest == r.wall_times.end() ? std::nullopt : std::optional(*greatest);
+  });
+  table.add("repeats", [](const R& r) { return r.wall_times.size(); });
+  table.add("steps", &R::steps);
+  table.add("factorisations", &R::factorisations);
+  table.add("solves", &R::solves);
+  table.add("restarts", &R::restarts);
+  table.add("energy_balance", &R::balance);
+  return table.text(report.rows);
 }
 
 Json row_json(const WorkRow& row) {

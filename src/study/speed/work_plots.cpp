@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "result/table.hpp"
 
 namespace signorini {
 
@@ -42,21 +42,22 @@ std::vector<Line> lines_of(const WorkReport& report) {
   return lines;
 }
 
-std::string line_table(const Line& line) {
-  CsvBlock block;
-  block.text("setting").text("complete").text("wall_time");
-  for (const char* name : drawn) block.text(name);
-  block.end_row();
-  for (const WorkRow* row : line.rows) {
-    block.text(row->point.setting()).number(row->complete() ? 1.0 : 0.0).number(row->wall_time());
-    for (const char* name : drawn) {
-      const WorkError* error = row->error(name);
-      const double value = error == nullptr ? NAN : row->complete() ? error->value : error->whole;
-      block.number(std::isfinite(value) ? std::optional(value) : std::nullopt);
-    }
-    block.end_row();
-  }
-  return block.str();
+/// line-N.csv.
+const Table<const WorkRow*>& line_table() {
+  using R = const WorkRow*;
+  static const Table<R> table = [] {
+    Table<R> t = {{"setting", [](R row) { return row->point.setting(); }},
+                  {"complete", [](R row) { return row->complete() ? 1.0 : 0.0; }},
+                  {"wall_time", [](R row) { return row->wall_time(); }}};
+    for (const char* name : drawn)
+      t.add(name, [name](R row) {
+        const WorkError* error = row->error(name);
+        const double value = error == nullptr ? NAN : row->complete() ? error->value : error->whole;
+        return std::isfinite(value) ? std::optional(value) : std::nullopt;
+      });
+    return t;
+  }();
+  return table;
 }
 
 struct Axis {
@@ -105,18 +106,20 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
     s += "set yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
     std::vector<std::string> elements;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const int column = 4 + static_cast<int>(quantity);
+      const Table<const WorkRow*>& table = line_table();
       const std::string data = fmt::format("'line-{}.csv' skip 1 using (", k + 1);
-      const std::string x =
-          fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN", column, shortest(axis.floor));
+      const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
+                                        table.number(drawn[quantity]), shortest(axis.floor));
+      const std::string complete = table.value("complete");
+      const std::size_t time = table.number("wall_time");
       const std::string colour = colours[k % colours.size()];
-      elements.push_back(data +
-                         fmt::format("$2 == 1 ? ({}) : NaN):3 with linespoints linewidth 2 pointtype {} "
-                                     "pointsize 0.9 linecolor '{}' title {}",
-                                     x, symbols[k % symbols.size()], colour, quoted(lines[k].label)));
-      elements.push_back(data + fmt::format("$2 == 0 ? ({}) : NaN):3 with points pointtype {} pointsize 1.4 "
+      elements.push_back(
+          data + fmt::format("{} == 1 ? ({}) : NaN):{} with linespoints linewidth 2 pointtype {} "
+                             "pointsize 0.9 linecolor '{}' title {}",
+                             complete, x, time, symbols[k % symbols.size()], colour, quoted(lines[k].label)));
+      elements.push_back(data + fmt::format("{} == 0 ? ({}) : NaN):{} with points pointtype {} pointsize 1.4 "
                                             "linewidth 1.1 linecolor '{}' notitle",
-                                            x, symbols[k % symbols.size()] - 1, colour));
+                                            complete, x, time, symbols[k % symbols.size()] - 1, colour));
     }
     s += plot_command(elements);
   }
@@ -141,7 +144,7 @@ std::vector<fs::path> write_work_plots(const fs::path& directory, const WorkRepo
   begin_plot_folder(folder, is_picture_of_work);
   if (axes.empty()) return {};
   for (std::size_t k = 0; k < lines.size(); ++k)
-    write_file(folder / fmt::format("line-{}.csv", k + 1), line_table(lines[k]));
+    write_file(folder / fmt::format("line-{}.csv", k + 1), line_table().text(lines[k].rows));
   write_file(folder / "work-precision.gp", script(report, lines, axes));
   return {folder / "work-precision.gp"};
 }

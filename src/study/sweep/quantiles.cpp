@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "result/csv.hpp"
+#include "result/table.hpp"
 
 namespace signorini {
 namespace {
@@ -61,17 +61,26 @@ double clopper_pearson(std::size_t m, std::size_t n, bool lower) {
   }
 }
 
-void keys_of(CsvBlock& block, const SweepSpec& spec, const Sampled& s) {
-  block.text(spec.responses[s.query]).text(spec.response_units[s.query]);
-  for (const std::string& value : s.values) block.text(value);
-}
+/// A row that says of which answer it is.
+template <class Figures>
+struct AnswerRow {
+  const Sampled& of;
+  Figures figures;
+};
 
-void header(CsvBlock& block, const SweepSpec& spec, std::initializer_list<const char*> names) {
-  block.text("quantity").text("unit");
+/// Quantity, its unit and the keys that are not sampled.
+template <class Figures>
+Table<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
+  using R = AnswerRow<Figures>;
+  Table<R> table = {{"quantity", [&spec](const R& r) { return spec.responses[r.of.query]; }},
+                    {"unit", [&spec](const R& r) { return spec.response_units[r.of.query]; }}};
+  std::size_t key = 0;
   for (const Vary& vary : spec.vary)
-    if (!vary.sampled) block.text(vary.path);
-  for (const char* name : names) block.text(name);
-  block.end_row();
+    if (!vary.sampled) {
+      table.add(vary.path, [key](const R& r) { return r.of.values[key]; });
+      ++key;
+    }
+  return table;
 }
 
 }  // namespace
@@ -133,29 +142,37 @@ std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& row
 }
 
 std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
-  CsvBlock block;
-  header(block, spec, {"n", "missing", "probability", "value", "low", "high"});
-  for (const Sampled& s : answers) {
-    if (s.sorted.empty()) continue;
-    for (const double p : quantile_levels) {
-      const Quantile q = quantile(s.sorted, p, independent(spec));
-      keys_of(block, spec, s);
-      block.number(static_cast<double>(s.sorted.size())).number(static_cast<double>(s.missing));
-      block.number(p).number(q.value).number(q.low).number(q.high).end_row();
-    }
-  }
-  return block.str();
+  using R = AnswerRow<Quantile>;
+  Table<R> table = answer_table<Quantile>(spec);
+  table.add("n", [](const R& r) { return r.of.sorted.size(); });
+  table.add("missing", [](const R& r) { return r.of.missing; });
+  table.add("probability", [](const R& r) { return r.figures.probability; });
+  table.add("value", [](const R& r) { return r.figures.value; });
+  table.add("low", [](const R& r) { return r.figures.low; });
+  table.add("high", [](const R& r) { return r.figures.high; });
+  std::vector<R> rows;
+  for (const Sampled& s : answers)
+    if (!s.sorted.empty())
+      for (const double p : quantile_levels) rows.push_back({s, quantile(s.sorted, p, independent(spec))});
+  return table.text(rows);
+}
+
+const Table<Exceedance>& exceedance_columns() {
+  using E = Exceedance;
+  static const Table<E> table = {
+      {"value", &E::value}, {"probability", &E::probability}, {"low", &E::low}, {"high", &E::high}};
+  return table;
 }
 
 std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
-  CsvBlock block;
-  header(block, spec, {"value", "probability", "low", "high"});
+  using R = AnswerRow<Exceedance>;
+  Table<R> table = answer_table<Exceedance>(spec);
+  for (const auto& column : exceedance_columns().columns())
+    table.add_put(column.name, [&column](CsvBlock& block, const R& r) { column.put(block, r.figures); });
+  std::vector<R> rows;
   for (const Sampled& s : answers)
-    for (const Exceedance& e : exceedance(s.sorted, independent(spec))) {
-      keys_of(block, spec, s);
-      block.number(e.value).number(e.probability).number(e.low).number(e.high).end_row();
-    }
-  return block.str();
+    for (const Exceedance& e : exceedance(s.sorted, independent(spec))) rows.push_back({s, e});
+  return table.text(rows);
 }
 
 }  // namespace signorini

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "result/table.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace signorini {
@@ -33,6 +34,8 @@ struct Exceedance {
   double value = 0.0, probability = 0.0;  ///< of being greater
   std::optional<double> low, high;
 };
+/// Its columns in tables.
+[[nodiscard]] const Table<Exceedance>& exceedance_columns();
 /// At no more than 200 of the values.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 

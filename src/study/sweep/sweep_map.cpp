@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
 #include "result/plot_parts.hpp"
 #include "study/key_unit.hpp"
 
@@ -75,66 +74,61 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
   return MapAxes{several[0], several[1]};
 }
 
-std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
+Table<MapCell> map_table(const SweepSpec& spec) {
+  using C = MapCell;
+  Table<C> table = {
+      {"x0", &C::x0}, {"x1", &C::x1}, {"y0", &C::y0}, {"y1", &C::y1}, {"events", [](const C& c) {
+                                                                         return c.row.changes();
+                                                                       }}};
+  for (const SweepFigure& figure : sweep_figures)
+    table.add(figure.name, [&figure](const C& c) { return c.greatest.*figure.value; });
+  for (std::size_t i = 0; i < spec.responses.size(); ++i)
+    table.add(spec.responses[i], [i](const C& c) { return c.row.response(i); });
+  return table;
+}
+
+std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
   const std::vector<double> x = values_of(spec.vary[axes.x]), y = values_of(spec.vary[axes.y]);
-  CsvBlock block;
-  for (const char* name :
-       {"x0", "x1", "y0", "y1", "events", "peak_t", "peak_n", "peak_N", "peak_T", "friction_work"})
-    block.text(name);
-  for (const std::string& response : spec.responses) block.text(response);
-  block.end_row();
+  std::vector<MapCell> cells;
   for (const auto& [index, row] : rows) {
     if (!row.ran()) continue;
     const auto [x0, x1] = cell(x, *parse_number(row.values[axes.x]));
     const auto [y0, y1] = cell(y, *parse_number(row.values[axes.y]));
     SweepRow::Contact greatest;
-    for (const SweepRow::Contact& c : row.contacts) {
-      greatest.tangential = std::max(greatest.tangential, c.tangential);
-      greatest.normal = std::max(greatest.normal, c.normal);
-      greatest.N = std::max(greatest.N, c.N);
-      greatest.T = std::max(greatest.T, c.T);
-      greatest.friction = std::max(greatest.friction, c.friction);
-    }
-    block.number(x0).number(x1).number(y0).number(y1).number(static_cast<double>(row.changes()));
-    block.number(greatest.tangential).number(greatest.normal).number(greatest.N).number(greatest.T);
-    block.number(greatest.friction);
-    for (std::size_t i = 0; i < spec.responses.size(); ++i) {
-      const bool known = i < row.responses.size() && std::isfinite(row.responses[i]);
-      block.number(known ? std::optional<double>(row.responses[i]) : std::nullopt);
-    }
-    block.end_row();
+    for (const SweepRow::Contact& c : row.contacts)
+      for (const SweepFigure& figure : sweep_figures)
+        greatest.*figure.value = std::max(greatest.*figure.value, c.*figure.value);
+    cells.push_back({x0, x1, y0, y1, row, greatest});
   }
-  return block.str();
+  return cells;
 }
 
-Borders border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
+const Table<Border>& border_table() {
+  static const Table<Border> table = {
+      {"x0", &Border::x0}, {"y0", &Border::y0}, {"x1", &Border::x1}, {"y1", &Border::y1}};
+  return table;
+}
+
+Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows) {
   const std::vector<double> x = values_of(spec.vary[axes.x]), y = values_of(spec.vary[axes.y]);
   std::map<std::pair<double, double>, const std::string*> sequences;
   for (const auto& [index, row] : rows)
     if (row.ran())
       sequences[{*parse_number(row.values[axes.x]), *parse_number(row.values[axes.y])}] = &row.sequence;
   Borders borders;
-  CsvBlock block;
-  for (const char* name : {"x0", "y0", "x1", "y1"}) block.text(name);
-  block.end_row();
   const auto differ = [&](double xa, double ya, double xb, double yb) {
     const auto a = sequences.find({xa, ya}), b = sequences.find({xb, yb});
     if (a == sequences.end() || b == sequences.end()) return false;
     ++borders.neighbours;
-    const bool parted = *a->second != *b->second;
-    borders.count += parted ? 1 : 0;
-    return parted;
+    return *a->second != *b->second;
   };
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < y.size(); ++j) {
       const auto [x0, x1] = cell(x, x[i]);
       const auto [y0, y1] = cell(y, y[j]);
-      if (i + 1 < x.size() && differ(x[i], y[j], x[i + 1], y[j]))
-        block.number(x1).number(y0).number(x1).number(y1).end_row();
-      if (j + 1 < y.size() && differ(x[i], y[j], x[i], y[j + 1]))
-        block.number(x0).number(y1).number(x1).number(y1).end_row();
+      if (i + 1 < x.size() && differ(x[i], y[j], x[i + 1], y[j])) borders.sides.push_back({x1, y0, x1, y1});
+      if (j + 1 < y.size() && differ(x[i], y[j], x[i], y[j + 1])) borders.sides.push_back({x0, y1, x1, y1});
     }
-  borders.table = block.str();
   return borders;
 }
 
@@ -146,6 +140,8 @@ std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::st
   run.facts.title = spec.title;
   run.facts.outcome = "done";
   run.facts.units = spec.units;
+  const Table<MapCell> cells = map_table(spec);
+  const Table<Border>& sides = border_table();
   const std::size_t count = panels.size();
   const Canvas canvas = canvas_of(run.look, 148.0 + 380.0 * static_cast<double>(count), false);
   std::string s = begin_script(run, {name, subtitle, canvas, false});
@@ -160,14 +156,17 @@ std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::st
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen 0.018, screen {:.4f}\n",
         canvas.right() + 22.0 / canvas.width, edges.bottom, edges.top - edges.bottom);
     s += "set cblabel " + quoted(shown.label) + " offset character 1,0\n";
-    std::vector<std::string> elements{
-        fmt::format("'map.csv' skip 1 using (0.5*($1+$2)):(0.5*($3+$4)):1:2:3:4:{} with boxxyerror "
-                    "fillstyle solid 1.0 noborder fillcolor palette notitle",
-                    shown.column)};
+    std::vector<std::string> elements{fmt::format(
+        "'map.csv' skip 1 using (0.5*({0}+{1})):(0.5*({2}+{3})):{4}:{5}:{6}:{7}:{8} with "
+        "boxxyerror fillstyle solid 1.0 noborder fillcolor palette notitle",
+        cells.value("x0"), cells.value("x1"), cells.value("y0"), cells.value("y1"), cells.number("x0"),
+        cells.number("x1"), cells.number("y0"), cells.number("y1"), cells.number(shown.column))};
     if (borders)
-      elements.emplace_back(
-          "'borders.csv' skip 1 using 1:2:($3-$1):($4-$2) with vectors nohead linewidth 1.6 linecolor "
-          "'#d95f02' notitle");
+      elements.push_back(fmt::format(
+          "'borders.csv' skip 1 using {}:{}:({}-{}):({}-{}) with vectors nohead linewidth 1.6 linecolor "
+          "'#d95f02' notitle",
+          sides.number("x0"), sides.number("y0"), sides.value("x1"), sides.value("x0"), sides.value("y1"),
+          sides.value("y0")));
     s += plot_command(elements);
   }
   return s + end_script();

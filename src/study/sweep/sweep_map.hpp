@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "result/picture_look.hpp"
+#include "result/table.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace signorini {
@@ -25,20 +26,31 @@ struct MapAxes {
 /// Nothing unless two keys, and no more, have several values, three or more each, and all of them numbers.
 [[nodiscard]] std::optional<MapAxes> map_axes(const SweepSpec& spec);
 
-/// Cells without a run have no row.
-[[nodiscard]] std::string map_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
+/// map.csv: a cell and what its run gave; cells without a run have no row.
+struct MapCell {
+  double x0, x1, y0, y1;
+  const SweepRow& row;
+  SweepRow::Contact greatest;  ///< of all contacts
+};
+[[nodiscard]] Table<MapCell> map_table(const SweepSpec& spec);
+[[nodiscard]] std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes,
+                                             const SweepRows& rows);
 
 /// The sides that part regions of equal sequences of events; of cells without a run none.
-struct Borders {
-  std::string table;
-  std::size_t count = 0, neighbours = 0;  ///< sides in the table; sides between cells that ran
+struct Border {
+  double x0, y0, x1, y1;
 };
-[[nodiscard]] Borders border_table(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
+struct Borders {
+  std::vector<Border> sides;
+  std::size_t neighbours = 0;  ///< sides between cells that ran
+};
+/// borders.csv.
+[[nodiscard]] const Table<Border>& border_table();
+[[nodiscard]] Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
-/// A figure and its column in map.csv, from 1.
+/// A figure and its column in map.csv.
 struct MapPanel {
-  std::string label;
-  int column = 0;
+  std::string label, column;
 };
 [[nodiscard]] std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
                                      const std::string& subtitle, const std::vector<MapPanel>& panels,

@@ -9,9 +9,9 @@
 #include <system_error>
 
 #include "base/number.hpp"
-#include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "result/table.hpp"
 #include "study/key_unit.hpp"
 #include "study/sweep/quantiles.hpp"
 #include "study/sweep/sweep_map.hpp"
@@ -93,46 +93,43 @@ std::string other_keys(const SweepSpec& spec, const Axis& axis) {
   return text;
 }
 
-std::string curve_table(const SweepSpec& spec, const Curve& curve, const Axis& axis,
-                        const std::vector<std::string>& contacts) {
-  CsvBlock block;
-  block.text("x").text("events");
+/// curve-N.csv: a row of the sweep, its x, and figures of contacts.
+Table<const SweepRow*> curve_table(const SweepSpec& spec, const Axis& axis,
+                                   const std::vector<std::string>& contacts) {
+  Table<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
+                                  {"events", [](const SweepRow* row) { return row->changes(); }}};
   for (const std::string& name : contacts)
-    for (const char* figure : {".peak_t", ".peak_n", ".peak_N", ".peak_T", ".friction_work"})
-      block.text(name + figure);
-  for (const std::string& response : spec.responses) block.text(response);
-  block.end_row();
-  // A range may fall, a list has any order; lines run from left to right.
+    for (const SweepFigure& figure : sweep_figures)
+      table.add(name + "." + figure.name, [name, &figure](const SweepRow* row) {
+        const SweepRow::Contact* contact = contact_of(*row, name);
+        return contact ? std::optional(contact->*figure.value) : std::nullopt;
+      });
+  for (std::size_t i = 0; i < spec.responses.size(); ++i)
+    table.add(spec.responses[i], [i](const SweepRow* row) { return row->response(i); });
+  return table;
+}
+
+/// A range may fall, a list has any order; lines run from left to right.
+std::vector<const SweepRow*> from_left(const Curve& curve, const Axis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
     return parse_number(axis.x(*a)) < parse_number(axis.x(*b));
   });
-  for (const SweepRow* row : rows) {
-    block.text(axis.x(*row)).number(static_cast<double>(row->changes()));
-    for (const std::string& name : contacts) {
-      const SweepRow::Contact* c = contact_of(*row, name);
-      const auto figure = [&](double value) { return c ? std::optional<double>(value) : std::nullopt; };
-      const SweepRow::Contact none, &from = c ? *c : none;
-      for (const double value : {from.tangential, from.normal, from.N, from.T, from.friction})
-        block.number(figure(value));
-    }
-    for (const double value : row->responses)
-      block.number(std::isfinite(value) ? std::optional<double>(value) : std::nullopt);
-    block.end_row();
-  }
-  return block.str();
+  return rows;
 }
 
 struct Panel {
+  enum class Kind { events, contacts, answer };
   std::string label;
-  int figure;  ///< 0: events; 1 to 5: of each contact; below 0: the answer -figure, counted from 1
+  Kind kind;
+  std::string column = "events";  ///< of curve-N.csv; of contacts: what follows their names
 };
 
 class Script {
  public:
   Script(const SweepSpec& spec, const Axis& axis, const std::vector<Curve>& combinations,
          const std::vector<std::string>& contacts, const PictureLook& look)
-      : axis_(axis), curves_(combinations), contacts_(contacts) {
+      : axis_(axis), curves_(combinations), contacts_(contacts), table_(curve_table(spec, axis, contacts)) {
     run_.look = look;
     run_.facts.title = spec.title;
     run_.facts.outcome = "done";
@@ -147,7 +144,7 @@ class Script {
     s += "set offsets 0,0,graph 0.05,0\n" + x_range();
     for (std::size_t i = 0; i < count; ++i) {
       s += panel(run_, canvas, stacked(i, count, canvas, 26.0), panels[i].label, i + 1 == count);
-      s += panels[i].figure < 0 ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
+      s += panels[i].kind == Panel::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
       if (!axis_.numbers) s += ticks(i + 1 == count);
       if (i + 1 == count)
         s += "set xlabel " + quoted(key_with_unit(axis_.vary->path, run_.facts.units)) + "\n";
@@ -180,27 +177,27 @@ class Script {
 
   [[nodiscard]] std::vector<std::string> elements(const Panel& panel) const {
     std::vector<std::string> list;
-    const std::size_t curves = panel.figure <= 0 ? 1 : contacts_.size();
+    const bool of_contacts = panel.kind == Panel::Kind::contacts;
+    const std::size_t curves = of_contacts ? contacts_.size() : 1;
     for (std::size_t k = 0; k < curves; ++k) {
       for (std::size_t c = 0; c < curves_.size() && list.size() < most_curves; ++c) {
-        const int column = panel.figure == 0  ? 2
-                           : panel.figure < 0 ? 2 + static_cast<int>(5 * contacts_.size()) - panel.figure
-                                              : 2 + static_cast<int>(5 * k) + panel.figure;
-        const bool alone = panel.figure <= 0 || (contacts_.size() == 1 && curves_.size() > 1);
-        std::string title = panel.figure == 0 ? (curves_.size() == 1 ? "events" : "")
-                            : alone           ? ""
-                                              : contacts_[k];
+        const std::size_t column = table_.number((of_contacts ? contacts_[k] + "." : "") + panel.column);
+        const bool alone = !of_contacts || (contacts_.size() == 1 && curves_.size() > 1);
+        std::string title = panel.kind == Panel::Kind::events ? (curves_.size() == 1 ? "events" : "")
+                            : alone                           ? ""
+                                                              : contacts_[k];
         if (!curves_[c].name.empty()) title += (title.empty() ? "" : ", ") + curves_[c].name;
         // Colour says which contact, or which values of the other keys where there are several.
         const std::size_t colour = curves_.size() > 1 ? c : k;
         // Curves that coincide show through: later ones are thinner and dashed, on top.
         const std::size_t i = list.size();
-        list.push_back(fmt::format(
-            "'curve-{}.csv' skip 1 using 1:{} with linespoints linewidth {:.1f} pointtype {} pointsize 0.7{} "
-            "linecolor '{}' title {}",
-            c + 1, column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 5 + 2 * static_cast<int>(i % 5),
-            i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1), colours[colour % colours.size()],
-            signorini::quoted(title)));
+        list.push_back(
+            fmt::format("'curve-{}.csv' skip 1 using {}:{} with linespoints linewidth {:.1f} pointtype {} "
+                        "pointsize 0.7{} "
+                        "linecolor '{}' title {}",
+                        c + 1, table_.number("x"), column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)),
+                        5 + 2 * static_cast<int>(i % 5), i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1),
+                        colours[colour % colours.size()], signorini::quoted(title)));
       }
     }
     return list;
@@ -209,6 +206,7 @@ class Script {
   const Axis& axis_;
   const std::vector<Curve>& curves_;
   const std::vector<std::string>& contacts_;
+  Table<const SweepRow*> table_;
   PlottedRun run_;
 };
 
@@ -249,22 +247,20 @@ std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepS
     std::vector<std::string> elements;
     for (std::size_t k = 0; k < answers.size() && elements.size() < most_curves; ++k) {
       if (answers[k].query != i || !drawn(answers[k])) continue;
-      CsvBlock block;
-      block.text("value").text("probability").text("low").text("high").end_row();
-      for (const Exceedance& e : exceedance(answers[k].sorted, independent(spec)))
-        block.number(e.value).number(e.probability).number(e.low).number(e.high).end_row();
+      const Table<Exceedance>& table = exceedance_columns();
       const std::string name = fmt::format("exceedance-{}.csv", k + 1);
-      write_file(folder / name, block.str());
+      write_file(folder / name, table.text(exceedance(answers[k].sorted, independent(spec))));
       std::string title;
       for (const std::string& value : answers[k].values) title += (title.empty() ? "" : ", ") + value;
       const char* colour = colours[elements.size() % colours.size()];
       if (independent(spec) && answers.size() == spec.responses.size())
         elements.push_back(
-            fmt::format("'{}' skip 1 using 1:3:4 with filledcurves fillstyle solid 0.2 noborder "
+            fmt::format("'{}' skip 1 using {}:{}:{} with filledcurves fillstyle solid 0.2 noborder "
                         "linecolor '{}' title '95 % confidence'",
-                        name, colour));
-      elements.push_back(fmt::format("'{}' skip 1 using 1:2 with steps linewidth 1.8 linecolor '{}' title {}",
-                                     name, colour, signorini::quoted(title)));
+                        name, table.number("value"), table.number("low"), table.number("high"), colour));
+      elements.push_back(
+          fmt::format("'{}' skip 1 using {}:{} with steps linewidth 1.8 linecolor '{}' title {}", name,
+                      table.number("value"), table.number("probability"), colour, signorini::quoted(title)));
     }
     s += plot_command(elements);
   }
@@ -284,17 +280,19 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return {};
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_sweep);
+  const Table<const SweepRow*> table = curve_table(spec, axis, contacts);
   for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
-    write_file(folder / fmt::format("curve-{}.csv", i + 1), curve_table(spec, list[i], axis, contacts));
+    write_file(folder / fmt::format("curve-{}.csv", i + 1), table.text(from_left(list[i], axis)));
 
   const std::optional<MapAxes> axes = map_axes(spec);
   bool borders = false, differ = false;
   if (axes) {
-    write_file(folder / "map.csv", map_table(spec, *axes, rows));
-    const Borders sides = border_table(spec, *axes, rows);
-    differ = sides.count > 0;
-    borders = differ && 2 * sides.count <= sides.neighbours;  // lines around most cells would say nothing
-    if (borders) write_file(folder / "borders.csv", sides.table);
+    write_file(folder / "map.csv", map_table(spec).text(map_cells(spec, *axes, rows)));
+    const Borders found = borders_of(spec, *axes, rows);
+    differ = !found.sides.empty();
+    borders =
+        differ && 2 * found.sides.size() <= found.neighbours;  // around most cells they would say nothing
+    if (borders) write_file(folder / "borders.csv", border_table().text(found.sides));
   }
   const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
@@ -309,24 +307,29 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
       return;
     }
     std::vector<MapPanel> maps;
-    for (const Panel& p : panels) maps.push_back({p.label, p.figure < 0 ? 10 - p.figure : 5 + p.figure});
+    for (const Panel& p : panels) maps.push_back({p.label, p.column});
     const std::string parts = !differ   ? ""
                               : borders ? "; lines part sequences of events"
                                         : "; most neighbours have other sequences of events";
-    const char* of = contacts.size() > 1 && panels.front().figure >= 0 ? ", greatest of all contacts" : "";
+    const char* of =
+        contacts.size() > 1 && panels.front().kind != Panel::Kind::answer ? ", greatest of all contacts" : "";
     write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders, look));
   };
   if (!spec.responses.empty()) {
     std::vector<Panel> panels;
     for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
-      panels.push_back({labelled(spec, i), -static_cast<int>(i) - 1});
+      panels.push_back({labelled(spec, i), Panel::Kind::answer, spec.responses[i]});
     add("responses", "What was asked for", panels);
   }
   if (!contacts.empty()) {
+    constexpr Panel::Kind of_contacts = Panel::Kind::contacts;
     add("motion", "Greatest motion of the contacts from the start",
-        {{"along the tangent" + length, 1}, {"along the normal" + length, 2}});
-    add("forces", "Greatest forces of the contacts", {{"|N|" + force, 3}, {"|T|" + force, 4}});
-    add("losses", "Work lost by friction, and events", {{"friction work" + energy, 5}, {"events", 0}});
+        {{"along the tangent" + length, of_contacts, "peak_t"},
+         {"along the normal" + length, of_contacts, "peak_n"}});
+    add("forces", "Greatest forces of the contacts",
+        {{"|N|" + force, of_contacts, "peak_N"}, {"|T|" + force, of_contacts, "peak_T"}});
+    add("losses", "Work lost by friction, and events",
+        {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Panel::Kind::events}});
   }
   return scripts;
 }

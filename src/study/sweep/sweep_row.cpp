@@ -74,6 +74,11 @@ double number(const Json& json, const char* key) { return number_or_none(json.at
 
 long SweepRow::changes() const { return changes_in(events); }
 
+std::optional<double> SweepRow::response(std::size_t i) const {
+  const bool known = i < responses.size() && std::isfinite(responses[i]);
+  return known ? std::optional(responses[i]) : std::nullopt;
+}
+
 SweepRow compute_row(const RowTask& task) {
   SweepRow row;
   row.index = task.index;

@@ -6,8 +6,10 @@
 // A run that cannot start, or stops early, is a row as well: its outcome and reason say so.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,21 @@ struct SweepRow {
   [[nodiscard]] bool ran() const { return outcome == "done" || outcome == "stopped"; }
   /// Without `time` rows, which mark jumps of the loads.
   [[nodiscard]] long changes() const;
+  /// To the i-th query; nothing where there is none.
+  [[nodiscard]] std::optional<double> response(std::size_t i) const;
+};
+
+/// A figure of a contact, by its name in tables.
+struct SweepFigure {
+  const char* name;
+  double SweepRow::Contact::*value;
+};
+inline constexpr std::array sweep_figures = {
+    SweepFigure{"peak_t", &SweepRow::Contact::tangential},
+    SweepFigure{"peak_n", &SweepRow::Contact::normal},
+    SweepFigure{"peak_N", &SweepRow::Contact::N},
+    SweepFigure{"peak_T", &SweepRow::Contact::T},
+    SweepFigure{"friction_work", &SweepRow::Contact::friction},
 };
 
 struct RowTask {

@@ -4,7 +4,7 @@
 #include <set>
 #include "base/json.hpp"
 
-#include "result/csv.hpp"
+#include "result/table.hpp"
 #include "result/units_json.hpp"
 #include "signorini/event.hpp"
 
@@ -12,34 +12,39 @@ namespace signorini {
 
 namespace {
 
-constexpr const char* figures[] = {"peak_t", "peak_n", "peak_N", "peak_T", "friction_work"};
-
-void row_csv(CsvBlock& block, const SweepRow& row, std::size_t responses,
-             const std::vector<std::string>& contacts) {
-  const auto if_ran = [&](double value) { return row.ran() ? std::optional<double>(value) : std::nullopt; };
-  block.number(static_cast<double>(row.index + 1));
-  for (const std::string& value : row.values) block.text(value);
-  block.text(row.outcome).number(if_ran(row.t)).text(row.reason);
-  block.number(if_ran(static_cast<double>(row.changes())));
-  for (const EventTypeName& type : all_event_types) {
-    const auto found = row.events.find(type.name);
-    block.number(if_ran(found == row.events.end() ? 0.0 : static_cast<double>(found->second)));
-  }
-  for (std::size_t i = 0; i < responses; ++i) {
-    const bool known = i < row.responses.size() && std::isfinite(row.responses[i]);
-    block.number(known ? std::optional<double>(row.responses[i]) : std::nullopt);
-  }
-  for (const std::string& name : contacts) {
-    const SweepRow::Contact* contact = contact_of(row, name);
-    if (contact == nullptr) {
-      for (std::size_t i = 0; i < std::size(figures); ++i) block.empty();
-    } else {
-      block.number(contact->tangential).number(contact->normal).number(contact->N).number(contact->T);
-      block.number(contact->friction);
-    }
-  }
-  block.number(if_ran(row.wall_time)).number(if_ran(static_cast<double>(row.steps)));
-  block.number(if_ran(row.balance)).number(if_ran(static_cast<double>(row.warnings))).end_row();
+/// sweep.csv; figures of a row without a run are empty.
+Table<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
+  using R = SweepRow;
+  const auto if_ran = [](auto figure) {
+    return [figure](const R& row) {
+      return row.ran() ? std::optional(static_cast<double>(std::invoke(figure, row))) : std::nullopt;
+    };
+  };
+  Table<R> table = {{"row", [](const R& row) { return row.index + 1; }}};
+  for (std::size_t i = 0; i < spec.vary.size(); ++i)
+    table.add(spec.vary[i].path, [i](const R& row) { return std::string_view(row.values[i]); });
+  table.add("outcome", &R::outcome);
+  table.add("t", if_ran(&R::t));
+  table.add("reason", &R::reason);
+  table.add("events", if_ran(&R::changes));
+  for (const EventTypeName& type : all_event_types)
+    table.add(type.name, if_ran([&type](const R& row) {
+                const auto found = row.events.find(type.name);
+                return found == row.events.end() ? 0L : found->second;
+              }));
+  for (std::size_t i = 0; i < spec.responses.size(); ++i)
+    table.add(spec.responses[i], [i](const R& row) { return row.response(i); });
+  for (const std::string& name : contacts)
+    for (const SweepFigure& figure : sweep_figures)
+      table.add(name + "." + figure.name, [name, &figure](const R& row) {
+        const SweepRow::Contact* contact = contact_of(row, name);
+        return contact ? std::optional(contact->*figure.value) : std::nullopt;
+      });
+  table.add("wall_time", if_ran(&R::wall_time));
+  table.add("steps", if_ran(&R::steps));
+  table.add("energy_balance", if_ran(&R::balance));
+  table.add("warnings", if_ran(&R::warnings));
+  return table;
 }
 
 }  // namespace
@@ -60,18 +65,10 @@ const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name
 }
 
 std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
-  const std::vector<std::string> contacts = contact_names(rows);
+  const Table<SweepRow> table = sweep_table(spec, contact_names(rows));
   CsvBlock block;
-  block.text("row");
-  for (const Vary& vary : spec.vary) block.text(vary.path);
-  for (const char* name : {"outcome", "t", "reason", "events"}) block.text(name);
-  for (const EventTypeName& type : all_event_types) block.text(type.name);
-  for (const std::string& response : spec.responses) block.text(response);
-  for (const std::string& contact : contacts)
-    for (const char* figure : figures) block.text(contact + "." + figure);
-  for (const char* name : {"wall_time", "steps", "energy_balance", "warnings"}) block.text(name);
-  block.end_row();
-  for (const auto& [index, row] : rows) row_csv(block, row, spec.responses.size(), contacts);
+  table.put_header(block);
+  for (const auto& [index, row] : rows) table.put_row(block, row);
   return block.str();
 }
 

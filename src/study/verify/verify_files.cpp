@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/json.hpp"
-#include "result/csv.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
+#include "result/table.hpp"
 #include "result/units_json.hpp"
 #include "study/figures.hpp"
 
@@ -46,16 +46,33 @@ const std::string& contact_of(const Model& model, const VerifiedEvent& event) {
 /// Differences may be zero, which a logarithm does not show.
 double shown(double difference) { return std::max(difference, 1e-18); }
 
-std::string plot_table(const Verification& result) {
-  CsvBlock block;
-  for (const char* name : {"t", "difference", "allowed", "bar", "exact"}) block.text(name);
-  block.end_row();
-  for (const VerifiedEvent& event : result.events) {
-    const Observation& o = event.time;
-    block.number(o.t).number(shown(o.difference())).number(shown(o.allowed())).number(shown(o.bar));
-    block.number(o.exact ? std::optional(shown(std::abs(o.ida - *o.exact))) : std::nullopt).end_row();
-  }
-  return block.str();
+/// What the picture shows of an event's time.
+const Table<VerifiedEvent>& plot_table() {
+  using E = VerifiedEvent;
+  static const Table<E> table = {
+      {"t", [](const E& e) { return e.time.t; }},
+      {"difference", [](const E& e) { return shown(e.time.difference()); }},
+      {"allowed", [](const E& e) { return shown(e.time.allowed()); }},
+      {"bar", [](const E& e) { return shown(e.time.bar); }},
+      {"exact", [](const E& e) {
+         return e.time.exact ? std::optional(shown(std::abs(e.time.ida - *e.time.exact))) : std::nullopt;
+       }}};
+  return table;
+}
+
+/// events.csv.
+Table<VerifiedEvent> verified_table(const Model& model) {
+  using E = VerifiedEvent;
+  return {{"contact", [&model](const E& e) { return std::string_view(contact_of(model, e)); }},
+          {"event", [](const E& e) { return to_string(e.type); }},
+          {"from", [](const E& e) { return to_string(e.from); }},
+          {"to", [](const E& e) { return to_string(e.to); }},
+          {"t_ida", [](const E& e) { return e.time.ida; }},
+          {"t_error", [](const E& e) { return e.time.ida_error; }},
+          {"t_richardson", [](const E& e) { return e.time.richardson; }},
+          {"bar", [](const E& e) { return e.time.bar; }},
+          {"t_exact", [](const E& e) { return e.time.exact; }},
+          {"agrees", [](const E& e) { return e.time.agrees() ? "1" : "0"; }}};
 }
 
 bool is_ours(const fs::path& file) {
@@ -97,18 +114,7 @@ std::string verify_json(const Model& model, const Verification& result) {
 }
 
 void write_verification(const fs::path& directory, const Model& model, const Verification& result) {
-  CsvBlock block;
-  for (const char* name :
-       {"contact", "event", "from", "to", "t_ida", "t_error", "t_richardson", "bar", "t_exact", "agrees"})
-    block.text(name);
-  block.end_row();
-  for (const VerifiedEvent& event : result.events) {
-    const Observation& o = event.time;
-    block.text(contact_of(model, event)).text(to_string(event.type)).text(to_string(event.from));
-    block.text(to_string(event.to)).number(o.ida).number(o.ida_error).number(o.richardson).number(o.bar);
-    block.number(o.exact).text(o.agrees() ? "1" : "0").end_row();
-  }
-  write_file(directory / "events.csv", block.str());
+  write_file(directory / "events.csv", verified_table(model).text(result.events));
   write_file(directory / "verify.json", verify_json(model, result));
 }
 
@@ -118,7 +124,7 @@ std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& 
                                         const Verification& result) {
   if (result.events.size() < 2) return {};
   const fs::path folder = directory / "plots";
-  write_file(folder / "verify.csv", plot_table(result));
+  write_file(folder / "verify.csv", plot_table().text(result.events));
   PlottedRun run;
   run.facts.title = model.title;
   run.facts.outcome = "done";
@@ -126,7 +132,10 @@ std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& 
   run.from = 0.0;
   run.to = result.events.back().time.t * 1.02;
   if (result.until < run.to) run.facts.certain_until = result.until;
-  const std::string data = "'verify.csv' skip 1 using 1:";
+  const auto data = [](const char* column) {
+    return fmt::format("'verify.csv' skip 1 using {}:{}", plot_table().number("t"),
+                       plot_table().number(column));
+  };
   const Canvas canvas = canvas_of(run.look, 620, true);
   std::string script =
       begin_script(run, {"verify",
@@ -136,10 +145,10 @@ std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& 
   script += panel(run, canvas, stacked(0, 1, canvas), "difference [" + model.units.time + "]", true);
   script += "set logscale y\nset format y '%.0e'\n";
   script += plot_command(
-      {data + "3 with lines linewidth 1.2 linecolor '#c0182b' title 'allowed'",
-       data + "4 with lines linewidth 1 dashtype 2 linecolor '#777777' title 'bar of newmark'",
-       data + "2 with points pointtype 7 pointsize 0.4 linecolor '#1a1a1a' title 'ida - limit'",
-       data + "5 with points pointtype 6 pointsize 0.4 linecolor '#1f77b4' title 'ida - exact'"});
+      {data("allowed") + " with lines linewidth 1.2 linecolor '#c0182b' title 'allowed'",
+       data("bar") + " with lines linewidth 1 dashtype 2 linecolor '#777777' title 'bar of newmark'",
+       data("difference") + " with points pointtype 7 pointsize 0.4 linecolor '#1a1a1a' title 'ida - limit'",
+       data("exact") + " with points pointtype 6 pointsize 0.4 linecolor '#1f77b4' title 'ida - exact'"});
   script += "unset logscale y\n" + end_script();
   write_file(folder / "verify.gp", script);
   return {folder / "verify.gp"};

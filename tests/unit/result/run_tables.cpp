@@ -8,14 +8,14 @@
 #include "base/json.hpp"
 #include "result/csv.hpp"
 #include "result/csv_read.hpp"
-#include "result/writers.hpp"
+#include "result/run_tables.hpp"
 #include "signorini/error.hpp"
 #include "unit/result/made_up.hpp"
 
 using namespace signorini;
 using namespace signorini::made_up;
 
-TEST_SUITE_BEGIN("unit/result/writers");
+TEST_SUITE_BEGIN("unit/result/run_tables");
 
 TEST_CASE("csv: numbers read back exactly") {
   const Folder folder;
@@ -107,18 +107,19 @@ TEST_CASE("events.csv: header, gaps of sliders, impulses, load jumps") {
   const Folder folder;
   const Model m = model();
   {
-    EventWriter writer(folder / "events.csv", m);
-    writer.write(slip(0.125));
+    TableFile<Event> table(folder / "events.csv", event_table(m));
+    table.add(slip(0.125));
     Event pad = slip(0.25);
     pad.contact = 1;
     pad.gap.reset();
     pad.impulse_n = 2.5;
     pad.guard_rate = -4.0;
     pad.t_uncertainty = 1e-9;
-    writer.write(pad);
+    table.add(pad);
     Event load;
     load.t = 0.5;
-    writer.write(load);
+    table.add(load);
+    table.flush();
   }
   CHECK(slurp(folder / "events.csv") ==
         "t,contact,event,from,to,gap,N,T,N_after,T_after,vn,vn_after,vt,vt_after,impulse_n,impulse_t,"
@@ -133,20 +134,26 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
   const Model m = model();
   struct Tables : Recorder {
     Tables(const Folder& f, const Model& model_of)
-        : history(f / "history.csv", model_of),
-          contacts(f / "contacts.csv", model_of),
-          energy(f / "energy.csv") {}
+        : model(model_of),
+          history(f / "history.csv", history_table(model_of)),
+          contacts(f / "contacts.csv", contact_table()),
+          energy(f / "energy.csv", energy_table()) {}
     void event(const Event&) override {}
     void sample(const Sample& s) override {
-      history.write(s);
-      contacts.write(s);
-      energy.write(s);
+      history.add(s);
+      for (std::size_t k = 0; k < s.contacts.size(); ++k)
+        contacts.add({s.t, model.contacts[k], s.contacts[k]});
+      energy.add(s);
     }
-    HistoryWriter history;
-    ContactWriter contacts;
-    EnergyWriter energy;
+    const Model& model;
+    TableFile<Sample> history;
+    TableFile<ContactRow> contacts;
+    TableFile<Sample> energy;
   } tables(folder, m);
   feed(tables, 0.001);
+  tables.history.flush();
+  tables.contacts.flush();
+  tables.energy.flush();
   CHECK(slurp(folder / "history.csv") == "t,A.ux,A.uy,A.vx,A.vy\n0.001,0.25,-0.5,1,0\n");
   CHECK(slurp(folder / "contacts.csv") ==
         "t,contact,state,gap,ut,vt,slip,N,T\n"
@@ -155,6 +162,25 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
   CHECK(slurp(folder / "energy.csv") ==
         "t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance\n"
         "0.001,0.5,0,0,0,0,0,0,0,0.5\n");
+}
+
+TEST_CASE("tables: columns by name, cells of every kind, numbers for gnuplot") {
+  struct Row {
+    std::string name;
+    std::optional<long> count;
+    double x;
+  };
+  Table<Row> table = {{"name", &Row::name}, {"count", &Row::count}};
+  table.add("twice", [](const Row& row) { return 2.0 * row.x; });
+  table.add_put("both", [](CsvBlock& block, const Row& row) { block.text(row.name + "!"); });
+  CHECK(table.text(std::vector<Row>{{"a, b", 3, 0.25}, {"c", std::nullopt, -1.0}}) ==
+        "name,count,twice,both\n\"a, b\",3,0.5,\"a, b!\"\nc,,-2,c!\n");
+  CHECK(table.number("twice") == 3);
+  CHECK(table.value("count") == "$2");
+  CHECK(table.word("name") == "strcol(1)");
+  CHECK_THROWS_AS((void)table.number("thrice"), std::logic_error);
+  // Pictures read both files of contacts by these places.
+  CHECK(contact_table().number("N") == 8);
 }
 
 TEST_CASE("files: a link that stands where the draft goes is not followed") {

@@ -1,0 +1,124 @@
+#include "result/run_tables.hpp"
+
+#include <variant>
+
+namespace signorini {
+
+namespace {
+
+double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // below zero: held by a support
+
+/// A member of an event: the contact as its name.
+struct EventCell {
+  CsvBlock& block;
+  const Model& model;
+
+  void operator()(double value) const { block.number(value); }
+  void operator()(const std::optional<double>& value) const { block.number(value); }
+  void operator()(int contact) const { block.text(model.contacts[static_cast<std::size_t>(contact)].name); }
+  void operator()(EventType type) const { block.text(to_string(type)); }
+  void operator()(State state) const { block.text(to_string(state)); }
+};
+
+}  // namespace
+
+Table<Event> event_table(const Model& model) {
+  Table<Event> table;
+  for (const EventColumn& column : event_columns)
+    table.add_put(column.name, [&model, &column](CsvBlock& block, const Event& event) {
+      if (event.contact < 0 && column.of_contact)
+        block.empty();
+      else
+        std::visit([&](const auto field) { EventCell{block, model}(event.*field); }, column.field);
+    });
+  return table;
+}
+
+const Table<ContactRow>& contact_table() {
+  using R = ContactRow;
+  static const Table<R> table = {
+      {"t", &R::t},
+      {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
+      {"state", [](const R& r) { return to_string(r.sample.state); }},
+      {"gap", [](const R& r) { return r.contact.has_gap() ? std::optional(r.sample.gap) : std::nullopt; }},
+      {"ut", [](const R& r) { return r.sample.ut; }},
+      {"vt", [](const R& r) { return r.sample.vt; }},
+      {"slip", [](const R& r) { return r.sample.slip; }},
+      {"N", [](const R& r) { return r.sample.N; }},
+      {"T", [](const R& r) { return r.sample.T; }},
+  };
+  return table;
+}
+
+Table<Sample> history_table(const Model& model) {
+  Table<Sample> table = {{"t", &Sample::t}};
+  for (const Column& column : model.columns)
+    table.add(column.name,
+              [&column](const Sample& s) { return at(column.velocity ? *s.v : *s.u, column.dof); });
+  return table;
+}
+
+Table<ResponseRow> response_table(const Model& model) {
+  Table<ResponseRow> table = {{"t", &ResponseRow::t}};
+  for (std::size_t i = 0; i < model.outputs.size(); ++i)
+    table.add(model.outputs[i].name, [i](const ResponseRow& r) { return r.values[i]; });
+  return table;
+}
+
+const Table<Sample>& energy_table() {
+  static const Table<Sample> table = [] {
+    Table<Sample> t = {{"t", &Sample::t}};
+    for (const EnergyColumn& column : energy_columns)
+      t.add(column.name, [&column](const Sample& s) { return s.energy.*column.value; });
+    t.add(balance_column, [](const Sample& s) { return s.energy.balance(); });
+    return t;
+  }();
+  return table;
+}
+
+const Table<CurveRow>& curve_table() {
+  using R = CurveRow;
+  static const Table<R> table = {{"curve", [](const R& r) { return std::string_view(r.curve); }},
+                                 {"t", [](const R& r) { return r.point.t; }},
+                                 {"value", [](const R& r) { return r.point.value; }}};
+  return table;
+}
+
+const Table<FrameRow>& frame_table() {
+  using R = FrameRow;
+  static const Table<R> table = {
+      {"t", &R::t},
+      {"kind", &R::kind},
+      {"element", [](const R& r) { return r.element; }},
+      {"node", [](const R& r) { return std::string_view(r.node.name); }},
+      {"x", [](const R& r) { return r.node.x; }},
+      {"y", [](const R& r) { return r.node.y; }},
+      {"ux", [](const R& r) { return at(r.u, r.node.dofs[0]); }},
+      {"uy", [](const R& r) { return at(r.u, r.node.dofs[1]); }},
+      {"rz", [](const R& r) { return at(r.u, r.node.dofs[2]); }},
+  };
+  return table;
+}
+
+const Table<FrameContactRow>& frame_contact_table() {
+  using R = FrameContactRow;
+  static const Table<R> table = {
+      {"t", &R::t},
+      {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
+      {"state", [](const R& r) { return to_string(r.sample.state); }},
+      {"node", [](const R& r) { return std::string_view(r.node.name); }},
+      {"x", [](const R& r) { return r.drawn.x; }},
+      {"y", [](const R& r) { return r.drawn.y; }},
+      {"ux", [](const R& r) { return at(r.u, r.node.dofs[0]); }},
+      {"uy", [](const R& r) { return at(r.u, r.node.dofs[1]); }},
+      {"nx", [](const R& r) { return r.drawn.nx; }},
+      {"ny", [](const R& r) { return r.drawn.ny; }},
+      {"tx", [](const R& r) { return r.drawn.tx; }},
+      {"ty", [](const R& r) { return r.drawn.ty; }},
+      {"N", [](const R& r) { return r.sample.N; }},
+      {"T", [](const R& r) { return r.sample.T; }},
+  };
+  return table;
+}
+
+}  // namespace signorini

@@ -1,0 +1,70 @@
+// run_tables.hpp: the tables of a run (docs/output.md), a column a row.
+//
+//   events.csv    the columns of signorini/event.hpp
+//   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
+//   motion.csv    the same, contact by contact
+//   history.csv   t, then the model's columns
+//   response.csv  t, then the model's outputs
+//   energy.csv    t, the columns of signorini/result.hpp, balance
+//   curves.csv    curve,t,value
+//   frames.csv, frame_contacts.csv                           deformed shapes, and the contacts in them
+//
+// Writers and pictures take columns from here, by name. A model is kept by reference.
+#pragma once
+
+#include <vector>
+
+#include "result/table.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+[[nodiscard]] Table<Event> event_table(const Model& model);
+
+/// Units: length, length/time, force.
+struct ContactRow {
+  double t;
+  const Contact& contact;
+  const ContactSample& sample;
+};
+/// contacts.csv and motion.csv.
+[[nodiscard]] const Table<ContactRow>& contact_table();
+
+[[nodiscard]] Table<Sample> history_table(const Model& model);
+
+struct ResponseRow {
+  double t;
+  const std::vector<double>& values;  ///< one an output
+};
+[[nodiscard]] Table<ResponseRow> response_table(const Model& model);
+
+[[nodiscard]] const Table<Sample>& energy_table();
+
+struct CurveRow {
+  const std::string& curve;
+  const CurvePoint& point;
+};
+[[nodiscard]] const Table<CurveRow>& curve_table();
+
+/// One of an element's nodes (`element` from 1), or a node by itself.
+struct FrameRow {
+  double t;
+  const char* kind;
+  std::optional<int> element;
+  const DrawnNode& node;
+  const Vector& u;
+};
+[[nodiscard]] const Table<FrameRow>& frame_table();
+
+/// A contact at its node; x, y: where it is drawn, undeformed.
+struct FrameContactRow {
+  double t;
+  const Contact& contact;
+  const DrawnContact& drawn;
+  const DrawnNode& node;
+  const ContactSample& sample;
+  const Vector& u;
+};
+[[nodiscard]] const Table<FrameContactRow>& frame_contact_table();
+
+}  // namespace signorini

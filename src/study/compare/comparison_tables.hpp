@@ -1,0 +1,57 @@
+// comparison_tables.hpp: the tables of a comparison that pictures draw, a column a row.
+//
+//   plots/motion-RUN.csv  t,displacement,velocity     greatest difference of any column from the reference at t
+//   plots/forces-RUN.csv  t,N,T                       of any contact
+//   events.csv            run,t_reference,t,difference,contact,event,from,to,swapped   one row an aligned pair
+#pragma once
+
+#include <string>
+
+#include "result/table.hpp"
+#include "study/compare/alignment.hpp"
+
+namespace signorini {
+
+/// Length, length/time.
+struct MotionDifference {
+  double t, displacement, velocity;
+};
+[[nodiscard]] inline const Table<MotionDifference>& motion_difference_table() {
+  using D = MotionDifference;
+  static const Table<D> table = {
+      {"t", &D::t}, {"displacement", &D::displacement}, {"velocity", &D::velocity}};
+  return table;
+}
+
+/// Forces.
+struct ForceDifference {
+  double t, N, T;
+};
+[[nodiscard]] inline const Table<ForceDifference>& force_difference_table() {
+  using D = ForceDifference;
+  static const Table<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
+  return table;
+}
+
+/// An event of the reference and the same of another run.
+struct EventPair {
+  const std::string& run;
+  const LoggedEvent& reference;
+  double t;  ///< in the other run
+  bool swapped;
+};
+[[nodiscard]] inline const Table<EventPair>& event_pair_table() {
+  using P = EventPair;
+  static const Table<P> table = {{"run", [](const P& p) { return std::string_view(p.run); }},
+                                 {"t_reference", [](const P& p) { return p.reference.t; }},
+                                 {"t", &P::t},
+                                 {"difference", [](const P& p) { return p.t - p.reference.t; }},
+                                 {"contact", [](const P& p) { return p.reference.contact; }},
+                                 {"event", [](const P& p) { return p.reference.type; }},
+                                 {"from", [](const P& p) { return p.reference.from; }},
+                                 {"to", [](const P& p) { return p.reference.to; }},
+                                 {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
+  return table;
+}
+
+}  // namespace signorini

@@ -5,7 +5,8 @@
 // K holds no contact springs. Only degrees of freedom that exist and are not fixed are numbered;
 // those whose row of M is zero are massless. Shapes: n degrees of freedom, all vectors of length n.
 // In a reduced model (`reduction` is set) they are amplitudes of modes and of static shapes; contacts and
-// loads are forms on those, columns and drawing refer to the physical degrees of freedom.
+// loads are forms on those, columns and drawing refer to the physical degrees of freedom. Of a rigid body only
+// its centre's degrees of freedom are numbered; those of nodes tied to it follow (`ties`).
 #pragma once
 
 #include <Eigen/Core>
@@ -104,9 +105,9 @@ struct DrawnNode {
   bool held = false;  ///< by a support
 };
 
-/// A beam, a bar, or a spring between two nodes; dofs at both ends.
+/// A beam, a bar, a spring between two nodes, or a line of a rigid body's outline; dofs at both ends.
 struct DrawnElement {
-  enum class Kind : unsigned char { beam, bar, spring };
+  enum class Kind : unsigned char { beam, bar, spring, rigid };
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
   int dofs[6] = {-1, -1, -1, -1, -1, -1};
   int nodes[2] = {-1, -1};  ///< indices into Model::drawn_nodes
@@ -153,6 +154,25 @@ struct Reduction {
   [[nodiscard]] Vector physical(const Vector& u) const { return shapes * u.head(shapes.cols()); }
 };
 
+/// Motions of nodes that are tied to a rigid body's centre: x_tied = rows x + what supports give, x: of the structure.
+struct Ties {
+  std::vector<Dof> dofs;  ///< physical ones: of the structure, tied ones, points that slide
+  SparseMatrix rows;      ///< tied x structure
+  /// What a support that moves adds to one of them.
+  struct Given {
+    int tied = 0;
+    History motion;
+  };
+  std::vector<Given> given;
+
+  /// Of the motion x alone.
+  [[nodiscard]] Vector with_tied(const Vector& x) const {
+    Vector result(x.size() + rows.rows());
+    result << x.head(rows.cols()), rows * x.head(rows.cols()), x.tail(x.size() - rows.cols());
+    return result;
+  }
+};
+
 struct Model {
   std::string title;
   Units units;
@@ -185,17 +205,32 @@ struct Model {
   /// Where massless motions needed a degree of freedom of their own (model/undamped.hpp): displacements of
   /// the first degrees of freedom = basis * u.
   std::optional<SparseMatrix> basis;
+  std::optional<Ties> ties;  ///< rigid bodies
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
-  /// Displacements (or velocities) of physical_dofs().
+  /// Whether displacements that are computed are those of physical_dofs().
+  [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
+  /// Displacements (or velocities) of physical_dofs(), where no support moves a rigid body.
   [[nodiscard]] Vector physical(const Vector& u) const {
-    if (reduction) return reduction->physical(u);
     Vector x = u;
-    if (basis) x.head(basis->rows()) = *basis * u.head(basis->cols());
+    if (reduction)
+      x = reduction->physical(u);
+    else if (basis)
+      x.head(basis->rows()) = *basis * u.head(basis->cols());
+    return ties ? ties->with_tied(x) : x;
+  }
+  /// Displacements (order 0) or velocities (1) at time t.
+  [[nodiscard]] Vector physical(const Vector& u, double t, int order) const {
+    Vector x = physical(u);
+    if (!ties) return x;
+    for (const Ties::Given& g : ties->given)
+      x[ties->rows.cols() + g.tied] += g.motion.piece(t).value(t, order);
     return x;
   }
   /// To which columns and drawing refer.
-  [[nodiscard]] const std::vector<Dof>& physical_dofs() const { return reduction ? reduction->dofs : dofs; }
+  [[nodiscard]] const std::vector<Dof>& physical_dofs() const {
+    return ties ? ties->dofs : reduction ? reduction->dofs : dofs;
+  }
   /// Of a rotation, or of an angular velocity?
   [[nodiscard]] bool turns(const Column& column) const {
     return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;

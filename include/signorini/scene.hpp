@@ -226,6 +226,15 @@ struct PointMass {
   double mass = 0.0;
   double inertia = 0.0;  ///< rotational, only where a rotation exists or inertia > 0
   SourcePlace place = {};
+  std::string key = {};  ///< in messages, "rigid.block"; empty: masses.NUMBER
+};
+
+/// Nodes that move as one with its centre, u = u_c + rz x (r - r_c); its mass is one of Scene::masses.
+struct RigidBody {
+  std::string name = {};
+  std::string centre = {};              ///< a node
+  std::vector<std::string> nodes = {};  ///< the others
+  SourcePlace place = {};
 };
 
 /// Spring and damper along `direction` between node and `against` (ground when empty).
@@ -408,6 +417,7 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Member> members;
   std::vector<PointMass> masses;
+  std::vector<RigidBody> rigid;
   std::vector<Spring> springs;
   std::vector<Support> supports;
   std::vector<ContactSpec> contacts;

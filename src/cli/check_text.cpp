@@ -63,6 +63,25 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
   return text;
 }
 
+/// A line a body; its mass and inertia are those at its centre.
+std::string body_lines(const Scene& scene) {
+  std::string text;
+  for (const RigidBody& body : scene.rigid) {
+    const auto at = [&](const auto& x) { return x.name == body.centre; };
+    const Node& centre = *std::find_if(scene.nodes.begin(), scene.nodes.end(), at);
+    const auto mass = std::find_if(scene.masses.begin(), scene.masses.end(),
+                                   [&](const PointMass& m) { return m.key == "rigid." + body.name; });
+    text += fmt::format("rigid body '{}': {} with its centre {} at ({}, {}) {}", body.name,
+                        count(static_cast<long>(body.nodes.size()), "node moves", "nodes move"), body.centre,
+                        number(centre.x), number(centre.y), scene.units.length);
+    if (mass != scene.masses.end())
+      text += fmt::format(", mass {} {}, inertia {} {} {}^2", number(mass->mass), scene.units.mass,
+                          number(mass->inertia), scene.units.mass, scene.units.length);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string contact_rows(const Model& model, const CheckReport& report) {
   if (report.contacts.empty()) return "";
   const std::string force = unit(model.units.force), length = unit(model.units.length);
@@ -276,9 +295,10 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 }  // namespace
 
 std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
-  return head(scene, model, report) + "\n" + contact_rows(model, report) + warning_lines(report) +
-         free_motion_lines(report) + frequency_rows(model, report) + stiffness_rows(model, report) +
-         load_rows(model, report) + reduction_lines(model) + cost_lines(scene, model, report);
+  return head(scene, model, report) + body_lines(scene) + "\n" + contact_rows(model, report) +
+         warning_lines(report) + free_motion_lines(report) + frequency_rows(model, report) +
+         stiffness_rows(model, report) + load_rows(model, report) + reduction_lines(model) +
+         cost_lines(scene, model, report);
 }
 
 std::string column_text(const Model& model) {

@@ -184,6 +184,29 @@ temperature = { type = "table", times = [0.0, 60.0], values = [0.0, 80.0], hold 
 node = "B"
 mass = 0.5
 ```)"},
+    {"rigid[]", "## `[[rigid]]`",
+     R"(```toml
+[[rigid]]
+name = "block"              # its centre is a node of this name
+centre = [0.0, 1.0]
+nodes = ["L", "R", "top"]
+box = { width = 1.0, height = 2.0, density = 2.4, thickness = 0.8 }
+
+[[rigid]]
+name = "offset"             # the end of a beam, and a bearing that stands 0.4 below it
+centre = "B"
+nodes = ["bearing"]
+mass = 0.0
+inertia = 0.0
+```
+
+The nodes have no degrees of freedom of their own: these are eliminated, without stiff members. Members, masses, springs,
+contacts, loads, outputs and supports may stand at them as at any node. Results have their motions as those of all
+nodes; `initial` is given at the centre. A node belongs to one body. A support of one node holds the body there, which may still
+turn about it; the motion of the centre then follows. Two supports of a body's nodes along one direction may not both hold it where
+one of them moves. Rotations are small: a weight does no work on them (the moment m g h of a block that rocks is a
+negative spring of rotations, which is not there).)"},
+    {"rigid[].box", "### `rigid.box`", ""},
     {"supports[]", "## `[[supports]]`",
      R"(What is held moves neither way for ever, or as `motion` says. A support that may open is a contact.
 

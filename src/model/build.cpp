@@ -15,6 +15,7 @@
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/ties.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
 #include "model/initial_state.hpp"
@@ -131,6 +132,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.dofs = map.dofs;
   model.columns = map.columns;
   mark_massless(assembly, model.dofs, place);
+  add_ties(scene, map, model);
   model.contacts = make_contacts(scene, map);
   model.loads = make_loads(scene, map, assembly);
   model.mass = std::move(assembly.mass);
@@ -166,6 +168,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
           "cutoff by trial runs first");
   }
   add_shear_elements(scene, model);
+  name_tied(map, model);
   make_outputs(scene, map, model);
   return model;
 }

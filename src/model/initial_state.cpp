@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/listed.hpp"
 #include "contact/friction.hpp"
 #include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
@@ -79,6 +80,10 @@ InitialState saved_state(const Scene& scene, const DofMap& map) {
     state.u[i] = value_of(map.dofs[static_cast<std::size_t>(i)].displacement);
     state.v[i] = value_of(map.dofs[static_cast<std::size_t>(i)].velocity);
   }
+  for (const TiedDof& tied : map.tied) {  // they follow
+    values.erase(tied.dof.displacement);
+    values.erase(tied.dof.velocity);
+  }
   for (const ContactSpec& contact : scene.contacts)  // sliding points and surfaces, which contacts take
     for (const char* of : {".slip", ".slip_rate", ".surface"}) values.erase(contact.name + of);
   for (const auto& [name, value] : spec.saved->motions)
@@ -96,6 +101,14 @@ struct GivenPlace {
   bool velocity = false;
   int dof = 0;
 };
+/// The degrees of freedom that a tied motion follows.
+std::string given_for(const DofMap& map, int tied) {
+  std::vector<std::string> names;
+  for (const TiedTerm& term : map.terms(tied))
+    if (term.number >= 0) names.push_back(map.dofs[static_cast<std::size_t>(term.number)].displacement);
+  return names.empty() ? std::string("none: supports move it") : listed(names, 3);
+}
+
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap& map) {
   constexpr std::array<std::string_view, 6> names{"ux", "uy", "rz", "vx", "vy", "wz"};
   const std::string key = key_of(c);
@@ -109,6 +122,12 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap
     throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
   if (number == DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
+  if (map.is_tied(number))
+    throw SceneError(
+        c.place, key,
+        fmt::format("found a motion of node '{}', which follows from others as part of a rigid body, "
+                    "expected one of {}",
+                    c.node, given_for(map, number)));
   if (number < 0) return std::nullopt;
   return GivenPlace{index >= 3, number};
 }

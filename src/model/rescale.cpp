@@ -43,6 +43,17 @@ class Rescaling {
         it.valueRef() *= of_dof(static_cast<int>(it.row())) / of_dof(j);
   }
 
+  /// This: of the physical degrees of freedom.
+  void operator()(Ties& ties) const {
+    const auto first = static_cast<int>(ties.rows.cols());
+    for (int j = 0; j < ties.rows.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(ties.rows, j); it; ++it)
+        it.valueRef() *= of_dof(first + static_cast<int>(it.row())) / of_dof(j);
+    for (Ties::Given& given : ties.given)
+      (*this)(given.motion,
+              dofs_[static_cast<std::size_t>(first + given.tied)].rotation ? unit::plain : unit::length);
+  }
+
   void operator()(Load& load) const {
     (*this)(load.direction, load.of_direction);
     (*this)(load.history, load.of_history);
@@ -197,6 +208,7 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.omega1, unit::rate);
   rescale(model.omega_max, unit::rate);
   if (model.basis) rescale.basis(*model.basis);
+  if (model.ties) Rescaling(factors, model.ties->dofs)(*model.ties);
   if (model.reduction) Rescaling(factors, model.reduction->dofs)(*model.reduction);
   model.unit = {model.unit.force / factors.force, model.unit.length / factors.length,
                 model.unit.time / factors.time};

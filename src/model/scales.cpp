@@ -31,36 +31,12 @@ double first_usable(const Candidate&... candidates) {
 double force_factor(const Combination& direction, const DofMap& map) {
   double greatest = 0.0, square = 0.0;
   for (const auto& [i, a] : direction.terms) {
+    // The arm of a force on a rigid body, whose direction is a unit vector.
+    if (map.dofs[static_cast<std::size_t>(i)].rotation) return 1.0;
     greatest = std::max(greatest, std::abs(a));
     square += a * a;
   }
   return map.matrices() ? greatest : std::sqrt(square);
-}
-
-/// All of it, node by node; the same however the scene is turned.
-double weight_of(const Vector& p, const DofMap& map) {
-  if (map.matrices()) return p.cwiseAbs().sum();
-  const auto part = [&](int dof) { return dof >= 0 ? p[dof] : 0.0; };
-  double weight = 0.0;
-  for (const auto& dofs : map.number) weight += std::hypot(part(dofs[0]), part(dofs[1]));
-  return weight;
-}
-
-/// Of a node along the direction in which it has most; the same however the scene is turned.
-double greatest_mass(const Model& model, const DofMap& map) {
-  double greatest = 0.0;
-  if (map.matrices()) {
-    for (int i = 0; i < model.size(); ++i) greatest = std::max(greatest, model.mass.coeff(i, i));
-    return greatest;
-  }
-  for (const auto& dofs : map.number) {
-    const int x = dofs[0], y = dofs[1];
-    const double mx = x >= 0 ? model.mass.coeff(x, x) : 0.0, my = y >= 0 ? model.mass.coeff(y, y) : 0.0;
-    const double mxy = x >= 0 && y >= 0 ? model.mass.coeff(x, y) : 0.0;
-    const double most = mxy == 0.0 ? std::max(mx, my) : 0.5 * (mx + my) + std::hypot(0.5 * (mx - my), mxy);
-    greatest = std::max(greatest, most);
-  }
-  return greatest;
 }
 
 /// Greatest distance of two nodes; the same however the scene is turned. Inner nodes lie between named ones.
@@ -74,6 +50,60 @@ double length_of(const DofMap& map) {
       squared = std::max(squared, dx * dx + dy * dy);
     }
   return std::sqrt(squared);
+}
+
+/// A body that supports hold in part has moments in place of forces: over the length of the structure.
+bool turns_alone(const DofMap& map, std::size_t node) {
+  const auto& n = map.number[node];
+  return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) &&
+         (n[0] == DofMap::fixed || map.is_tied(n[0]) || n[1] == DofMap::fixed || map.is_tied(n[1]));
+}
+
+/// On the degrees of freedom of a node. Those that are tied to others have their forces there.
+double force_at(const Vector& p, const DofMap& map, std::size_t node, double arm) {
+  const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
+  const auto& n = map.number[node];
+  const double force = std::hypot(part(n[0]), part(n[1]));
+  return turns_alone(map, node) && arm > 0.0 ? std::max(force, std::abs(part(n[2])) / arm) : force;
+}
+
+/// All of it, node by node; the same however the scene is turned.
+double weight_of(const Vector& p, const DofMap& map) {
+  if (map.matrices()) return p.cwiseAbs().sum();
+  const double arm = length_of(map);
+  double weight = 0.0;
+  for (std::size_t i = 0; i < map.number.size(); ++i) weight += force_at(p, map, i, arm);
+  return weight;
+}
+
+/// The force on the node that has most.
+double greatest_force(const Vector& p, const DofMap& map) {
+  if (map.matrices()) return greatest_translation(p, map);
+  const double arm = length_of(map);
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < map.number.size(); ++i) greatest = std::max(greatest, force_at(p, map, i, arm));
+  return greatest;
+}
+
+/// Of a node along the direction in which it has most; the same however the scene is turned.
+double greatest_mass(const Model& model, const DofMap& map) {
+  double greatest = 0.0;
+  if (map.matrices()) {
+    for (int i = 0; i < model.size(); ++i) greatest = std::max(greatest, model.mass.coeff(i, i));
+    return greatest;
+  }
+  const double arm = length_of(map);
+  for (std::size_t i = 0; i < map.number.size(); ++i) {
+    const auto own = [&](int n) { return map.is_tied(n) ? DofMap::absent : n; };
+    const int x = own(map.number[i][0]), y = own(map.number[i][1]);
+    const double mx = x >= 0 ? model.mass.coeff(x, x) : 0.0, my = y >= 0 ? model.mass.coeff(y, y) : 0.0;
+    const double mxy = x >= 0 && y >= 0 ? model.mass.coeff(x, y) : 0.0;
+    if (const int turn = map.number[i][2]; turns_alone(map, i) && arm > 0.0)
+      greatest = std::max(greatest, model.mass.coeff(turn, turn) / (arm * arm));
+    const double most = mxy == 0.0 ? std::max(mx, my) : 0.5 * (mx + my) + std::hypot(0.5 * (mx - my), mxy);
+    greatest = std::max(greatest, most);
+  }
+  return greatest;
 }
 
 double force_of(const Model& model, const DofMap& map, double t_end) {
@@ -105,16 +135,16 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
       case LoadKind::initial_strain:
       case LoadKind::support:
       case LoadKind::support_rate:
-        held = std::max(held, greatest_translation(direction, map) * most);
+        held = std::max(held, greatest_force(direction, map) * most);
         break;
     }
   }
   if (usable(force)) return force;
   if (usable(held)) return held;
   // Free vibration: the forces of the initial state, then those that would stop it.
-  force = std::max(greatest_translation(model.stiffness * model.u0, map),
-                   greatest_translation(model.damping * model.v0, map));
-  return std::max(force, model.omega_max * greatest_translation(model.mass * model.v0, map));
+  force = std::max(greatest_force(model.stiffness * model.u0, map),
+                   greatest_force(model.damping * model.v0, map));
+  return std::max(force, model.omega_max * greatest_force(model.mass * model.v0, map));
 }
 
 /// Greatest static displacements under any one of some forces; 0 when the matrix is singular.
@@ -229,7 +259,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   scales.force = first_usable(force, mass * omega * omega * scales.displacement,
                               mass * scales.displacement / (t_end * t_end));
   // A state that the contacts cannot hold does not swing at omega1: energy bounds its velocity.
-  const double driving = std::max(scales.force, greatest_translation(model.stiffness * model.u0, map));
+  const double driving = std::max(scales.force, greatest_force(model.stiffness * model.u0, map));
   const double bound = std::sqrt(driving * scales.displacement / mass);
   double velocity = omega > 0.0 ? omega * scales.displacement : bound;
   if (usable(bound)) velocity = std::min(velocity, bound);

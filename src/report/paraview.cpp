@@ -125,7 +125,7 @@ void add_structure(Grid& grid, const Json& data, const std::vector<FrameEnd>& en
       const FrameEnd p = between(element, static_cast<double>(i) / parts);
       corners.push_back(grid.point(p.x, p.y, {p.ux, p.uy}));
     }
-    grid.cell(polyline, corners, bar ? 1 : 0);
+    grid.cell(polyline, corners, piece.contains("rigid") ? 6 : bar ? 1 : 0);
   }
   for (const Json& spring : data["springs"]) {
     if (spring["b"].get<int>() < 0) continue;

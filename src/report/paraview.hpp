@@ -5,7 +5,7 @@
 //
 //   points      undeformed; `displacement` moves them (Warp By Vector), `force` is that on the structure there
 //   cells       members as polylines of ten parts, springs as lines; nodes, contacts and loads as vertices
-//   cell data   kind: 0 beam, 1 bar, 2 spring, 3 node, 4 contact, 5 load; state: 0 stick, 1 slip+, 2 slip-, 3 closed, 4 open,
+//   cell data   kind: 0 beam, 1 bar, 2 spring, 3 node, 4 contact, 5 load, 6 rigid body; state: 0 stick, 1 slip+, 2 slip-, 3 closed, 4 open,
 //               -1 where there is none; item: which contact or load, from 0
 //
 // Displacements and forces are those of the page (run_data.hpp): six digits, members cubic between named nodes. The force of a

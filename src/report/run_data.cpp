@@ -12,6 +12,7 @@
 #include "base/thinned.hpp"
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
+#include "scene/outline.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -186,6 +187,9 @@ Json pieces_json(const Scene& scene, const Places& places) {
       pieces.push_back({{"a", places.of(member.nodes[i - 1])},
                         {"b", places.of(member.nodes[i])},
                         {"bar", member.type == MemberType::bar}});
+  for (const RigidBody& body : scene.rigid)
+    for (const auto& [from, to] : outline_of(scene, body))
+      pieces.push_back({{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}});
   return pieces;
 }
 

@@ -10,6 +10,8 @@ const char* name_of(DrawnElement::Kind kind) {
       return "bar";
     case DrawnElement::Kind::spring:
       return "spring";
+    case DrawnElement::Kind::rigid:
+      return "rigid";
     case DrawnElement::Kind::beam:
       break;
   }

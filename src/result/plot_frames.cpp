@@ -167,8 +167,9 @@ std::vector<std::string> shape_elements(const Frame& frame, const std::string& n
   };
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
   line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
+  line("rigid", "linewidth 1.6 linecolor '#8a5a2b'", "rigid bodies");
   line("beam", "linewidth 2.2 linecolor '#1a1a1a'", "beams");
-  if (has("beam") || has("bar") || has("spring"))
+  if (has("beam") || has("bar") || has("spring") || has("rigid"))
     elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title " +
                        quoted(say(run, "undeformed")));
   elements.push_back(shape + only("node", "x", "y") +

@@ -70,8 +70,8 @@ bool CurveRecord::needs(double t) const { return t - last_ >= t_end_ / most_inte
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
   if (!wanted()) return;
   last_ = t;
-  const bool plain = !model_.reduction && !model_.basis;
-  const Vector physical = plain ? Vector() : model_.physical(u);
+  const bool plain = model_.is_physical();
+  const Vector physical = plain ? Vector() : model_.physical(u, t, 0);
   const Vector& shown = plain ? u : physical;
   const double at = t * model_.unit.time;
   auto energies = energy_columns.begin();

@@ -30,9 +30,9 @@ Sample Samples::sample(double t, const Works& ahead, const Forcing& forcing, con
   result.t = t;
   result.u = &point.u;
   result.v = &point.v;
-  if (model_.reduction || model_.basis) {
-    physical_u_ = model_.physical(point.u);
-    physical_v_ = model_.physical(point.v);
+  if (!model_.is_physical()) {
+    physical_u_ = model_.physical(point.u, t, 0);
+    physical_v_ = model_.physical(point.v, t, 1);
     result.u = &physical_u_;
     result.v = &physical_v_;
   }

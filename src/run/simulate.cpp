@@ -103,7 +103,7 @@ class Loop {
 
   /// What pictures show of the motion inside of steps.
   void watch() {
-    if (!model_.reduction && !model_.basis) engine_->watch(curves_.dofs());
+    if (model_.is_physical()) engine_->watch(curves_.dofs());
   }
 
   bool start() {

@@ -28,6 +28,7 @@ constexpr Key table_of_keys[] = {
     {"", "lines", tables, "", "", "", "Nodes in a row, at equal distances."},
     {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
     {"", "masses", tables, "", "", "", "Point masses."},
+    {"", "rigid", tables, "", "", "", "Rigid bodies: nodes that move with a centre, which has their mass and inertia."},
     {"", "supports", tables, "", "", "", "Degrees of freedom that are held."},
     {"", "springs", tables, "", "", "", "Springs and dampers, to the ground or between two nodes."},
     {"", "reduction", table, "", "", "", "Modes above a cutoff leave their static compliance only; all modes count where absent."},
@@ -118,6 +119,18 @@ constexpr Key table_of_keys[] = {
     {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
     {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
     {"masses[]", "inertia", non_negative, "mass*length^2", "0.0", "", "Moment of inertia about the node."},
+
+    {"rigid[]", "name", name, "", "required", "", "Name of the body, and of its centre where that is a place."},
+    {"rigid[]", "nodes", texts, "", "required", "", "Nodes that move with the centre, by small rotations: u = u_c + rz x (r - r_c); \"P0..P9\" as in members."},
+    {"rigid[]", "centre", KeyType::place, "length", "required", "", "A node, or a place [x, y], which becomes a node of the body's name: that of the mass, to which the inertia refers."},
+    {"rigid[]", "mass", non_negative, "mass", "", "", "Mass at the centre; required without box. 0.0 for a connection."},
+    {"rigid[]", "inertia", non_negative, "mass*length^2", "", "", "Moment of inertia about the centre; required without box."},
+    {"rigid[]", "box", table, "", "", "", "Mass and inertia of a rectangle about its middle, instead of mass and inertia: mass = density width height thickness, inertia = mass (width^2 + height^2) / 12."},
+
+    {"rigid[].box", "width", positive, "length", "required", "", "Width."},
+    {"rigid[].box", "height", positive, "length", "required", "", "Height."},
+    {"rigid[].box", "density", positive, "mass/length^3", "required", "", "Density."},
+    {"rigid[].box", "thickness", positive, "length", "required", "", "Extent out of the plane."},
 
     {"supports[]", "node", name, "", "", "", "Node that is held; or nodes."},
     {"supports[]", "nodes", texts, "", "", "", "Nodes that are held alike; \"P0..P9\" as in members."},
@@ -320,9 +333,8 @@ std::string describe_type(const Key& key) {
     case relative_tolerance:
       return "a number >= 1e-14 (roundoff) and < 1";
     case count:
-      return "an integer >= 1";
     case integer:
-      return "an integer";
+      return key.type == integer ? "an integer" : "an integer >= 1";
     case text:
       return "a string";
     case name:
@@ -345,15 +357,16 @@ std::string describe_type(const Key& key) {
     case tolerance_order:
       return "\"auto\" or an integer from 1 to 5";
     case automatic_flag:
-      return "\"auto\", true or false";
     case flag:
-      return "true or false";
+      return key.type == flag ? "true or false" : "\"auto\", true or false";
     case KeyType::elements:
       return "an integer >= 1, or an array of them, one a piece";
     case KeyType::initial:
       return "\"static\", \"frictional\" or a table";
     case fraction:
       return "a number from 0 to 1";
+    case KeyType::place:
+      return "the name of a node, or an array of two numbers [x, y]";
     case KeyType::against:
       return "the name of a node, or an array of two";
     case KeyType::friction:
@@ -365,9 +378,9 @@ std::string describe_type(const Key& key) {
     case standing_history:
       return "a number or a table { type = ... }";
     case matrix:
-      return "the name of a Matrix Market file, or rows of numbers";
+      break;
   }
-  return {};
+  return "the name of a Matrix Market file, or rows of numbers";
 }
 
 }  // namespace signorini

@@ -39,6 +39,7 @@ enum class KeyType {
   initial,
   friction,
   against,
+  place,
   direction,
   one_or_many,
   history,

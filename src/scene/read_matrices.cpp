@@ -133,8 +133,8 @@ std::vector<std::string> read_dofs(Table& table, int size) {
 void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
   const std::filesystem::path directory = directory_of(scene);
   Table table = top.child("matrices");
-  for (const char* other :
-       {"gravity", "nodes", "lines", "members", "masses", "springs", "damping", "supports", "sections"}) {
+  for (const char* other : {"gravity", "nodes", "lines", "members", "masses", "rigid", "springs", "damping",
+                            "supports", "sections"}) {
     if (top.has(other)) {
       const auto entries = entries_of(top.node());
       const auto entry =

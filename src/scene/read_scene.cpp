@@ -139,6 +139,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     record.top.set("gravity", toml_numbers(scene.gravity));
     read_nodes(top, scene, record);
     read_lines(top, scene, record);
+    read_rigid(top, scene, record);
     if (scene.nodes.empty())
       throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes] or [matrices]");
     read_run(top, scene, record);  // histories are read up to t_end

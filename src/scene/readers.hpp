@@ -35,6 +35,8 @@ void read_reduction(Table& top, Scene& scene, RecordedScene& record);
 void read_sections(Table& top, Scene& scene, RecordedScene& record);
 void read_nodes(Table& top, Scene& scene, RecordedScene& record);
 void read_lines(Table& top, Scene& scene, RecordedScene& record);
+/// Before what refers to centres, which may be new nodes.
+void read_rigid(Table& top, Scene& scene, RecordedScene& record);
 void read_members(Table& top, Scene& scene, RecordedScene& record);
 void read_masses(Table& top, Scene& scene, RecordedScene& record);
 void read_springs(Table& top, Scene& scene, RecordedScene& record);

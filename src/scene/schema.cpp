@@ -117,6 +117,8 @@ Json value_type(const Key& key) {
       return any_of(array_of(number_type(KeyType::number)), text);
     case KeyType::elements:
       return any_of(number_type(KeyType::count), array_of(number_type(KeyType::count)));
+    case KeyType::place:
+      return any_of(text, plane_vector());
     case KeyType::against: {
       Json two = array_of(text);
       two["minItems"] = 2;

@@ -25,9 +25,10 @@ bool stands_still(const ForcingRatesSeries& f) {
 std::vector<Eigen::Index> shown_dofs(const Model& model, const std::vector<const ModelDerivative*>& rates) {
   const std::vector<Eigen::Index> felt = contact_dofs(model, rates);
   std::set<Eigen::Index> dofs(felt.begin(), felt.end());
-  for (const Column& column : model.columns)
-    if (column.dof >= 0) dofs.insert(column.dof);
-  if (model.reduction || model.basis)
+  if (model.is_physical())
+    for (const Column& column : model.columns)
+      if (column.dof >= 0) dofs.insert(column.dof);
+  if (!model.is_physical())
     for (Eigen::Index i = 0; i < model.size(); ++i) dofs.insert(i);
   return {dofs.begin(), dofs.end()};
 }

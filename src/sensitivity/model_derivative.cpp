@@ -86,6 +86,7 @@ class Differences {
         continue;
       const Scene scene = read_({set_to(path_, value_ + point * step_)});
       Model model = rescaled(build_undoubted(scene), inverse(model_.machine));
+      check_ties(model);
       take_weight(model_, model);
       if (shape_of(model) != shape_ || !same_coordinates(model))
         throw SceneError({}, path_, "the structure of the model changes with it near its value");
@@ -95,6 +96,18 @@ class Differences {
     for (Moved& m : moved_) all.push_back(&m.data);
     align(all);
     for (Moved& m : moved_) m.values = values_of(m.data);
+  }
+
+  /// What follows from a body's motion by another rule has a derivative of its own, which is not computed.
+  void check_ties(const Model& model) const {
+    if (!model_.ties || !model.ties) return;
+    if (!model_.ties->given.empty())
+      throw SceneError({}, path_,
+                       "a support moves a rigid body: there are no derivatives of the motions of its nodes");
+    if (SparseMatrix(model.ties->rows - model_.ties->rows).norm() != 0.0)
+      throw SceneError(
+          {}, path_,
+          "moves nodes of a rigid body against its centre: there are no derivatives by it of their motions");
   }
 
   /// Amplitudes of shapes that move with the parameter are other unknowns.

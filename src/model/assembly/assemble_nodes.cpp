@@ -5,6 +5,7 @@
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/bar.hpp"
 #include "model/assembly/beam.hpp"
+#include "model/assembly/ties.hpp"
 
 namespace signorini {
 namespace {
@@ -24,8 +25,15 @@ struct Builder {
   /// support adds to its column.
   template <std::size_t n, class Matrix>
   void add(Triplets& target, Column column, const Matrix& a, const std::array<int, n>& numbers) {
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) {
+    if (!any_tied(map, numbers.data(), n)) return add_own(target, column, a, numbers);
+    const TiedElement tied(map, numbers.data(), n);
+    add_own(target, column, tied.of(a), tied.numbers);
+  }
+
+  template <class Matrix, class Numbers>
+  void add_own(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      for (std::size_t j = 0; j < numbers.size(); ++j) {
         const double value = a(static_cast<int>(i), static_cast<int>(j));
         if (numbers[i] < 0 || value == 0.0) continue;
         if (numbers[j] >= 0) target.emplace_back(numbers[i], numbers[j], value);
@@ -44,8 +52,9 @@ struct Builder {
     const bool bar = e.type == MemberType::bar;
     const BeamMatrix m = bar ? bar_mass(dx, dy, section.mass_per_length, e.mass)
                              : beam_mass(dx, dy, section.mass_per_length, e.mass);
-    add(stiffness, &SupportColumns::stiffness,
-        bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI), numbers);
+    if (!map.within_body(e))
+      add(stiffness, &SupportColumns::stiffness,
+          bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI), numbers);
     add(mass, &SupportColumns::mass, m, numbers);
     add_inertia(m, scene.gravity, numbers, weight);
     for (std::size_t i = 0; i < base.size(); ++i)
@@ -53,26 +62,23 @@ struct Builder {
   }
 
   /// target += M r a, with r a the acceleration of all translations.
-  static void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
-                          const std::array<int, 6>& numbers, Vector& target) {
+  void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
+                   const std::array<int, 6>& numbers, Vector& target) {
     Eigen::Matrix<double, 6, 1> a;
     a << acceleration[0], acceleration[1], 0.0, acceleration[0], acceleration[1], 0.0;
     const Eigen::Matrix<double, 6, 1> p = m * a;
-    for (std::size_t i = 0; i < 6; ++i)
-      if (numbers[i] >= 0) target[numbers[i]] += p[static_cast<int>(i)];
+    for (std::size_t i = 0; i < 6; ++i) map.add(target, numbers[i], p[static_cast<int>(i)]);
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
     if (!(m.mass >= 0.0) || !(m.inertia >= 0.0)) throw SceneError(m.place, key, "a mass cannot be negative");
-    const auto& numbers = map.number[static_cast<std::size_t>(find_node(map.mesh, m.node, m.place, key))];
-    const std::array<double, 3> values{m.mass, m.mass, m.inertia};
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (numbers[c] < 0 || values[c] == 0.0) continue;
-      mass.emplace_back(numbers[c], numbers[c], values[c]);
-      if (c == 2) continue;
-      weight[numbers[c]] += m.mass * scene.gravity[c];
+    const std::array<int, 3> numbers = map.numbers_at(find_node(map.mesh, m.node, m.place, key));
+    const Eigen::Vector3d values(m.mass, m.mass, m.inertia);
+    add(mass, &SupportColumns::mass, Eigen::Matrix3d(values.asDiagonal()), numbers);
+    for (std::size_t c = 0; c < 2; ++c) {
+      map.add(weight, numbers[c], m.mass * scene.gravity[c]);
       for (std::size_t i = 0; i < base.size(); ++i)
-        base[i][numbers[c]] += m.mass * scene.base_motion[i].direction.vector[c];
+        map.add(base[i], numbers[c], m.mass * scene.base_motion[i].direction.vector[c]);
     }
   }
 
@@ -84,14 +90,34 @@ struct Builder {
     std::array<int, 3> nb{-1, -1, -1};
     if (!s.against.empty()) nb = map.numbers_at(find_node(map.mesh, s.against, s.place, key));
     const std::array<int, 4> numbers{na[0], na[1], nb[0], nb[1]};
+    if (any_tied(map, numbers.data(), 4)) return add_tied_spring(s, d, na, nb);
     const Eigen::Vector4d a = Eigen::Vector4d(d[0], d[1], -d[0], -d[1]) / length;
     const Eigen::Matrix4d unit = a * a.transpose();
     add(stiffness, &SupportColumns::stiffness, Eigen::Matrix4d(s.stiffness * unit), numbers);
     add(dampers, &SupportColumns::dampers, Eigen::Matrix4d(s.damping * unit), numbers);
-    const std::array<int, 2> turns{na[2], nb[2]};
+    add_turning(s, {na[2], nb[2]});
+  }
+
+  void add_turning(const Spring& s, const std::array<int, 2>& turns) {
     const Eigen::Matrix2d turning{{1.0, -1.0}, {-1.0, 1.0}};
     add(stiffness, &SupportColumns::stiffness, Eigen::Matrix2d(s.rotation_stiffness * turning), turns);
     add(dampers, &SupportColumns::dampers, Eigen::Matrix2d(s.rotation_damping * turning), turns);
+  }
+
+  /// k a a^T with a the elongation as a form: one that cancels holds nothing.
+  void add_tied_spring(const Spring& s, const std::array<double, 2>& d, const std::array<int, 3>& na,
+                       const std::array<int, 3>& nb) {
+    const double length = std::hypot(d[0], d[1]);
+    TiedForm form(map);
+    for (std::size_t c = 0; c < 2; ++c) {
+      form.add(na[c], d[c] / length);
+      form.add(nb[c], -d[c] / length);
+    }
+    const Elongation e = form.with_supports();
+    const Eigen::MatrixXd unit = e.factors * e.factors.transpose();
+    add_own(stiffness, &SupportColumns::stiffness, Eigen::MatrixXd(s.stiffness * unit), e.numbers);
+    add_own(dampers, &SupportColumns::dampers, Eigen::MatrixXd(s.damping * unit), e.numbers);
+    add_turning(s, {na[2], nb[2]});
   }
 };
 
@@ -110,7 +136,8 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
                   std::vector<SupportColumns>(map.supports.size(), {zero, zero, zero})};
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_element(i);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
-    builder.add_mass(scene.masses[i], fmt::format("masses.{}", i + 1));
+    builder.add_mass(scene.masses[i],
+                     scene.masses[i].key.empty() ? fmt::format("masses.{}", i + 1) : scene.masses[i].key);
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
   auto sparse = [n](const Triplets& entries) {

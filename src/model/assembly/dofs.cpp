@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/ties.hpp"
 
 namespace signorini {
 namespace {
@@ -14,11 +15,10 @@ constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
 constexpr std::array<const char*, 3> velocity_names{"vx", "vy", "wz"};
 
 using Numbers = std::vector<std::array<int, 3>>;
-constexpr int needed = 0;
 
 void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
   for (std::size_t c = 0; c < 2; ++c)
-    if (direction[c] != 0.0) numbers[static_cast<std::size_t>(node)][c] = needed;
+    if (direction[c] != 0.0) numbers[static_cast<std::size_t>(node)][c] = DofMap::needed;
 }
 
 void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
@@ -26,13 +26,22 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
     for (int node : {e.a, e.b}) {
       need(numbers, node, {1.0, 1.0});
       const bool hinged = node == e.a ? e.hinged_a : e.hinged_b;
-      if (e.type == MemberType::beam && !hinged) numbers[static_cast<std::size_t>(node)][2] = needed;
+      if (e.type == MemberType::beam && !hinged) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
     }
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
-    const int node = find_node(mesh, m.node, m.place, fmt::format("masses.{}.node", i + 1));
+    const int node =
+        find_node(mesh, m.node, m.place, m.key.empty() ? fmt::format("masses.{}.node", i + 1) : m.key);
     if (m.mass > 0.0) need(numbers, node, {1.0, 1.0});
-    if (m.inertia > 0.0) numbers[static_cast<std::size_t>(node)][2] = needed;
+    if (m.inertia > 0.0) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
+  }
+  for (const RigidBody& body : scene.rigid) {
+    const std::string key = "rigid." + body.name + ".";
+    numbers[static_cast<std::size_t>(find_node(mesh, body.centre, body.place, key + "centre"))].fill(
+        DofMap::needed);
+    for (const std::string& name : body.nodes)
+      numbers[static_cast<std::size_t>(find_node(mesh, name, body.place, key + "nodes"))].fill(
+          DofMap::needed);
   }
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
     const Spring& s = scene.springs[i];
@@ -41,7 +50,7 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
     const bool turns = s.rotation_stiffness != 0.0 || s.rotation_damping != 0.0;
     const auto need_end = [&](int node) {
       if (pulls || !turns) need(numbers, node, d);
-      if (turns) numbers[static_cast<std::size_t>(node)][2] = needed;
+      if (turns) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
     };
     need_end(find_node(mesh, s.node, s.place, fmt::format("springs.{}.node", i + 1)));
     if (!s.against.empty())
@@ -67,7 +76,8 @@ void add_columns(DofMap& map) {
     for (bool velocity : {false, true})
       for (int d : map.number[node])
         if (d >= 0) {
-          const Dof& dof = map.dofs[static_cast<std::size_t>(d)];
+          const Dof& dof = map.is_tied(d) ? map.tied[static_cast<std::size_t>(d - map.size())].dof
+                                          : map.dofs[static_cast<std::size_t>(d)];
           map.columns.push_back({velocity ? dof.velocity : dof.displacement, d, velocity});
         }
 }
@@ -160,17 +170,42 @@ DofMap number_nodes(const Scene& scene) {
     if (s.motion) follow(map, i, s, fix);
   }
   check_moving(scene, map);
+  const std::vector<BodyMotion> bodies = find_bodies(scene, map);
   for (std::size_t node = 0; node < map.number.size(); ++node)
     for (std::size_t c = 0; c < 3; ++c) {
-      if (map.number[node][c] != needed) continue;
+      if (map.number[node][c] != DofMap::needed) continue;
       const std::string& name = map.mesh.nodes[node].name;
       map.number[node][c] = map.size();
       map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
       map.dofs.push_back({name + "." + displacement_names[c], name + "." + velocity_names[c], c == 2, false});
     }
   add_hinges(map);
+  tie(bodies, map);
   add_columns(map);
   return map;
+}
+
+bool DofMap::within_body(const MeshElement& e) const {
+  const int owner = body[static_cast<std::size_t>(e.a)];
+  return owner != absent && owner == body[static_cast<std::size_t>(e.b)] && !e.hinged_a && !e.hinged_b;
+}
+
+std::vector<TiedTerm> DofMap::terms(int n) const {
+  if (is_tied(n)) return tied[static_cast<std::size_t>(n - size())].terms;
+  if (n == absent || n == fixed) return {};
+  return {{n, 1.0}};
+}
+
+void DofMap::add(Vector& form, int n, double factor) const {
+  for (const TiedTerm& term : terms(n))
+    if (term.number >= 0) form[term.number] += factor * term.factor;
+}
+
+double DofMap::value(const Vector& x, int n) const {
+  double sum = 0.0;
+  for (const TiedTerm& term : terms(n))
+    if (term.number >= 0) sum += term.factor * x[term.number];
+  return sum;
 }
 
 std::array<int, 3> DofMap::numbers_at(int node) const {
@@ -214,13 +249,14 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   }
   auto vector = clean_direction(direction.vector);
   const double length = std::hypot(vector[0], vector[1]);
+  TiedForm form(map);
   const auto add = [&](const std::string& name, double weight) {
     const int node = find_node(map.mesh, name, direction.place, key);
     for (std::size_t c = 0; c < 2; ++c) {
       if (vector[c] == 0.0 || weight == 0.0) continue;
       const int d = map.number[static_cast<std::size_t>(node)][c];
-      if (d >= 0) result.terms.emplace_back(d, weight * (unit ? vector[c] / length : vector[c]));
-      if (unit && map.moving[static_cast<std::size_t>(node)][c] >= 0)
+      form.add(d, weight * (unit ? vector[c] / length : vector[c]));
+      if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
         throw SceneError(
             direction.place, key,
             fmt::format("a support moves node '{}' in {}, and a contact touches what moves with the "
@@ -235,7 +271,7 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   };
   add(direction.node, 1.0);
   for (const auto& [node, weight] : direction.against) add(node, -weight);
-  return result;
+  return form.combination();
 }
 
 }  // namespace signorini

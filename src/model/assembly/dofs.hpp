@@ -6,7 +6,7 @@
 // and rz of all their nodes, bars and masses ux and uy (rz with an inertia), springs and contacts the
 // components of their directions. Supports fix what exists. Numbers follow the order of the nodes; behind
 // them stand the rotations of members' hinged ends. A support that moves has a number of its own, of those
-// that move.
+// that move. Numbers from size() on are tied: motions of a rigid body's nodes (ties.hpp).
 #pragma once
 
 #include <array>
@@ -19,8 +19,20 @@
 
 namespace signorini {
 
+/// Part of a tied motion: factor times a degree of freedom, or a support that moves (its code).
+struct TiedTerm {
+  int number = 0;
+  double factor = 1.0;
+};
+
+/// A motion that follows from others.
+struct TiedDof {
+  Dof dof;
+  std::vector<TiedTerm> terms;
+};
+
 struct DofMap {
-  static constexpr int absent = -1, fixed = -2;
+  static constexpr int absent = -1, fixed = -2, needed = 0;  // needed: while numbers are given
 
   Mesh mesh;                               ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< a mesh node; empty in matrix scenes
@@ -29,6 +41,8 @@ struct DofMap {
   std::vector<std::size_t> supports;       ///< that move: index into Scene::supports
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
+  std::vector<int> body;                   ///< a mesh node: index into Scene::rigid, or `absent`
+  std::vector<TiedDof> tied;               ///< numbers size(), size() + 1, ...
   std::vector<Column> columns;
   double shown_length = 1.0;  ///< what one of the lengths here is in the names of motions
 
@@ -37,6 +51,15 @@ struct DofMap {
   /// What stands for moving support i in numbers_at() and element_numbers().
   [[nodiscard]] static int code_of_moving(int i) { return -3 - i; }
   [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
+  [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
+  /// Both ends move with one rigid body, and not by hinges of their own: nothing strains the element.
+  [[nodiscard]] bool within_body(const MeshElement& e) const;
+  /// What a number stands for: degrees of freedom and codes of moving supports; nothing where fixed or absent.
+  [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
+  /// form += factor times the motion under a number; what supports move drops out.
+  void add(Vector& form, int n, double factor) const;
+  /// Of the motion x (size()).
+  [[nodiscard]] double value(const Vector& x, int n) const;
   /// Numbers, `fixed`, `absent`, or codes of moving supports.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
   /// ux, uy, rz at both ends, in the same way.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/outline.hpp"
+
 namespace signorini {
 namespace {
 
@@ -65,6 +67,10 @@ void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
     const int a = node_named(map.mesh, s.node), b = node_named(map.mesh, s.against);
     model.drawing.push_back(between(model.drawn_nodes, a, b, DrawnElement::Kind::spring));
   }
+  for (const RigidBody& body : scene.rigid)
+    for (const auto& [from, to] : outline_of(scene, body))
+      model.drawing.push_back(between(model.drawn_nodes, node_named(map.mesh, from), node_named(map.mesh, to),
+                                      DrawnElement::Kind::rigid));
   for (const ContactSpec& spec : scene.contacts) model.drawn_contacts.push_back(drawn_contact(spec, map));
 }
 

@@ -29,7 +29,7 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   const int node = find_node(map.mesh, spec.direction.node, spec.place, key + ".node");
   const int dof = map.number[static_cast<std::size_t>(node)][2];
   if (dof == DofMap::absent) refuse_turn(spec.direction.place, key + ".node", spec.direction.node);
-  if (dof >= 0) form[dof] = 1.0;
+  map.add(form, dof, 1.0);
   return form;
 }
 
@@ -39,8 +39,7 @@ void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, b
   const Axis axis = axis_of(map.mesh, e);
   const std::array<double, 6> forces = uniform_forces(e.type, axis, along_element(spec, axis, backwards));
   const std::array<int, 6> numbers = map.element_numbers(element);
-  for (std::size_t i = 0; i < 6; ++i)
-    if (numbers[i] >= 0) form[numbers[i]] += forces[i];
+  for (std::size_t i = 0; i < 6; ++i) map.add(form, numbers[i], forces[i]);
 }
 
 Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::string& key) {
@@ -98,14 +97,14 @@ Combination strain_form(const Scene& scene, const DofMap& map, int member) {
   Vector form = Vector::Zero(map.size());
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
     const MeshElement& e = map.mesh.elements[i];
-    if (e.member != member) continue;
+    if (e.member != member || map.within_body(e)) continue;
     const Axis axis = axis_of(map.mesh, e);
     const double force = scene.sections[static_cast<std::size_t>(e.section)].EA;
     const std::array<int, 6> numbers = map.element_numbers(i);
     const std::array<double, 2> along{force * axis.c, force * axis.s};
     for (std::size_t c = 0; c < 2; ++c) {
-      if (numbers[c] >= 0) form[numbers[c]] -= along[c];
-      if (numbers[c + 3] >= 0) form[numbers[c + 3]] += along[c];
+      map.add(form, numbers[c], -along[c]);
+      map.add(form, numbers[c + 3], along[c]);
     }
   }
   return form_of(form, 1.0);
@@ -200,6 +199,10 @@ void add_supports(const Scene& scene, const DofMap& map, const Assembly& assembl
 }
 
 }  // namespace
+
+History motion_of_support(const Scene& scene, const DofMap& map, int i) {
+  return support_motion(scene, map, static_cast<std::size_t>(i)).s;
+}
 
 std::string rate_of(const std::string& support_motion) {
   std::string rate = support_motion;

@@ -26,6 +26,9 @@ namespace signorini {
 /// the base, where supports that move are. Errors: SceneError.
 [[nodiscard]] std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assembly& assembly);
 
+/// What support i of DofMap::supports follows, from where it was in a run that goes on.
+[[nodiscard]] History motion_of_support(const Scene& scene, const DofMap& map, int i);
+
 /// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:
 /// SceneError for a motion that jumps or has a kink where dampers or masses would answer with an impulse.
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,

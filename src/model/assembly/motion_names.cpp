@@ -17,7 +17,7 @@ struct NodeMotion {
 
 std::vector<NodeMotion> node_motions(const Vector& motion, const DofMap& map) {
   std::vector<NodeMotion> result;
-  auto component = [&](int number) { return number >= 0 ? motion[number] : 0.0; };
+  auto component = [&](int number) { return map.value(motion, number); };
   for (std::size_t i = 0; i < map.number.size(); ++i) {
     const auto& d = map.number[i];
     if (d[0] == DofMap::absent && d[1] == DofMap::absent && d[2] == DofMap::absent) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/outputs/body_reaction.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
@@ -55,8 +56,10 @@ class Maker {
     for (const Support& support : scene_.supports) {
       const auto node = static_cast<std::size_t>(map_.mesh.by_name.at(support.node));
       if (!(c == 0 ? support.ux : support.uy) || held[node]) continue;
-      held[node] = true;
-      rows_->add_reaction(row, static_cast<int>(node), c, 1.0);
+      for (const int all : together_with(static_cast<int>(node))) {
+        held[static_cast<std::size_t>(all)] = true;
+        rows_->add_reaction(row, all, c, 1.0);
+      }
     }
     rows_->add_total(row, c);
     Output sum;
@@ -172,8 +175,18 @@ class Maker {
       for (std::size_t c = 0; c < 3; ++c) held = held || (fixed[c] && d[c] != 0.0);
     }
     if (!held) refuse(spec, "at", fmt::format("no support holds node '{}' that way", spec.at[0]));
+    if (const int body = map_.body[static_cast<std::size_t>(node)]; body >= 0)
+      return add_body_reaction(scene_, map_, *rows_,
+                               {body, node, d, spec.place, "output." + spec.name + ".at"}, row);
     for (std::size_t c = 0; c < 3; ++c)
       if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
+  }
+
+  /// The nodes of its rigid body, or itself.
+  [[nodiscard]] std::vector<int> together_with(int node) const {
+    const int body = map_.body[static_cast<std::size_t>(node)];
+    if (body < 0) return {node};
+    return nodes_of_body(map_, body);
   }
 
   [[nodiscard]] bool is_held(int node, std::size_t c) const {

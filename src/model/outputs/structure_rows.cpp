@@ -60,7 +60,10 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
 }
 
 void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const {
-  if (number >= 0) {
+  if (map_.is_tied(number)) {
+    for (const TiedTerm& term : map_.terms(number))
+      add_motion(row, term.number, term.factor * cu, term.factor * cv, term.factor * ca);
+  } else if (number >= 0) {
     row.u[number] += cu;
     row.v[number] += cv;
     row.a[number] += ca;

@@ -252,9 +252,11 @@ double ringing(const Model& model, const std::vector<Vector>& answers, double t_
   const std::size_t first = answers.size() - model.loads.size();
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const double jump = greatest_jump(model.loads[i], model, t_end);
+    const Vector& structure = answers[first + i];
+    const Vector answer = model.ties ? model.ties->with_tied(structure) : structure;
     for (const Column& column : model.columns)
-      if (!column.velocity && column.dof >= 0 && !model.dofs[static_cast<std::size_t>(column.dof)].rotation)
-        greatest = std::max(greatest, jump * std::abs(answers[first + i][column.dof]));
+      if (!column.velocity && column.dof >= 0 && !model.turns(column))
+        greatest = std::max(greatest, jump * std::abs(answer[column.dof]));
   }
   return greatest;
 }

@@ -56,6 +56,7 @@ std::vector<std::string> loose_parts(const Scene& scene) {
     sections.insert(m.section);
   }
   for (const PointMass& m : scene.masses) nodes.insert(m.node);
+  for (const RigidBody& body : scene.rigid) nodes.insert(body.nodes.begin(), body.nodes.end());
   for (const Spring& s : scene.springs) nodes.insert({s.node, s.against});
   for (const ContactSpec& c : scene.contacts)
     for (const auto& direction : {c.normal, c.tangent})

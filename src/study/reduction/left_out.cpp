@@ -18,6 +18,17 @@ Vector vector_of(const Combination& form, Eigen::Index n) {
 
 }  // namespace
 
+namespace {
+
+/// A tied node's motion follows from those of its body.
+Vector form_of(const Column& column, const Model& full) {
+  const Eigen::Index n = full.size();
+  if (column.dof < n) return Vector::Unit(n, column.dof);
+  return full.ties->rows.transpose() * Vector::Unit(full.ties->rows.rows(), column.dof - n);
+}
+
+}  // namespace
+
 std::vector<AskedPlace> asked_places(const Model& full) {
   std::vector<AskedPlace> places;
   const Eigen::Index n = full.size();
@@ -29,7 +40,7 @@ std::vector<AskedPlace> asked_places(const Model& full) {
   }
   for (const Column& column : full.columns)
     if (!column.velocity && column.dof >= 0 && !full.turns(column))
-      places.push_back({column.name, Vector::Unit(n, column.dof)});
+      places.push_back({column.name, form_of(column, full)});
   return places;
 }
 

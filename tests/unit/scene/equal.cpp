@@ -60,6 +60,7 @@ void dump_structure(Dump& dump, const Scene& s) {
     dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar, x.mass == MassKind::lumped,
               x.release, x.thermal_expansion, x.temperature, x.initial_strain);
   for (const auto& x : s.masses) dump.line("mass", x.node, x.mass, x.inertia);
+  for (const auto& x : s.rigid) dump.line("rigid", x.name, x.centre, x.nodes);
   for (const auto& x : s.springs)
     dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping, x.rotation_stiffness,
               x.rotation_damping);

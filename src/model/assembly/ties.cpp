@@ -1,0 +1,260 @@
+#include "model/assembly/ties.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "model/assembly/loads.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::array<const char*, 3> tied_displacements{"ux", "uy", "rz"}, tied_velocities{"vx", "vy", "wz"};
+
+std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
+
+/// y of a node for ux, x for uy.
+double across(const DofMap& map, int node, std::size_t c) {
+  const MeshNode& at = map.mesh.nodes[place_of_node(node)];
+  return c == 0 ? at.y : at.x;
+}
+
+/// a - b; zero within the rounding of coordinates that were meant to be equal.
+double arm_between(double a, double b) {
+  const double d = a - b;
+  return std::abs(d) <= rounding::of_few * (std::abs(a) + std::abs(b)) ? 0.0 : d;
+}
+
+BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
+  const std::string key = "rigid." + body.name + ".";
+  BodyMotion motion;
+  motion.centre = find_node(map.mesh, body.centre, body.place, key + "centre");
+  const auto take = [&](int node, const std::string& name, const char* of) {
+    int& owner = map.body[place_of_node(node)];
+    if (owner == number) return;
+    if (owner != DofMap::absent)
+      throw SceneError(
+          body.place, key + of,
+          fmt::format("found node '{}' of another rigid body, expected nodes of this one alone", name));
+    owner = number;
+    motion.nodes.push_back(node);
+  };
+  take(motion.centre, body.centre, "centre");
+  for (const std::string& name : body.nodes)
+    take(find_node(map.mesh, name, body.place, key + "nodes"), name, "nodes");
+  return motion;
+}
+
+[[noreturn]] void refuse_hold(const Scene& scene, const BodyHold& hold, const RigidBody& body,
+                              const std::string& why) {
+  const Support& s = scene.supports[hold.support];
+  throw SceneError(s.place, s.key + ".node",
+                   fmt::format("node '{}' is part of rigid body '{}': {}", s.node, body.name, why));
+}
+
+/// Adds one support to what holds the body; `turn` is set where it holds rz together with another.
+void add_hold(const Scene& scene, const RigidBody& body, const BodyHold& hold, std::size_t c,
+              BodyMotion& motion, std::optional<BodyHold>& turn) {
+  std::optional<BodyHold>& before = motion.holds[c];
+  if (!before) {
+    before = hold;
+    return;
+  }
+  if (before->moving == hold.moving && before->node == hold.node) return;
+  if (before->moving >= 0 || hold.moving >= 0)
+    refuse_hold(scene, hold, body,
+                fmt::format("another support holds its {}, and one of the two moves; expected one",
+                            tied_displacements[c]));
+  if (c < 2 && arm_between(before->at, hold.at) != 0.0) turn = hold;
+}
+
+void find_holds(const Scene& scene, const RigidBody& body, int number, const DofMap& map,
+                BodyMotion& motion) {
+  std::optional<BodyHold> turn;
+  for (std::size_t i = 0; i < scene.supports.size(); ++i) {
+    const Support& s = scene.supports[i];
+    const int node = map.mesh.by_name.at(s.node);
+    if (map.body[place_of_node(node)] != number) continue;
+    const auto moving = std::find(map.supports.begin(), map.supports.end(), i);
+    const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (fix[c])
+        add_hold(
+            scene, body,
+            {c < 2 ? across(map, node, c) : 0.0,
+             moving == map.supports.end() ? DofMap::absent : static_cast<int>(moving - map.supports.begin()),
+             i, place_of_node(node)},
+            c, motion, turn);
+  }
+  if (!turn) return;
+  if (motion.holds[2] && motion.holds[2]->moving >= 0)
+    refuse_hold(scene, *turn, body, "two supports beside each other hold its rz, which another one moves");
+  motion.holds[2] = turn;
+}
+
+/// Component c of a node of a body.
+std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, const DofMap& map) {
+  std::vector<TiedTerm> terms;
+  const auto add = [&](std::size_t of, double factor) {
+    const std::optional<BodyHold>& hold = body.holds[of];
+    if (factor == 0.0 || (hold && hold->moving < 0)) return;
+    terms.push_back(
+        {hold ? DofMap::code_of_moving(hold->moving) : map.number[place_of_node(body.centre)][of], factor});
+  };
+  add(c, 1.0);
+  if (c == 2) return terms;
+  const double from = body.holds[c] ? body.holds[c]->at : across(map, body.centre, c);
+  const double arm = arm_between(across(map, node, c), from);
+  add(2, c == 0 ? -arm : arm);
+  return terms;
+}
+
+void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
+  int& number = map.number[place_of_node(node)][c];
+  int& moving = map.moving[place_of_node(node)][c];
+  std::vector<TiedTerm> terms = terms_of(body, node, c, map);
+  // As a node does that the support itself holds; times an arm it is another motion.
+  const bool follows = body.holds[c] && body.holds[c]->moving >= 0 && terms.size() == 1;
+  moving = follows ? DofMap::moving_of_code(terms[0].number) : DofMap::absent;
+  if (terms.empty() || follows) {
+    number = DofMap::fixed;
+    return;
+  }
+  number = map.size() + static_cast<int>(map.tied.size());
+  const std::string name = map.mesh.nodes[place_of_node(node)].name + ".";
+  map.tied.push_back(
+      {{name + tied_displacements[c], name + tied_velocities[c], c == 2, false}, std::move(terms)});
+}
+
+}  // namespace
+
+std::vector<BodyMotion> find_bodies(const Scene& scene, DofMap& map) {
+  map.body.assign(map.mesh.nodes.size(), DofMap::absent);
+  std::vector<BodyMotion> bodies;
+  for (std::size_t i = 0; i < scene.rigid.size(); ++i)
+    bodies.push_back(nodes_of(scene.rigid[i], static_cast<int>(i), map));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BodyMotion& body = bodies[i];
+    find_holds(scene, scene.rigid[i], static_cast<int>(i), map, body);
+    for (const int node : body.nodes)
+      map.number[place_of_node(node)] = {DofMap::absent, DofMap::absent, DofMap::absent};
+    for (std::size_t c = 0; c < 3; ++c)
+      map.number[place_of_node(body.centre)][c] = body.holds[c] ? DofMap::fixed : DofMap::needed;
+  }
+  return bodies;
+}
+
+void tie(const std::vector<BodyMotion>& bodies, DofMap& map) {
+  for (const BodyMotion& body : bodies)
+    for (const int node : body.nodes)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (node != body.centre || body.holds[c]) tie_component(body, node, c, map);
+}
+
+std::vector<std::pair<int, std::size_t>> held_in_body(const Scene& scene, const DofMap& map, int body) {
+  std::vector<std::pair<int, std::size_t>> held;
+  for (const Support& s : scene.supports) {
+    const int node = map.mesh.by_name.at(s.node);
+    if (map.body[place_of_node(node)] != body) continue;
+    const std::array<bool, 3> fix{s.ux, s.uy, s.rz};
+    for (std::size_t c = 0; c < 3; ++c)
+      if (fix[c] && std::find(held.begin(), held.end(), std::pair(node, c)) == held.end())
+        held.emplace_back(node, c);
+  }
+  return held;
+}
+
+void TiedForm::add(int number, double factor) {
+  if (factor == 0.0) return;
+  for (const TiedTerm& term : map_.terms(number)) {
+    follows_ = follows_ || term.number < 0;
+    const double part = factor * term.factor;
+    const auto same =
+        std::find_if(sums_.begin(), sums_.end(), [&](const Sum& s) { return s.number == term.number; });
+    if (same == sums_.end()) {
+      sums_.push_back({term.number, part, std::abs(part)});
+    } else {
+      same->sum += part;
+      same->size += std::abs(part);
+    }
+  }
+}
+
+Combination TiedForm::combination() const {
+  Combination form;
+  for (const Sum& s : sums_)
+    if (s.number >= 0 && std::abs(s.sum) > rounding::of_few * s.size)
+      form.terms.emplace_back(s.number, s.sum);
+  return form;
+}
+
+Elongation TiedForm::with_supports() const {
+  Elongation form;
+  std::vector<double> factors;
+  for (const Sum& s : sums_) {
+    if (std::abs(s.sum) <= rounding::of_few * s.size) continue;
+    form.numbers.push_back(s.number);
+    factors.push_back(s.sum);
+  }
+  form.factors = Eigen::Map<const Vector>(factors.data(), static_cast<Eigen::Index>(factors.size()));
+  return form;
+}
+
+bool any_tied(const DofMap& map, const int* numbers, std::size_t count) {
+  return std::any_of(numbers, numbers + count, [&](int n) { return map.is_tied(n); });
+}
+
+TiedElement::TiedElement(const DofMap& map, const int* of, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    for (const TiedTerm& term : map.terms(of[i]))
+      if (std::find(numbers.begin(), numbers.end(), term.number) == numbers.end())
+        numbers.push_back(term.number);
+  t = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t i = 0; i < count; ++i)
+    for (const TiedTerm& term : map.terms(of[i])) {
+      const auto at = std::find(numbers.begin(), numbers.end(), term.number) - numbers.begin();
+      t(static_cast<Eigen::Index>(i), at) += term.factor;
+    }
+}
+
+Eigen::MatrixXd TiedElement::of(const Eigen::MatrixXd& a) const {
+  const Eigen::MatrixXd whole = t.transpose() * a * t;
+  const Eigen::MatrixXd size = t.cwiseAbs().transpose() * a.cwiseAbs() * t.cwiseAbs();
+  Eigen::MatrixXd result = 0.5 * (whole + whole.transpose());
+  for (Eigen::Index j = 0; j < result.cols(); ++j)
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+      if (std::abs(result(i, j)) <= rounding::of_few * size(i, j)) result(i, j) = 0.0;
+  return result;
+}
+
+void add_ties(const Scene& scene, const DofMap& map, Model& model) {
+  if (map.tied.empty()) return;
+  Ties ties;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < map.tied.size(); ++i)
+    for (const TiedTerm& term : map.tied[i].terms) {
+      const auto row = static_cast<int>(i);
+      if (term.number >= 0)
+        entries.emplace_back(row, term.number, term.factor);
+      else
+        ties.given.push_back(
+            {row, motion_of_support(scene, map, DofMap::moving_of_code(term.number)).scaled(term.factor)});
+    }
+  ties.rows.resize(static_cast<Eigen::Index>(map.tied.size()), map.size());
+  ties.rows.setFromTriplets(entries.begin(), entries.end());
+  model.ties = std::move(ties);
+  name_tied(map, model);
+}
+
+void name_tied(const DofMap& map, Model& model) {
+  if (!model.ties) return;
+  const std::vector<Dof>& structure = model.reduction ? model.reduction->dofs : model.dofs;
+  model.ties->dofs.assign(structure.begin(), structure.begin() + map.size());
+  for (const TiedDof& tied : map.tied) model.ties->dofs.push_back(tied.dof);
+  if (!model.reduction)
+    model.ties->dofs.insert(model.ties->dofs.end(), model.dofs.begin() + map.size(), model.dofs.end());
+}
+
+}  // namespace signorini

@@ -1,0 +1,72 @@
+#include "model/outputs/body_reaction.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "model/assembly/ties.hpp"
+
+namespace signorini {
+namespace {
+
+/// The greatest distance of a node from the centre.
+double size_of_body(const DofMap& map, const std::vector<int>& nodes, const MeshNode& centre) {
+  double size = 0.0;
+  for (const int n : nodes) {
+    const MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(n)];
+    size = std::max(size, std::hypot(at.x - centre.x, at.y - centre.y));
+  }
+  return size > 0.0 ? size : 1.0;
+}
+
+/// Resultants of a unit force along component c at a node; the moment over the body's size.
+Eigen::Vector3d resultant(const DofMap& map, int node, std::size_t c, const MeshNode& centre, double size) {
+  const MeshNode& at = map.mesh.nodes[static_cast<std::size_t>(node)];
+  if (c == 0) return {1.0, 0.0, -(at.y - centre.y) / size};
+  if (c == 1) return {0.0, 1.0, (at.x - centre.x) / size};
+  return {0.0, 0.0, 1.0 / size};
+}
+
+}  // namespace
+
+std::vector<int> nodes_of_body(const DofMap& map, int body) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < map.body.size(); ++i)
+    if (map.body[i] == body) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRows& rows,
+                       const BodyReaction& asked, PhysicalRow& row) {
+  const RigidBody& body = scene.rigid[static_cast<std::size_t>(asked.body)];
+  const MeshNode& centre = map.mesh.nodes[static_cast<std::size_t>(map.mesh.by_name.at(body.centre))];
+  const std::vector<int> nodes = nodes_of_body(map, asked.body);
+  const double size = size_of_body(map, nodes, centre);
+  const auto held = held_in_body(scene, map, asked.body);
+  Eigen::MatrixXd g(3, static_cast<Eigen::Index>(held.size()));
+  Vector along = Vector::Zero(g.cols());  // part of each support in the reaction asked for
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    const auto [node, c] = held[j];
+    const auto at = static_cast<Eigen::Index>(j);
+    g.col(at) = resultant(map, node, c, centre, size);
+    if (node == asked.node) along[at] = asked.d[c];
+  }
+  const Eigen::MatrixXd square = g.transpose() * g;
+  const Eigen::MatrixXd angles = g.colwise().normalized().transpose() * g.colwise().normalized();
+  if (!(symmetric_eigen(angles).values[0] > rounding::of_many))
+    throw SceneError(
+        asked.place, asked.key,
+        fmt::format("the supports of rigid body '{}' bear its load together, and nothing decides how much "
+                    "each: expected three at most, none of which follows from the others",
+                    body.name));
+  const Eigen::Vector3d weights = g * solve_dense(square, along);
+  for (const int node : nodes)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const double factor = weights.dot(resultant(map, node, c, centre, size)); factor != 0.0)
+        rows.add_reaction(row, node, c, factor);
+}
+
+}  // namespace signorini

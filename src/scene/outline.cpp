@@ -1,0 +1,49 @@
+#include "scene/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace signorini {
+namespace {
+
+constexpr double on_the_line = 1e-9;  // of a product of lengths; chosen for a drawing: nobody sees less
+
+/// Whether c lies to the left of the way from a to b.
+bool turns_left(const Node& a, const Node& b, const Node& c) {
+  const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
+  return ux * vy - uy * vx > on_the_line * std::hypot(ux, uy) * std::hypot(vx, vy);
+}
+
+/// One side of the hull of sorted nodes.
+template <class Iterator>
+void add_side(Iterator first, Iterator last, std::vector<Node>& hull) {
+  const std::size_t begin = hull.size();
+  for (; first != last; ++first) {
+    while (hull.size() >= begin + 2 && !turns_left(hull[hull.size() - 2], hull.back(), *first))
+      hull.pop_back();
+    hull.push_back(*first);
+  }
+  hull.pop_back();  // the other side begins with it
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> outline_of(const Scene& scene, const RigidBody& body) {
+  std::unordered_set<std::string> names(body.nodes.begin(), body.nodes.end());
+  names.insert(body.centre);
+  std::vector<Node> nodes, hull;
+  for (const Node& node : scene.nodes)
+    if (names.contains(node.name)) nodes.push_back(node);
+  if (nodes.size() < 2) return {};
+  std::sort(nodes.begin(), nodes.end(),
+            [](const Node& a, const Node& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  add_side(nodes.begin(), nodes.end(), hull);
+  add_side(nodes.rbegin(), nodes.rend(), hull);
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (std::size_t i = 0; i < (hull.size() == 2 ? 1 : hull.size()); ++i)
+    lines.emplace_back(hull[i].name, hull[(i + 1) % hull.size()].name);
+  return lines;
+}
+
+}  // namespace signorini

@@ -42,8 +42,8 @@ motions matter.)"},
      R"(`initial = "static"`: at rest, in frictionless equilibrium under gravity and the loads with a constant history
 and neither start nor end; which contacts are closed is part of the answer, N follows from it, and T = 0 (or `initial_shear`).
 A motion that only friction could stop is held at the first contact that can, when the static loads do no work
-on it, and `check` names it. A motion that the loads would drive is refused, and so is a support that would have
-to pull. With `[matrices]`, such a constant load must say what the weight is.
+on it, and `check` names it. A contact whose normal carries nothing holds nothing. A motion that the loads would drive is
+refused, and so is a support that would have to pull. With `[matrices]`, such a constant load must say what the weight is.
 
 `initial = "frictional"`: from the undeformed state the loads grow slowly, one stage after the other, with friction and
 open contacts in force; so a frame keeps its thrust, and a hot pipe the friction that it slid against. What grows is

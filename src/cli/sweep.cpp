@@ -293,7 +293,13 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
     return ExitCode::interrupted;
   }
   conclude(options, directory);
-  return ExitCode::done;
+  const auto& rows = directory.rows();
+  const bool none = !rows.empty() && std::all_of(rows.begin(), rows.end(), [](const auto& row) {
+    return row.second.outcome == "refused";
+  });
+  if (!none) return ExitCode::done;
+  print_error("every run of the sweep was refused, the first of them: " + rows.begin()->second.reason);
+  return ExitCode::scene;
 }
 
 ExitCode merge(const SweepOptions& options) {

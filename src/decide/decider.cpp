@@ -10,6 +10,7 @@
 #include "decide/driven_states.hpp"
 #include "decide/places.hpp"
 #include "decide/release.hpp"
+#include "decide/unique_forces.hpp"
 #include "model/assembly/parts.hpp"
 #include "motion/hold.hpp"
 
@@ -104,7 +105,7 @@ bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course)
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
   d.mode = mode;
-  return true;
+  return !forces_are_noise(model_, course.jets) || forces_are_unique(systems_, mode);
 }
 
 std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& decision) const {

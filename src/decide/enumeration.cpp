@@ -10,6 +10,7 @@
 #include "contact/motion.hpp"
 #include "decide/delassus.hpp"
 #include "decide/places.hpp"
+#include "decide/unique_forces.hpp"
 #include "motion/hold.hpp"
 
 namespace signorini {
@@ -104,6 +105,7 @@ std::optional<Enumeration::Weighed> Enumeration::weigh(const Instant& instant, c
   hold(model_, *system, forcing, instant.t, u, v);
   std::vector<MotionJet> motions;
   const Jet jet = jets_.make(system, forcing, instant.t, u, v, motions);
+  if (forces_are_noise(model_, motions) && !forces_are_unique(systems_, mode)) return std::nullopt;
   Weighed result{0.0, jet.a()};
   for (const std::size_t c : block)
     for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))

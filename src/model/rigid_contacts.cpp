@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
@@ -37,9 +38,21 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
+/// Sum of the magnitudes that the gap is a difference of. Displacements of a run that goes on are known relative to
+/// the greatest that it had, however small those at the contact are: solves do not tell one from the other.
+double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
+  if (!scene.initial.saved) return std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+  double greatest = model.scales.displacement, sum = 0.0;
+  for (Eigen::Index i = 0; i < model.u0.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation)
+      greatest = std::max(greatest, std::abs(model.u0[i]));
+  for (const auto& term : contact.normal.terms) sum += std::abs(term.second);
+  return std::abs(contact.gap) + sum * greatest;
+}
+
 void close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  const double terms = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+  const double terms = terms_of_gap(scene, model, contact);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   if (carries || std::abs(gap) <= rounding::of_many * terms) {

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "differential/landings.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini::tests::rigid_landings {
@@ -113,6 +114,16 @@ TEST_CASE("a block on stiff beams that rocks: each landing is a hit") {
     CHECK(result.swallowed == 0);
   }
   CHECK(hits > 100);
+}
+
+TEST_CASE("random bodies: no landing is swallowed, no energy lost") {
+  differential::LandingsTally tally;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed)
+    differential::look_at_landings("drawn", differential::draw_landing_scene(seed), tally);
+  CHECK(tally.runs == 16);
+  CHECK(tally.bars == 8);
+  CHECK(tally.hits > 100);
+  CHECK(tally.exit_code() == 0);
 }
 
 TEST_SUITE_END();

@@ -89,6 +89,19 @@ TEST_CASE("cli sweep: a run that is refused is a row with its reason") {
   CHECK(list[1]["outcome"] == "done");
 }
 
+TEST_CASE("cli sweep: where every run is refused the sweep is, by the code of a wrong scene") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  const Ending ending =
+      shell.run({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=0.25,0.5", "--no-plots"});
+  CHECK(ending.code == 3);
+  CHECK(has(ending.err, "every run of the sweep was refused, the first of them: "));
+  CHECK(has(ending.err, "expected at most the static coefficient"));
+  const json list = rows(shell, "belt-sweep");
+  REQUIRE(list.size() == 2);
+  CHECK(list[1]["outcome"] == "refused");
+}
+
 TEST_CASE("cli sweep: resumes where it was; a differing specification is refused") {
   const Shell shell;
   shell.write("belt.toml", belt(10));

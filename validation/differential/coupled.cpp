@@ -315,6 +315,8 @@ const char* to_string(CoupledFinding::Verdict verdict) {
       return "REFUSED";
     case CoupledFinding::Verdict::unlike:
       return "UNLIKE";
+    case CoupledFinding::Verdict::broken:
+      return "BROKEN";
     case CoupledFinding::Verdict::forbidden:
       return "forbidden";
   }
@@ -346,6 +348,12 @@ CoupledFinding examine_coupled(const Scene& scene, std::size_t most_instants) {
     if (stops && run.rows.empty()) run.rows.push_back({0.0, model.u0, model.v0, {}, {}});
     if (!(stops && outcome.t == 0.0)) confirm(mechanics, run, found);
     if (stops && found.verdict == CoupledFinding::Verdict::agrees) explain(mechanics, run, found);
+    if (outcome.kind == Outcome::Kind::stopped && !outcome.refusal) {
+      found.verdict = CoupledFinding::Verdict::broken;
+      found.t = outcome.t;
+      found.cause = "no refusal";
+      found.what = outcome.reason;
+    }
   } catch (const SceneError& error) {
     found.verdict = CoupledFinding::Verdict::forbidden;
     found.what = error.what();

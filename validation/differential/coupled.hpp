@@ -29,6 +29,7 @@ struct CoupledFinding {
     unclear,   ///< it stops, and what could follow does not say
     refused,   ///< it stops where one motion goes on
     unlike,    ///< it goes on otherwise than the only motion
+    broken,    ///< it ends, but not since states are refused: a law is broken, or a step failed
     forbidden  ///< the scene itself is refused
   } verdict = Verdict::agrees;
   std::string cause;   ///< of a stop: its kind, and what could follow

@@ -9,6 +9,7 @@
 //   signorini_differential --loaded --transformed exact                   (draw_loaded.cpp)
 //   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
 //   signorini_differential --relations --from 1 --count 1000              (relations.hpp)
+//   signorini_differential --landings --from 1 --count 1000               (landings.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -25,6 +26,7 @@
 #include "differential/flows.hpp"
 #include "differential/generator.hpp"
 #include "differential/judge.hpp"
+#include "differential/landings.hpp"
 #include "differential/metamorphic.hpp"
 #include "differential/relations.hpp"
 #include "differential/shrink.hpp"
@@ -39,7 +41,8 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false, coupled = false, flows = false, loaded = false, relations = false;
+  bool shrink = false, print = false, coupled = false, flows = false, loaded = false, relations = false,
+       landings = false;
   bool verbose = false;
   std::string relation;  ///< the only one
   std::string keep, scene;
@@ -251,7 +254,8 @@ struct Decisions {
   }
   [[nodiscard]] int exit_code() const {
     using Verdict = CoupledFinding::Verdict;
-    return scenes.count(to_string(Verdict::refused)) + scenes.count(to_string(Verdict::unlike)) > 0 ? 1 : 0;
+    const auto any = [&](Verdict verdict) { return scenes.count(to_string(verdict)) > 0; };
+    return any(Verdict::refused) || any(Verdict::unlike) || any(Verdict::broken) ? 1 : 0;
   }
 };
 
@@ -291,6 +295,7 @@ void look_at_relations(const std::string& name, const std::string& text, const A
 /// A scene of the seed, of the kind that is asked for.
 std::string drawn(const Asked& asked, std::uint64_t seed) {
   if (asked.relations) return draw_whole_scene(seed);
+  if (asked.landings) return draw_landing_scene(seed);
   return asked.coupled ? draw_coupled_scene(seed) : asked.loaded ? draw_loaded_scene(seed) : draw_scene(seed);
 }
 
@@ -326,6 +331,10 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
       ->excludes("--coupled")
       ->excludes("--transformed")
       ->excludes("--flows");
+  app.add_flag("--landings", asked.landings,
+               "draw stiff bodies that fall on rigid contacts late, and look at each landing")
+      ->excludes("--coupled")
+      ->excludes("--relations");
   app.add_option("--relation", asked.relation, "of --relations: this one only")
       ->check(CLI::IsMember(names_of_relations()));
   app.add_flag("--verbose", asked.verbose, "of --relations: a line for each that is explained, too");
@@ -353,9 +362,12 @@ int main(int argc, char** argv) {
   Ways ways;
   Decisions decisions;
   RelationTally relations;
+  LandingsTally landings;
   const auto look_at = [&](const std::string& name, const std::string& text) {
     if (asked.relations)
       look_at_relations(name, text, asked, relations);
+    else if (asked.landings)
+      look_at_landings(name, text, landings);
     else if (asked.coupled)
       look_at_decisions(name, text, decisions);
     else if (asked.transformed.empty() && !asked.flows)
@@ -366,14 +378,16 @@ int main(int argc, char** argv) {
   const auto finish = [&] {
     if (asked.relations)
       relations.print();
+    else if (asked.landings)
+      landings.print();
     else if (asked.coupled)
       decisions.print();
     else if (!asked.transformed.empty() || asked.flows)
       ways.print();
     else if (asked.scene.empty())
       tally.print();
-    return std::max(
-        {tally.exit_code(), ways.exit_code(), decisions.exit_code(), relations.unexplained() > 0 ? 1 : 0});
+    return std::max({tally.exit_code(), ways.exit_code(), decisions.exit_code(), landings.exit_code(),
+                     relations.unexplained() > 0 ? 1 : 0});
   };
   if (!asked.scene.empty()) {
     std::ifstream file(asked.scene);

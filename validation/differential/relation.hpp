@@ -34,8 +34,9 @@ struct Related {
   double later = 0.0;  ///< in the time of the first scene
   double from = 0.0;
   bool mirrored = false;
-  bool same_steps = true;                             ///< newmark: it stops nowhere else
-  bool same_energy = true;                            ///< nothing was added beside
+  bool same_steps = true;       ///< newmark: it stops nowhere else
+  bool same_energy = true;      ///< nothing was added beside
+  bool jumps_at_start = false;  ///< of loads at t = 0: before energies of the first run are counted
   std::map<std::string, std::string> twins = {};      ///< contacts that share what one contact takes
   std::map<std::string, double> output_factors = {};  ///< of the first scene's value, of the other's
   std::vector<OutputExtremes> extremes_before = {};   ///< of what happened before `from`

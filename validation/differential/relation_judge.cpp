@@ -45,6 +45,7 @@ class WrittenBack {
       kept.push_back(std::move(event));
     }
     other_.events = std::move(kept);
+    for (double& t : other_.instants) t = time(t);
     other_.t = time(other_.t);
     other_.until = time(other_.until);
   }
@@ -166,6 +167,9 @@ struct Spread {
     if (!column.jumps) return false;
     const std::size_t count = std::min(run.events.size(), neighbour.events.size());
     const double instant = 8.0 * eps * run.t;
+    for (const SeenRun* of : {&run, &neighbour})
+      for (const double at : of->instants)
+        if (std::abs(t - at) <= instant) return true;
     for (std::size_t i = 0; i < count; ++i) {
       const double a = run.events[i].t, b = neighbour.events[i].t;
       if (std::min(a, b) - instant <= t && t <= std::max(a, b) + instant) return true;
@@ -202,13 +206,16 @@ std::vector<double> floors(const SeenRun& run, const Scales& scales, double rela
   return result;
 }
 
-/// Of both lists together: where a row may be on an event's other side.
-bool near_event(const std::vector<LoggedEvent>& events, double t, double t_end, double from) {
+/// Where a row may be on an event's other side.
+bool near_event(const SeenRun& run, double t, double t_end, double from) {
   // What a disturbance moves an event by is in its error; a restart's and the clock's rounding are not.
   const double instant = 64.0 * eps * (t_end + from);
-  return std::any_of(events.begin(), events.end(), [&](const LoggedEvent& event) {
-    return !(std::abs(event.t - t) > 2.0 * event.uncertainty + instant);
-  });
+  return std::any_of(run.events.begin(), run.events.end(),
+                     [&](const LoggedEvent& event) {
+                       return !(std::abs(event.t - t) > 2.0 * event.uncertainty + instant);
+                     }) ||
+         std::any_of(run.instants.begin(), run.instants.end(),
+                     [&](double at) { return std::abs(at - t) <= instant; });
 }
 
 }  // namespace
@@ -246,9 +253,10 @@ struct RelationJudge::Members {
     const bool other_steps = related.from > 0.0 || !related.same_steps;
     if (scene.run.engine == Engine::newmark && other_steps) {
       if (!spread_of_steps) {
-        Scene finer = scene;
-        *finer.run.dt *= 0.5;
-        spread_of_steps = spread_by({finer}, of_steps);
+        // Where in a step a peak lies is chance, too: three lengths are three places.
+        std::vector<Scene> others;
+        for (const double part : {0.5, 0.7, 0.9}) *others.emplace_back(scene).run.dt *= part;
+        spread_of_steps = spread_by(others, of_steps);
       }
       return *spread_of_steps;
     }
@@ -257,14 +265,16 @@ struct RelationJudge::Members {
       spread = spread_by({disturbed(scene, 1), disturbed(scene, 2)}, of_roundings);
       return *spread;
     }
-    Scene better = scene;
+    // One distance to a better run may be small by chance: other steps are another sample of the error.
+    Scene better = scene, other_steps_of = scene;
+    other_steps_of.run.rtol *= 0.7;
     const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
                                      [](const ContactSpec& c) { return c.friction.varies(); });
     if (linear)
       better.run.engine = Engine::exact;
     else
       better.run.rtol = std::max(1e-14, 0.01 * scene.run.rtol);
-    spread = spread_by({better}, of_steps);
+    spread = spread_by({better, other_steps_of}, of_steps);
     return *spread;
   }
 
@@ -342,15 +352,15 @@ void RelationJudge::Members::rows(const Related& related, const SeenRun& other, 
   const Spread& allowances = of(related);
   const double same_time = 1e-9 * run.t;  // of rows; they are 200 apart
   std::size_t next = 0;
-  std::vector<double> first_slip;
+  std::vector<double> begun;  // what the first row has more than the other's
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const double t = run.rows[i].t;
     if (t <= related.from + same_time || t >= result.until) continue;
     while (next < other.rows.size() && other.rows[next].t < t - same_time) ++next;
     if (next >= other.rows.size()) return;
     if (other.rows[next].t > t + same_time) continue;
-    const bool at_event = near_event(run.events, t, run.t, std::abs(related.later)) ||
-                          near_event(other.events, t, run.t, std::abs(related.later));
+    const bool at_event = near_event(run, t, run.t, std::abs(related.later)) ||
+                          near_event(other, t, run.t, std::abs(related.later));
     for (std::size_t j = 0; j < run.columns.size(); ++j) {
       const SeenColumn& column = run.columns[j];
       if (at_event && column.jumps) continue;
@@ -359,11 +369,12 @@ void RelationJudge::Members::rows(const Related& related, const SeenRun& other, 
       if (column.sums && related.from > 0.0) continue;
       double x = run.rows[i].values[j], y = other.rows[next].values[j];
       if (std::isnan(x) && std::isnan(y)) continue;
-      if (column.of == SeenColumn::Of::slip && related.from > 0.0) {
+      const bool jumped_before = related.jumps_at_start && column.name == "works";
+      if ((column.of == SeenColumn::Of::slip && related.from > 0.0) || jumped_before) {
         // It is counted from the beginning of each run.
-        if (first_slip.size() <= j) first_slip.resize(run.columns.size(), std::nan(""));
-        if (std::isnan(first_slip[j])) first_slip[j] = x - y;
-        y += first_slip[j];
+        if (begun.size() <= j) begun.resize(run.columns.size(), std::nan(""));
+        if (std::isnan(begun[j])) begun[j] = x - y;
+        y += begun[j];
       }
       const double written = as_written != nullptr ? as_written->so_far(next)[j] : 0.0;
       const double allowed = allowances.rows[i][j] + written + floor[j], off = std::abs(x - y);

@@ -51,6 +51,13 @@ bool waits(const HistorySpec& spec, Drives of) {
   return before.value(0.0) == after.value(0.0) && after.value(0.0, 1) == 0.0;
 }
 
+/// Parts without mass follow a load that jumps at once. At t = 0 energies are counted from what has come of that; where
+/// the same happens later, it is the work of the load.
+bool jumps_at_start(const HistorySpec& spec) {
+  const History history = make_history(spec, "history");
+  return history.piece_before(0.0).value(0.0) != history.piece(0.0).value(0.0);
+}
+
 /// A run in a directory, removed with the object.
 class KeptRun {
  public:
@@ -94,13 +101,18 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
   if (!initial.is_static && !initial.is_frictional) return std::nullopt;
   bool all_wait = true;
   Scene copy = scene;
-  each_history(copy, [&](HistorySpec& history, Drives of) { all_wait = all_wait && waits(history, of); });
+  bool jump = false;
+  each_history(copy, [&](HistorySpec& history, Drives of) {
+    all_wait = all_wait && waits(history, of);
+    jump = jump || jumps_at_start(history);
+  });
   if (!all_wait) return std::nullopt;
   Random draw(seed);
   double later = scene.run.t_end * draw.real(0.05, 0.5);
   if (scene.run.dt) later = std::ceil(later / *scene.run.dt) * *scene.run.dt;
   Related result{fmt::format("shifted by {:.6g}", later), scene};
   result.later = later;
+  result.jumps_at_start = jump;
   result.scene.run.t_end += later;
   shift_histories(result.scene, later);
   return result;

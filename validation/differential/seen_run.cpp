@@ -48,7 +48,7 @@ std::vector<SeenColumn> columns_of(const Scene& scene, const Model& model) {
   }
   columns.push_back({"stored energy", Of::stored, unit::energy, "", true});
   columns.push_back({"losses", Of::spent, unit::energy, "", true, true});
-  columns.push_back({"works", Of::spent, unit::energy, "", false, true});
+  columns.push_back({"works", Of::spent, unit::energy, "", true, true});
   return columns;
 }
 
@@ -78,7 +78,10 @@ void take_events(const Kept& run, const Model& model, const std::optional<Certif
                  SeenRun& seen) {
   for (std::size_t i = 0; i < run.events.size(); ++i) {
     const Event& event = run.events[i];
-    if (event.contact < 0) continue;
+    if (event.contact < 0) {
+      seen.instants.push_back(event.t);
+      continue;
+    }
     LoggedEvent row{event.t,
                     model.contacts[static_cast<std::size_t>(event.contact)].name,
                     to_string(event.type),

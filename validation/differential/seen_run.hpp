@@ -31,6 +31,7 @@ struct SeenRun {
   double t = 0.0;                   ///< reached
   double until = 0.0;               ///< certain until then; not certified: t
   std::vector<LoggedEvent> events;  ///< uncertainty: t_error; not a number where it is not certain
+  std::vector<double> instants;     ///< at which loads or surfaces change, whatever contacts do
   std::vector<SeenColumn> columns;
   struct Row {
     double t = 0.0;

@@ -1,6 +1,8 @@
 #include "model/assembly/springs.hpp"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <limits>
 
 namespace signorini {
 
@@ -39,10 +41,12 @@ double term_size(const SparseMatrix& k, const Vector& x) {
 
 struct SymmetricSolver::Impl {
   Eigen::SimplicialLDLT<SparseMatrix> ldlt;
+  Vector diagonal;
 };
 
 SymmetricSolver::SymmetricSolver(const SparseMatrix& k) : impl_(std::make_unique<Impl>()) {
   impl_->ldlt.compute(k);
+  impl_->diagonal = k.diagonal();
 }
 SymmetricSolver::~SymmetricSolver() = default;
 SymmetricSolver::SymmetricSolver(SymmetricSolver&&) noexcept = default;
@@ -51,6 +55,14 @@ bool SymmetricSolver::ok() const { return impl_->ldlt.info() == Eigen::Success; 
 Vector SymmetricSolver::solve(const Vector& b) const { return impl_->ldlt.solve(b); }
 double SymmetricSolver::smallest_pivot() const {
   return impl_->ldlt.vectorD().size() == 0 ? 0.0 : impl_->ldlt.vectorD().minCoeff();
+}
+
+double SymmetricSolver::smallest_share() const {
+  const Vector pivots = impl_->ldlt.permutationPinv() * impl_->ldlt.vectorD();
+  double least = pivots.size() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < pivots.size(); ++i)
+    least = std::min(least, impl_->diagonal[i] > 0.0 ? pivots[i] / impl_->diagonal[i] : 0.0);
+  return least;
 }
 
 int SymmetricSolver::negative_pivots() const {

@@ -41,6 +41,8 @@ class SymmetricSolver {
   [[nodiscard]] Vector solve(const Vector& b) const;
   /// The smallest pivot.
   [[nodiscard]] double smallest_pivot() const;
+  /// The smallest pivot over the diagonal entry that it stands for: whatever the units of the rows.
+  [[nodiscard]] double smallest_share() const;
   /// Number of negative eigenvalues (Sylvester's law of inertia).
   [[nodiscard]] int negative_pivots() const;
 

@@ -10,6 +10,7 @@
 #include "model/assembly/motion_names.hpp"
 #include "model/statics/held_rows.hpp"
 #include "model/statics/least_share.hpp"
+#include "model/statics/loose_motions.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/slow_rates.hpp"
 #include "model/statics/standing.hpp"
@@ -164,12 +165,14 @@ class Path {
       Eigen::MatrixXd m(n, n);
       Eigen::VectorXd q(n);
       std::vector<std::pair<Vector, Vector>> answers;
+      std::vector<bool> loose(rows.size(), false);
+      for (const Unknown& unknown : unknowns) loose[static_cast<std::size_t>(unknown.row)] = true;
+      const LooseMotions motions(stiffness_, rows, loose);
       for (Eigen::Index j = 0; j < n; ++j) {
         const Unknown& unknown = unknowns[static_cast<std::size_t>(j)];
-        Vector unit = Vector::Zero(r.size());
+        const auto row = static_cast<std::size_t>(unknown.row);
         // In forces, so that all unknowns and conditions have one unit.
-        unit[unknown.row] = unknown.sign / rows[static_cast<std::size_t>(unknown.row)].stiffness;
-        answers.push_back(held.solve(Vector::Zero(u_.size()), unit));
+        answers.push_back(motions.answer(held, row, unknown.sign / rows[row].stiffness));
         q[j] = condition(unknown, forces);
         for (Eigen::Index i = 0; i < n; ++i)
           m(i, j) = condition(unknowns[static_cast<std::size_t>(i)], answers.back().second);

@@ -3,11 +3,22 @@
 #include <algorithm>
 
 #include "base/eigen_dense.hpp"
+#include "model/statics/null_motions.hpp"
 
 namespace signorini {
+namespace {
+
+/// Rounding leaves a pivot of some eps of its own diagonal entry; below this one a motion without energy is looked for.
+constexpr double regular_share = 1e-9;
+
+}  // namespace
 
 HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
-    : rows_(std::move(rows)), matrix_(with_springs(k, springs())), solver_(matrix_) {
+    : rows_(std::move(rows)),
+      matrix_(with_springs(k, springs())),
+      solver_(matrix_),
+      regular_(solver_.ok() &&
+               (solver_.smallest_share() > regular_share || null_motions(matrix_).cols() == 0)) {
   for (std::size_t j = 0; j < rows_.size(); ++j)
     if (rows_[j].rigid) rigid_.push_back(j);
   if (!regular()) return;
@@ -17,11 +28,6 @@ HeldRows::HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows)
     answers_.push_back(solver_.solve(full(rigid_row(i).form, static_cast<int>(k.rows()))));
     for (Eigen::Index j = 0; j < n; ++j) schur_(j, i) = rigid_row(j).form.dot(answers_.back());
   }
-}
-
-bool HeldRows::regular() const {
-  return solver_.ok() &&
-         solver_.smallest_pivot() > 1e-13 * matrix_.diagonal().cwiseAbs().maxCoeff() * least_share();
 }
 
 std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
@@ -52,12 +58,6 @@ std::vector<LineSpring> HeldRows::springs() const {
   std::vector<LineSpring> list;
   for (const HeldRow& row : rows_) list.push_back({row.form, row.stiffness});
   return list;
-}
-
-/// Rotations have stiffnesses of another unit: the least diagonal entry over the greatest.
-double HeldRows::least_share() const {
-  const Vector d = matrix_.diagonal().cwiseAbs();
-  return d.maxCoeff() > 0.0 ? d.minCoeff() / d.maxCoeff() : 1.0;
 }
 
 }  // namespace signorini

@@ -26,7 +26,9 @@ class HeldRows {
   HeldRows(const SparseMatrix& k, std::vector<HeldRow> rows);
 
   /// Positive definite: what is held stays where it is.
-  [[nodiscard]] bool regular() const;
+  [[nodiscard]] bool regular() const { return regular_; }
+  /// Of rows.
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
   /// u and the forces F, one a row, for loads and for given r. Only where regular().
   [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
@@ -36,11 +38,11 @@ class HeldRows {
     return rows_[rigid_[static_cast<std::size_t>(i)]];
   }
   [[nodiscard]] std::vector<LineSpring> springs() const;
-  [[nodiscard]] double least_share() const;
 
   std::vector<HeldRow> rows_;
   SparseMatrix matrix_;
   SymmetricSolver solver_;
+  bool regular_;
   std::vector<std::size_t> rigid_;
   Eigen::MatrixXd schur_;
   std::vector<Vector> answers_;

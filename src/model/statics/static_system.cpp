@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "base/eigen_dense.hpp"
@@ -40,6 +41,26 @@ Eigen::MatrixXd other_motions(Eigen::MatrixXd rows) {
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
     if (!taken[static_cast<std::size_t>(j)]) others(row++, j) = 1.0;
   return others;
+}
+
+/// Leaves an undriven motion at zero. Both translations of a node are supported alike, by the sum of their
+/// stiffnesses, which is the same however the axes lie: a motion that is square to a spring stays so.
+SparseMatrix weak_support(const DofMap& map, const SparseMatrix& k) {
+  const double largest = k.diagonal().cwiseAbs().maxCoeff();
+  std::map<int, double> of_node;
+  const auto node = [&](int i) { return map.where[static_cast<std::size_t>(i)].first; };
+  const auto translates = [&](int i) {
+    return !map.matrices() && !map.dofs[static_cast<std::size_t>(i)].rotation;
+  };
+  for (int i = 0; i < k.rows(); ++i)
+    if (translates(i)) of_node[node(i)] += std::abs(k.coeff(i, i));
+  SparseMatrix weak(k.rows(), k.cols());
+  weak.setIdentity();
+  for (int i = 0; i < k.rows(); ++i) {
+    const double d = translates(i) ? of_node[node(i)] : std::abs(k.coeff(i, i));
+    weak.coeffRef(i, i) = weak_share * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
+  }
+  return weak;
 }
 
 }  // namespace
@@ -160,16 +181,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     springs.push_back({t, own_stiffness(k, t)});
   }
   k = with_springs(k, springs);
-  if (loose) {  // a weak support everywhere leaves an undriven motion at zero
-    SparseMatrix weak(k.rows(), k.cols());
-    weak.setIdentity();
-    const double largest = k.diagonal().cwiseAbs().maxCoeff();
-    for (int i = 0; i < k.rows(); ++i) {
-      const double d = std::abs(k.coeff(i, i));
-      weak.coeffRef(i, i) = weak_share * (d > 0.0 ? d : largest > 0.0 ? largest : 1.0);
-    }
-    k += weak;
-  }
+  if (loose) k += weak_support(problem.map, k);
   const SymmetricSolver solver(k);
   const Vector p = problem.right_side(closed);
   const auto refined = [&](const Vector& load) {

@@ -17,6 +17,7 @@ namespace signorini {
 namespace {
 
 constexpr double only_touches = 1e-13;  // of the greatest translation: a solution's rounding in a gap
+constexpr double no_reaction = 1e-9;  // of the greatest load: less drives no free motion (static_system.cpp)
 
 const std::string key = "run.initial";
 
@@ -120,6 +121,17 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                                describe_motion(found.driven_motion().motion, problem.map)));
 }
 
+/// Along its normal the reaction does no more work than counts as none.
+bool carries_nothing(const StaticProblem& problem, std::size_t k, double reaction) {
+  const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
+  double squares = 0.0, sum = 0.0;
+  for (const auto& [dof, factor] : problem.contacts[k].normal.terms) {
+    squares += factor * factor;
+    sum += std::abs(factor);
+  }
+  return std::abs(reaction) * squares <= no_reaction * greatest * sum;
+}
+
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
   const std::string name = describe_motion(f.motion, problem.map);
   if (f.holder < 0) return name + ", held by no contact, stays at zero";
@@ -138,6 +150,9 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   refuse_mechanisms(problem, all, place);
 
   std::vector<bool> closed = closed_supports(problem);
+  // What carries nothing may be closed only since Newton's rigid contacts gave way, and would hold a free motion
+  // away from its place: it opens, once. If its gap is negative without it, it closes for good.
+  std::vector<bool> opened(contacts.size(), false);
   // Newton ended on a slightly supported structure; without that support a contact that only just
   // touches may change its side, and change back: after 20 rounds either will do.
   for (int round = 0;; ++round) {
@@ -149,11 +164,14 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       if (!problem.is_support(k)) continue;
       const double g = problem.gap(k, trial.u);
       // A contact that only just touches may count either way.
-      const bool rigid = contacts[k].takes_impulses();
-      if (rigid && closed[k])
-        next[k] = trial.reactions[k] >= 0.0;
-      else if (std::abs(g) > only_touches * (size + std::abs(contacts[k].gap)))
+      if (closed[k] && carries_nothing(problem, k, trial.reactions[k])) {
+        next[k] = opened[k];
+        opened[k] = true;
+      } else if (closed[k] && contacts[k].takes_impulses()) {
+        next[k] = trial.reactions[k] > 0.0;
+      } else if (std::abs(g) > only_touches * (size + std::abs(contacts[k].gap))) {
         next[k] = g < 0.0;
+      }
     }
     if (next == closed || round == 20) {
       Equilibrium result{trial.u, {}};

@@ -7,7 +7,8 @@
 //
 // A null motion of K + sum_closed kn n n^T on which the loads do no work is free: it is held by ut = 0 at
 // the first contact in file order that can. One that the loads drive is refused. Sliders carry nothing
-// here, but can hold a free motion.
+// here, but can hold a free motion. A contact whose normal carries nothing is open where the structure does not
+// reach it, whichever way rounding turns its reaction.
 #pragma once
 
 #include <vector>

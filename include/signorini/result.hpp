@@ -173,11 +173,15 @@ struct OutputExtremes {
 /// Which engine computes, and how.
 struct Method {
   Engine engine = Engine::ida;  ///< never automatic
-  std::string reason;           ///< of the engine: "as given" or "auto: ..."
+  bool automatic = false;       ///< the engine was chosen by the program
+  std::string reason;           ///< why; "as given" where it was not
   double accuracy = 0.0;        ///< value of its accuracy key (engine.hpp): rtol, dt, or 0
   int max_order = 5;
   std::string max_order_reason;
   std::string flow = {}, flow_reason = {};  ///< exact: "modal" or "taylor", and why
+
+  /// "as given" or "auto: ..."
+  [[nodiscard]] std::string engine_reason() const { return (automatic ? "auto: " : "") + reason; }
 };
 
 /// A law that an instant, or the motion between two, breaks (src/witness/witness.hpp).

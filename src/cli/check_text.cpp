@@ -258,7 +258,7 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
   else
     text += fmt::format("     engine {}, rtol {:g}, order at most {} ({})\n", to_string(method.engine),
                         scene.run.rtol, method.max_order, method.max_order_reason);
-  if (method.reason.starts_with("auto")) text += "     engine " + method.reason + "\n";
+  if (method.automatic) text += "     engine " + method.engine_reason() + "\n";
   const Cost& cost = report.cost;
   text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
                       u.time);

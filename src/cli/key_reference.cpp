@@ -45,11 +45,11 @@ std::string default_cell(const Key& key) {
 
 std::string name_cell(const Key& key) { return key.name == "*" ? "any name" : code(key.name); }
 
-/// The table of the keys of one table; empty when all of them are for later.
+/// The table of the keys of one table.
 std::string key_table(std::string_view table) {
   std::string rows;
   for (const Key& key : all_keys()) {
-    if (key.table != table || key.later) continue;
+    if (key.table != table) continue;
     rows += fmt::format("| {} | {} | {} | {} | {} |\n", name_cell(key), cell(describe_type(key)),
                         cell(key.unit), default_cell(key), cell(key.meaning));
   }
@@ -68,17 +68,6 @@ bool speaks_of(const std::vector<std::string>& row, const std::vector<std::strin
                      [&](const std::string& word) { return line.find(small(word)) != std::string::npos; });
 }
 
-std::string not_yet() {
-  std::string text;
-  for (const Key& key : all_keys()) {
-    if (key.later) text += fmt::format("{}`{}`", text.empty() ? "" : ", ", path_of(key));
-    for (const std::string& word : later_choices_of(key))
-      text += fmt::format("{}`{} = \"{}\"`", text.empty() ? "" : ", ", path_of(key), word);
-  }
-  if (text.empty()) return "";
-  return "\n## Not supported yet\n\nReserved, and refused with a message that says so: " + text + ".\n";
-}
-
 }  // namespace
 
 std::string key_list(const std::vector<std::string>& words) {
@@ -90,9 +79,8 @@ std::string key_list(const std::vector<std::string>& words) {
     bool any = false;
     for (const Key& key : all_keys()) {
       if (key.table != table) continue;
-      const std::vector<std::string> row = {
-          path_of(key), describe_type(key), std::string(key.unit), default_of(key),
-          std::string(key.meaning) + (key.later ? " (not supported yet)" : "")};
+      const std::vector<std::string> row = {path_of(key), describe_type(key), std::string(key.unit),
+                                            default_of(key), std::string(key.meaning)};
       if (!speaks_of(row, words)) continue;
       any = true;
       rows.row(row);
@@ -116,7 +104,7 @@ std::string scene_reference() {
   for (const std::string_view table : tables())
     if (std::find(done.begin(), done.end(), table) == done.end())
       add(table, fmt::format("## `{}`", table), "");
-  return text + not_yet();
+  return text;
 }
 
 }  // namespace signorini::cli

@@ -35,7 +35,7 @@ std::vector<std::string> plain_settings() {
   std::vector<std::string> paths;
   for (const Key& key : all_keys()) {
     const bool table = key.type == KeyType::table || key.type == KeyType::tables;
-    if (key.later || table || key.name == "*" || key.table.empty() || key.table == "history" ||
+    if (table || key.name == "*" || key.table.empty() || key.table == "history" ||
         key.table.find_first_of("[*") != std::string_view::npos || key.table == "base_motion")
       continue;
     paths.push_back(std::string(key.table) + "." + std::string(key.name) + "=");

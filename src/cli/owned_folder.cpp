@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/output_directory.hpp"
 #include "result/csv.hpp"
 #include "signorini/error.hpp"
 
@@ -23,28 +24,18 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 void check_folder(const fs::path& path, const OwnedFolder& folder, bool force, const std::string& scene) {
+  check_output_directory(path, {folder.what, folder.marker}, force);
   std::error_code error;
-  if (!fs::exists(fs::symlink_status(path, error))) return;
-  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
-  if (fs::is_empty(path, error)) return;
-  if (!force)
-    throw FileError(
-        path.string(),
-        fmt::format("is there already and not empty; --force replaces the {} in it", folder.what));
-  if (!fs::exists(path / folder.marker, error))
-    throw FileError(path.string(),
-                    fmt::format("is not empty and holds no {} (no {}) that --force could replace",
-                                folder.what, folder.marker));
-  if (!scene.empty() && lies_in(path, scene))
+  const bool holds_results = fs::exists(path / folder.marker, error);
+  if (holds_results && !scene.empty() && lies_in(path, scene))
     throw FileError(
         scene,
         fmt::format("lies in {}, where --force replaces files; move it, or name another -o", path.string()));
 }
 
 void begin_folder(const fs::path& path, const OwnedFolder& folder) {
+  make_directory(path);
   std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
   for (const std::string& name : folder.files) fs::remove(path / name, error);
   write_file(path / folder.marker, "{}\n");
 }

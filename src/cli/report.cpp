@@ -100,8 +100,7 @@ void add_extreme(Table& table, const Model& model, const char* what, const Extre
 
 std::string method_of(const Method& method) {
   const EngineName& engine = name_of(method.engine);
-  const std::string name =
-      fmt::format("{}{}", method.reason.starts_with("auto") ? "auto: " : "", engine.name);
+  const std::string name = fmt::format("{}{}", method.automatic ? "auto: " : "", engine.name);
   switch (engine.accuracy) {
     case Accuracy::rounding:
       return fmt::format("{} ({})", name, method.flow == "modal" ? "closed form in modes" : engine.title);
@@ -233,9 +232,8 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
                       times(c.restarts, "restart"), report.wall_time);
-  const std::string automatic = "auto: ";
-  if (report.method.engine == Engine::ida && report.method.reason.starts_with(automatic))
-    return text + "why ida: " + report.method.reason.substr(automatic.size()) + "\n";
+  if (report.method.engine == Engine::ida && report.method.automatic)
+    return text + "why ida: " + report.method.reason + "\n";
   RunSpec chosen = run;
   chosen.engine = report.method.engine;
   // Only where it would be quicker than what the run took: by its first steps, where that is worth a trial.

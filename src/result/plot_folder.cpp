@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/output_directory.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -30,11 +31,9 @@ void clear_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
 }
 
 void begin_plot_folder(const fs::path& folder, bool (*ours)(const fs::path&)) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(folder.string(), "cannot be created: " + error.message());
+  make_directory(folder);
   clear_plot_folder(folder, ours);
-  fs::create_directories(folder, error);
+  make_directory(folder);
 }
 
 }  // namespace signorini

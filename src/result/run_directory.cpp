@@ -4,6 +4,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/output_directory.hpp"
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
@@ -36,30 +37,6 @@ void check_scene_is_kept(const fs::path& path, const std::string& scene) {
   }
 }
 
-/// Creates a directory; the outermost that had to be created.
-fs::path create_path(const fs::path& path) {
-  fs::path first;
-  std::error_code error;
-  for (fs::path p = fs::absolute(path).lexically_normal(); !fs::exists(p, error) && p != p.parent_path();
-       p = p.parent_path())
-    if (!p.filename().empty()) first = p;
-  fs::create_directories(path, error);
-  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
-  return first;
-}
-
-/// Removes the directory and those above it down from `first`, as far as they are empty.
-void remove_path(const fs::path& path, const fs::path& first) {
-  if (first.empty()) return;
-  std::error_code error;
-  fs::path p = fs::absolute(path).lexically_normal();
-  if (p.filename().empty()) p = p.parent_path();
-  for (;; p = p.parent_path()) {
-    fs::remove(p, error);
-    if (error || p == first) return;
-  }
-}
-
 }  // namespace
 
 void remove_run(const fs::path& path, bool summary) {
@@ -75,24 +52,7 @@ void remove_run(const fs::path& path, bool summary) {
 }
 
 void check_run_directory(const fs::path& path, bool force) {
-  std::error_code error;
-  const fs::file_status status = fs::symlink_status(path, error);
-  if (!fs::exists(status)) {
-    if (error && error != std::errc::no_such_file_or_directory) {
-      throw FileError(path.string(), "cannot be looked at: " + error.message());
-    }
-    return;
-  }
-  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
-  const bool empty = fs::is_empty(path, error);
-  if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
-  if (!empty && !force) {
-    throw FileError(path.string(), "is there already and not empty; --force replaces the run in it");
-  }
-  if (!empty && !fs::exists(path / "summary.json", error)) {
-    throw FileError(path.string(),
-                    "is not empty and holds no run (no summary.json) that --force could replace");
-  }
+  check_output_directory(path, {"run", "summary.json"}, force);
 }
 
 struct RunDirectory::Writers {
@@ -125,7 +85,7 @@ RunDirectory::~RunDirectory() = default;
 RunDirectory::Writers& RunDirectory::writers() {
   if (writers_) return *writers_;
   check_run_directory(path_, options_.force);  // again: it may have appeared since
-  const fs::path created = create_path(path_);
+  const fs::path created = make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another run is being written to it");
   try {
     // First, and over an earlier one: a folder without it is no run, which --force would not replace.
@@ -136,7 +96,7 @@ RunDirectory::Writers& RunDirectory::writers() {
   } catch (const FileError&) {
     std::error_code ignored;
     for (const std::string_view name : run_files) fs::remove(path_ / name, ignored);
-    remove_path(path_, created);
+    unmake_directory(path_, created);
     throw;
   }
   return *writers_;

@@ -155,7 +155,7 @@ Json settings_json(const RunSpec& run, const Tolerance& tolerance, const Method&
                  {"velocity", tolerance.velocity},
                  {"angular_velocity", tolerance.angular_velocity},
                  {"force", tolerance.force}}},
-               {"engine_reason", method.reason},
+               {"engine_reason", method.engine_reason()},
                {"max_order", method.max_order},
                {"max_order_reason", method.max_order_reason},
                {"max_events_at_once", run.max_events_at_once}};

@@ -17,18 +17,19 @@ constexpr double slow = 0.2;
 }  // namespace
 
 EngineChoice choose_engine(const Model& model, const RunSpec& run) {
-  if (run.engine != Engine::automatic) return {run.engine, "as given"};
+  if (run.engine != Engine::automatic) return {run.engine, false, "as given"};
   try {
     engine_row(Engine::exact).refuse(model, run);
   } catch (const SceneError&) {
-    return {Engine::ida, "auto: a law or a load of the scene has no closed flow"};
+    return {Engine::ida, true, "a law or a load of the scene has no closed flow"};
   }
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)
-    return {Engine::ida, fmt::format("auto: the fastest decay, {:.3g} 1/{}, is not slow beside the "
-                                     "fastest oscillation, {:.3g} rad/{}",
-                                     decay, model.units.time, oscillation, model.units.time)};
-  return {Engine::exact, "auto: the laws are linear, and every decay is slow beside the fastest oscillation"};
+    return {Engine::ida, true,
+            fmt::format("the fastest decay, {:.3g} 1/{}, is not slow beside the "
+                        "fastest oscillation, {:.3g} rad/{}",
+                        decay, model.units.time, oscillation, model.units.time)};
+  return {Engine::exact, true, "the laws are linear, and every decay is slow beside the fastest oscillation"};
 }
 
 }  // namespace signorini

@@ -19,10 +19,11 @@ namespace signorini {
 
 struct EngineChoice {
   Engine engine = Engine::ida;
+  bool automatic = false;
   std::string reason;  ///< one sentence
 };
 
-/// What run.engine says, with the reason "as given"; never Engine::automatic.
+/// What run.engine says, not automatic and with the reason "as given"; never Engine::automatic.
 [[nodiscard]] EngineChoice choose_engine(const Model& model, const RunSpec& run);
 
 }  // namespace signorini

@@ -464,6 +464,7 @@ Report simulated(const Model& model, const RunSpec& settings, Recorder& recorder
   const EngineRow& engine = engine_row(spec.engine);
   engine.refuse(model, spec);
   Method method = engine.method(model, spec);
+  method.automatic = choice.automatic;
   method.reason = choice.reason;
   const Factors to_machine = inverse(model.machine);
   Model computed = rescaled(model, to_machine);

@@ -257,23 +257,6 @@ std::span<const Key> rows_of(std::string_view table) {
   return found == tables.end() ? std::span<const Key>() : found->second;
 }
 
-std::vector<std::string> words_of(const Key& key, bool later) {
-  std::string choices(key.choices);
-  if (key.choices == engines_and_auto) {
-    choices = to_string(Engine::automatic);
-    for (const EngineName& engine : all_engines) choices.append(" ").append(engine.name);
-  }
-  std::vector<std::string> result;
-  for (std::string_view rest = choices; !rest.empty();) {
-    std::string_view word = rest.substr(0, rest.find(' '));
-    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
-    if (word.empty() || word.starts_with('~') != later) continue;
-    if (later) word.remove_prefix(1);
-    result.emplace_back(word);
-  }
-  return result;
-}
-
 }  // namespace
 
 std::span<const Key> all_keys() { return table_of_keys; }
@@ -296,7 +279,7 @@ const Key* find_key(std::string_view table, std::string_view name) {
 std::vector<std::string> key_names(std::string_view table) {
   std::vector<std::string> names;
   for (const Key& key : table_of_keys) {
-    if (key.table == table && key.name != "*" && !key.later) names.emplace_back(key.name);
+    if (key.table == table && key.name != "*") names.emplace_back(key.name);
   }
   if (table == "stops[]")
     for (const std::string& name : key_names("contacts[]"))
@@ -304,9 +287,20 @@ std::vector<std::string> key_names(std::string_view table) {
   return names;
 }
 
-std::vector<std::string> choices_of(const Key& key) { return words_of(key, false); }
-
-std::vector<std::string> later_choices_of(const Key& key) { return words_of(key, true); }
+std::vector<std::string> choices_of(const Key& key) {
+  std::string choices(key.choices);
+  if (key.choices == engines_and_auto) {
+    choices = to_string(Engine::automatic);
+    for (const EngineName& engine : all_engines) choices.append(" ").append(engine.name);
+  }
+  std::vector<std::string> words;
+  for (std::string_view rest = choices; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+    if (!word.empty()) words.emplace_back(word);
+  }
+  return words;
+}
 
 namespace {
 

@@ -52,10 +52,8 @@ struct Key {
   KeyType type;
   std::string_view unit;      ///< in units of force, mass, length, time; "" without
   std::string_view fallback;  ///< TOML text of the default; "required"; "" for none
-  std::string_view
-      choices;  ///< of a choice, separated by blanks; ~ before those that are for later; choices_of()
-  std::string_view meaning;  ///< one sentence
-  bool later = false;        ///< refused as not supported yet
+  std::string_view choices;   ///< of a choice, separated by blanks; choices_of()
+  std::string_view meaning;   ///< one sentence
 };
 
 [[nodiscard]] std::span<const Key> all_keys();
@@ -63,14 +61,13 @@ struct Key {
 /// The key, or that of "*" in the same table, or null. A stop has the keys of a contact besides its own.
 [[nodiscard]] const Key* find_key(std::string_view table, std::string_view name);
 
-/// Names of the keys of a table, in the order of the table; without those that are for later.
+/// Names of the keys of a table, in the order of the table.
 [[nodiscard]] std::vector<std::string> key_names(std::string_view table);
 
 /// "a number > 0", "one of \"ida\", \"newmark\"".
 [[nodiscard]] std::string describe_type(const Key& key);
 
-/// The words that a choice may be, and those that will be.
+/// The words that a choice may be.
 [[nodiscard]] std::vector<std::string> choices_of(const Key& key);
-[[nodiscard]] std::vector<std::string> later_choices_of(const Key& key);
 
 }  // namespace signorini

@@ -111,19 +111,13 @@ Table::Table(const toml::table* node, std::string kind, std::string path, Source
       kind_(std::move(kind)),
       path_(std::move(path)),
       place_(std::move(place)) {
-  const auto can_stand = [&](const toml::key& name) {
-    const Key* known = find_key(kind_, name.str());
-    return known && !known->later;
-  };
+  const auto can_stand = [&](const toml::key& name) { return find_key(kind_, name.str()) != nullptr; };
   bool fits = true;
   for (const auto& [name, value] : *node_) fits = fits && can_stand(name);
   if (fits) return;
   for (const Entry& entry : entries_of(*node_)) {  // the first in the file is named
-    const Key* known = find_key(kind_, entry.name);
-    if (!known) {
+    if (!find_key(kind_, entry.name))
       refuse(entry.place(), this->path(entry.name), "unknown key" + suggestion(entry.name, key_names(kind_)));
-    }
-    if (known->later) refuse(entry.place(), this->path(entry.name), "not supported yet");
   }
 }
 
@@ -211,11 +205,6 @@ std::optional<std::string> Table::optional_text(std::string_view name) {
 std::string Table::choice(std::string_view name) {
   std::string result = text(name);
   const std::vector<std::string> choices = choices_of(key(name));
-  const std::vector<std::string> later = later_choices_of(key(name));
-  if (std::find(later.begin(), later.end(), result) != later.end()) {
-    fail(name, fmt::format("\"{}\" is not supported yet", result));
-  }
-
   if (std::find(choices.begin(), choices.end(), result) == choices.end()) {
     wrong(name, describe_type(key(name)) + did_you_mean(result, choices));
   }

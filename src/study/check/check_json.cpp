@@ -64,7 +64,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   json["run"] = {{"t_end", scene.run.t_end},
                  {"rtol", scene.run.rtol},
                  {"engine", to_string(report.method.engine)},
-                 {"engine_reason", report.method.reason},
+                 {"engine_reason", report.method.engine_reason()},
                  {"max_order", report.method.max_order},
                  {"max_order_reason", report.method.max_order_reason},
                  {"rows", report.rows},

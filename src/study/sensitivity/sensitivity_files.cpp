@@ -157,7 +157,7 @@ std::string sensitivity_json(const Sensitivities& s, const Sigmas& sigmas) {
   Json json = {{"title", s.title}, {"units", units_json(s.units)}, {"events", s.events.size()}};
   json["outcome"] = s.report.outcome.reason.empty() ? "done" : s.report.outcome.reason;
   const Method& method = s.report.method;
-  json["settings"] = {{"engine", to_string(method.engine)}, {"engine_reason", method.reason}};
+  json["settings"] = {{"engine", to_string(method.engine)}, {"engine_reason", method.engine_reason()}};
   if (!method.flow.empty()) {
     json["settings"]["flow"] = method.flow;
     json["settings"]["flow_reason"] = method.flow_reason;

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <system_error>
 #include "base/json.hpp"
+#include "base/output_directory.hpp"
 
 #include "base/number.hpp"
 #include "base/version.hpp"
@@ -65,12 +66,6 @@ void check_directory(const fs::path& path) {
   if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
   if (!fs::is_empty(path, error) && !is_sweep(path))
     throw FileError(path.string(), "is not empty and holds no sweep (no sweep.json) to go on with");
-}
-
-void create(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
 }
 
 /// As row_file() and run_directory() number them: six digits, more only where they are needed.
@@ -140,7 +135,7 @@ void remove_old(const fs::path& path) {
 SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     : path_(std::move(path)), spec_(std::move(spec)), points_(signorini::points(spec_.vary)) {
   check_directory(path_);
-  create(path_);
+  make_directory(path_);
   if (!lock_.take(path_)) throw FileError(path_.string(), "another sweep is running in it");
   if (is_sweep(path_) && !force) {
     const SweepSpec was = read_sweep_spec(path_);
@@ -153,7 +148,7 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
   } else if (force) {
     remove_old(path_);
   }
-  create(path_ / "rows");
+  make_directory(path_ / "rows");
   check_rows();
   write_file(path_ / "sweep.json", json_text(spec_json(spec_)));
   read_rows();

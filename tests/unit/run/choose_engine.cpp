@@ -39,7 +39,7 @@ std::string computed_by(const Scene& scene) {
   const Result result = simulate(build_model(scene), scene.run);
   CHECK(result.report.outcome.kind == Outcome::Kind::done);
   const Method& method = result.report.method;
-  return std::string(to_string(method.engine)) + " " + method.reason.substr(0, 8);
+  return std::string(to_string(method.engine)) + " " + method.engine_reason().substr(0, 8);
 }
 
 }  // namespace

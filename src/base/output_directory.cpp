@@ -1,0 +1,56 @@
+#include "base/output_directory.hpp"
+
+#include <fmt/core.h>
+
+#include <system_error>
+
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+void check_output_directory(const fs::path& path, const ResultsKind& kind, bool replace) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) {
+    if (error && error != std::errc::no_such_file_or_directory)
+      throw FileError(path.string(), "cannot be looked at: " + error.message());
+    return;
+  }
+  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
+  const bool empty = fs::is_empty(path, error);
+  if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
+  if (empty) return;
+  if (!replace)
+    throw FileError(path.string(),
+                    fmt::format("is there already and not empty; --force replaces the {} in it", kind.what));
+  if (!fs::exists(path / kind.marker, error))
+    throw FileError(path.string(),
+                    fmt::format("is not empty and holds no {} (no {}) that --force could replace", kind.what,
+                                kind.marker));
+}
+
+fs::path make_directory(const fs::path& path) {
+  fs::path first;
+  std::error_code error;
+  for (fs::path p = fs::absolute(path).lexically_normal(); !fs::exists(p, error) && p != p.parent_path();
+       p = p.parent_path())
+    if (!p.filename().empty()) first = p;
+  fs::create_directories(path, error);
+  if (error) throw FileError(path.string(), "cannot be created: " + error.message());
+  return first;
+}
+
+void unmake_directory(const fs::path& path, const fs::path& first) {
+  if (first.empty()) return;
+  std::error_code error;
+  fs::path p = fs::absolute(path).lexically_normal();
+  if (p.filename().empty()) p = p.parent_path();
+  for (;; p = p.parent_path()) {
+    fs::remove(p, error);
+    if (error || p == first) return;
+  }
+}
+
+}  // namespace signorini

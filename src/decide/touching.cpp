@@ -277,6 +277,25 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
   }
 }
 
+/// What others that rest hold rests with them, whatever rounding has left of its slip: feet of one body.
+void Touching::rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode,
+                             Findings& found) const {
+  Mode held = mode;
+  for (const Participant& who : found.participants)
+    held[who.contact].state = !model_.contacts[who.contact].has_friction() ? State::closed
+                              : who.slipping                               ? slip_along(who.sign)
+                                                                           : State::stick;
+  for (Participant& who : found.participants) {
+    const std::size_t c = who.contact;
+    if (!who.slipping || !systems_.held_by_others(c, held)) continue;
+    const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+    if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
+    who.slipping = false;
+    who.sliding_friction = sliding_friction(model_.contacts[c], 0.0);
+    held[c].state = State::stick;
+  }
+}
+
 /// Sliders whose friction has let go or has stopped them, where they join; and those that a hit has stopped.
 void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                            const Mode& mode, const Decision& decision, Findings& found) const {
@@ -377,6 +396,7 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
+    rest_together(instant, forcing, mode, found);
     while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
       if (!slide_anew(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);

@@ -15,23 +15,36 @@ constexpr double dependent = 1e-12;
 
 }  // namespace
 
+// H = Q R on the columns that are independent of those before, by Gram and Schmidt, twice.
 Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
-  std::vector<Eigen::Index> own;  // columns that are independent
-  Eigen::MatrixXd null(h.cols(), 0);
+  const Eigen::Index most = std::min(h.rows(), h.cols());
+  Eigen::MatrixXd q(h.rows(), most), r = Eigen::MatrixXd::Zero(most, most), null(h.cols(), 0);
+  std::vector<Eigen::Index> own;
   for (Eigen::Index j = 0; j < h.cols(); ++j) {
-    const Eigen::VectorXd column = h.col(j);
-    if (!own.empty()) {
-      const Eigen::MatrixXd others = h(Eigen::all, own);
-      const Eigen::VectorXd x = combination_of_columns(others, column);
-      if ((column - others * x).norm() <= dependent * column.norm()) {
-        null.conservativeResize(Eigen::NoChange, null.cols() + 1);
-        null.rightCols(1).setZero();
-        null(own, null.cols() - 1) = x;
-        null(j, null.cols() - 1) = -1.0;
-        continue;
-      }
+    const auto k = static_cast<Eigen::Index>(own.size());
+    Eigen::VectorXd rest = h.col(j), part = Eigen::VectorXd::Zero(k);
+    for (int round = 0; round < 2 && k > 0; ++round) {
+      const Eigen::VectorXd more = q.leftCols(k).transpose() * rest;
+      rest -= q.leftCols(k) * more;
+      part += more;
     }
-    own.push_back(j);
+    const double length = rest.norm();
+    if (k < most && length > dependent * h.col(j).norm()) {
+      q.col(k) = rest / length;
+      r.col(k).head(k) = part;
+      r(k, k) = length;
+      own.push_back(j);
+      continue;
+    }
+    null.conservativeResize(Eigen::NoChange, null.cols() + 1);
+    null.rightCols(1).setZero();
+    for (Eigen::Index i = k - 1; i >= 0; --i) {
+      double x = part[i];
+      for (Eigen::Index l = i + 1; l < k; ++l)
+        x -= r(i, l) * null(own[static_cast<std::size_t>(l)], null.cols() - 1);
+      null(own[static_cast<std::size_t>(i)], null.cols() - 1) = x / r(i, i);
+    }
+    null(j, null.cols() - 1) = -1.0;
   }
   return null.cols() == 0 ? null : orthonormal(null);
 }
@@ -73,7 +86,12 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
       rows.push_back(2 * k);
       if (model.contacts[k].sticks_rigidly()) rows.push_back(2 * k + 1);
     }
-    if (null_of_columns(columns(rows)).cols() > 0) groups_.push_back(std::move(group));
+    // Two walls on both sides of a mass never close together: without friction nothing is shared.
+    const Eigen::MatrixXd null = null_of_columns(columns(rows));
+    bool friction = false;
+    for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
+      friction = friction || (rows[i] % 2 == 1 && !null.row(static_cast<Eigen::Index>(i)).isZero(0.0));
+    if (friction) groups_.push_back(std::move(group));
   }
 }
 

@@ -145,6 +145,7 @@ void Decider::look(Course& course, bool before) {
   course.failed =
       failures(model_, course.jets, course.mode, course.instant, before, course.found.known, course.so_far);
   std::erase_if(course.failed, [&](const Failure& f) {
+    if (f.guard == Guard::sliding && systems_.held_by_others(f.contact, course.mode)) return true;
     return std::find(course.undecided.begin(), course.undecided.end(), block_of_[f.contact]) !=
            course.undecided.end();
   });
@@ -429,6 +430,11 @@ void Decider::finish(Course& course) const {
     d.jumped[c] = std::abs(now.N - d.before[c].N) > course.noise_before[c].N + jet.noise[0].N ||
                   std::abs(now.T - d.before[c].T) > course.noise_before[c].T + jet.noise[0].T;
     for (const GuardForm& guard : guards(model_.contacts[c], course.mode[c])) {
+      // Others hold its slip rate at zero, whatever rounding makes of it.
+      if (guard.kind == Guard::sliding && systems_.held_by_others(c, course.mode)) {
+        d.guards.emplace_back();
+        continue;
+      }
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);

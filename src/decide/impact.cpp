@@ -9,6 +9,7 @@
 #include "contact/friction.hpp"
 #include "contact/motion.hpp"
 #include "decide/coulomb_reading.hpp"
+#include "decide/fair_share.hpp"
 #include "decide/places.hpp"
 #include "scene/quantities.hpp"
 
@@ -89,6 +90,7 @@ bool Impacts::rebound(const std::vector<std::size_t>& touching, Hit& hit) const 
       hit.problem.b[normal_place(i)] += hit.restitution[i] * std::min(hit.before[normal_place(i)], 0.0);
     hit.solution = signorini::solve(hit.problem);
     if (!hit.solution) return false;
+    share_fairly(hit.problem, *hit.solution);
     hit.after = hit.before + hit.d.W * hit.solution->force;
     for (Eigen::Index i = 0; i < m; ++i) {
       const Contact& contact = model_.contacts[touching[static_cast<std::size_t>(i)]];

@@ -8,6 +8,7 @@
 
 #include "contact/friction.hpp"
 #include "decide/coulomb_reading.hpp"
+#include "decide/fair_share.hpp"
 #include "decide/places.hpp"
 #include "scene/quantities.hpp"
 
@@ -224,6 +225,7 @@ Refusal Levels::solve_level(Level& level, std::optional<CoulombSolution>& soluti
   hold_normals(problem);
   solution = solve(problem);
   if (!solution) return refusal(level, all_solutions(problem));
+  share_fairly(problem, *solution);
   if (level.entries.size() > most_compared || !may_have_many(problem)) return {};
   // Between static and kinetic friction what sticks may also slip; that is the law, not a paradox.
   CoulombProblem settled = problem;
@@ -282,7 +284,9 @@ Refusal Levels::decide(const Instant& instant, const Forcing& forcing,
   }
   // No known derivative says more: what touches stays as it was, what is at its limit sticks.
   for (const Entry& entry : entries) {
-    if (entry.standing == Standing::limit) {
+    if (entry.standing == Standing::limit && systems_.held_by_others(entry.who.contact, mode)) {
+      known[entry.who.contact].sliding = Known::at_limit();  // it bears its limit at rest
+    } else if (entry.standing == Standing::limit) {
       mode[entry.who.contact].state = State::stick;
       KnownGuards& guards = known[entry.who.contact];
       (entry.who.sign > 0 ? guards.slip_plus : guards.slip_minus) = Known::at_limit();

@@ -62,9 +62,11 @@ Touching::Touching(ModeSystems& systems, JetMaker& jets, double capture_velocity
       impacts_(systems, capture_velocity),
       levels_(systems, jets) {}
 
-/// The rounding of t.v less the velocity of the surface, and what rests besides.
+/// The rounding of t.v less the velocity of the surface, and what rests besides; at the start no less than that of
+/// the scene's velocities.
 double Touching::rounding_of_slide(std::size_t c, const Forcing& forcing, const Instant& instant) const {
-  return rounding_of(model_.contacts[c].tangent, instant.v) +
+  const double given = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
+  return given + rounding_of(model_.contacts[c].tangent, instant.v) +
          rounding::of_many * std::abs(forcing.surface(c, instant.t, 1)) +
          forcing.surface_rounding(c, instant.t) + instant.slow;
 }
@@ -187,6 +189,9 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
   const auto is_zero = [&](double value, double noise, double rate) {
     return std::abs(value) <= noise + instant.resolution * std::abs(rate);
   };
+  // Given motions that are nothing but rounding tell no more of a gap than those of the scene's size.
+  const double given = instant.start ? rounding::of_few * model_.scales.displacement : 0.0;
+  const double given_rate = instant.start ? rounding::of_few * model_.scales.velocity : 0.0;
   Met met;
   for (const std::size_t c : block) {
     if (!model_.contacts[c].takes_impulses()) continue;
@@ -197,14 +202,14 @@ Touching::Met Touching::meet(const Instant& instant, const std::vector<MotionJet
     const bool fell =
         std::any_of(failed.begin(), failed.end(), [&](const Failure& f) { return f.contact == c; });
     const bool above = mode[c].is_open() && !instant.has_fired(c, Guard::closing) &&
-                       !is_zero(m.gap, rounding_of_gap(c, noise.gap, instant) + carried.gap, m.vn);
+                       !is_zero(m.gap, rounding_of_gap(c, noise.gap, instant) + carried.gap + given, m.vn);
     if (above && !fell) continue;
     met.unresolved = met.unresolved || (above && m.gap > 0.0);
     met.contacts.push_back(c);
     met.apart = met.apart || m.gap != 0.0;
     // Whatever has been carried there, what closes faster than a rebound that would not rest is a hit.
     const double unsure = std::min(carried.rate + instant.resolution * std::abs(m.an), slowest_flight(c));
-    met.hit = met.hit || (mode[c].is_open() && m.vn < -(noise.vn + unsure));
+    met.hit = met.hit || (mode[c].is_open() && m.vn < -(noise.vn + unsure + given_rate));
   }
   return met;
 }
@@ -274,6 +279,25 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
     who.kinetic = found.kinetic[c];
     found.participants.push_back(who);
+  }
+}
+
+/// What others that rest hold rests with them, whatever rounding has left of its slip: feet of one body.
+void Touching::rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode,
+                             Findings& found) const {
+  Mode held = mode;
+  for (const Participant& who : found.participants)
+    held[who.contact].state = !model_.contacts[who.contact].has_friction() ? State::closed
+                              : who.slipping                               ? slip_along(who.sign)
+                                                                           : State::stick;
+  for (Participant& who : found.participants) {
+    const std::size_t c = who.contact;
+    if (!who.slipping || !systems_.held_by_others(c, held)) continue;
+    const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+    if (std::abs(vt) > slowest_flight(c) + rounding::of_many * model_.scales.velocity) continue;
+    who.slipping = false;
+    who.sliding_friction = sliding_friction(model_.contacts[c], 0.0);
+    held[c].state = State::stick;
   }
 }
 
@@ -377,6 +401,7 @@ Refusal Touching::decide(Instant& instant, const Forcing& forcing, const std::ve
   std::size_t placed = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     add_staying(instant, forcing, all[b], free, decision, found);
+    rest_together(instant, forcing, mode, found);
     while (settle_resting(instant, forcing, *free_jet.system, all[b], found))  // ends: one more rests
       if (!slide_anew(instant, forcing, all[b], found)) break;
     add_sliders(instant, forcing, all[b], blocks[b], mode, decision, found);

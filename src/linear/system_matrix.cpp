@@ -47,7 +47,7 @@ std::vector<int> touched(const Contact& contact) {
   return {dofs.begin(), dofs.end()};
 }
 
-Pattern pattern_of(const Model& model, const Structure& structure) {
+Pattern pattern_of(const Model& model, const Structure& structure, const SharedRows& shared) {
   const int n = structure.size;
   Pattern pattern(n + 2 * static_cast<int>(model.contacts.size()));
   for (int j = 0; j < n; ++j) {
@@ -66,6 +66,11 @@ Pattern pattern_of(const Model& model, const Structure& structure) {
       for (int j = 0; j < 2; ++j) pattern.add(force + i, force + j);
     force += 2;
   }
+  for (const std::vector<std::size_t>& group : shared.groups())
+    for (const std::size_t a : group)
+      for (const std::size_t b : group)
+        for (int i = 0; i < 4; ++i)
+          pattern.add(n + 2 * static_cast<int>(a) + i / 2, n + 2 * static_cast<int>(b) + i % 2);
   for (const std::vector<int>& together : undamped_together(dof_kinds(model, structure), model))
     pattern.unite(together);
   return pattern;
@@ -107,9 +112,10 @@ std::vector<Rows> rows_of(const Model& model, const Mode& mode) {
 SystemMatrix::SystemMatrix(const Model& model, const Structure& structure)
     : size_(structure.size + 2 * static_cast<int>(model.contacts.size())),
       structure_(structure),
+      shared_(model, structure),
       united_(!undamped_together(dof_kinds(model, structure), model).empty()),
-      column_start_(starts_of(pattern_of(model, structure))),
-      row_(rows_of_pattern(pattern_of(model, structure))),
+      column_start_(starts_of(pattern_of(model, structure, shared_))),
+      row_(rows_of_pattern(pattern_of(model, structure, shared_))),
       values_(row_.size(), 0.0),
       klu_(column_start_, row_) {
   const auto at = [&](int row, int column) { return position(column_start_, row_, row, column); };
@@ -162,6 +168,21 @@ void SystemMatrix::add_column(int to, int from, double factor, const Weights& w,
     }
 }
 
+void SystemMatrix::add_shared(const std::vector<Rows>& rows) {
+  const int n = structure_.size;
+  for (const std::vector<std::size_t>& group : shared_.groups())
+    for (const std::size_t a : group)
+      for (const std::size_t b : group)
+        for (int i = 0; i < 4 && a != b; ++i)
+          values_[slot(n + 2 * static_cast<int>(a) + i / 2, n + 2 * static_cast<int>(b) + i % 2)] = 0.0;
+  in_force_ = shared_.in_force(rows);
+  for (const SharedForces& shared : in_force_)
+    for (std::size_t i = 0; i < shared.rows.size(); ++i)
+      for (std::size_t j = 0; j < shared.rows.size(); ++j)
+        values_[slot(n + static_cast<int>(shared.rows[i]), n + static_cast<int>(shared.rows[j]))] +=
+            shared.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
 bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>& weights, bool fresh,
                        const std::vector<UndampedMotion>& undamped) {
   if (united_) std::fill(values_.begin(), values_.end(), 0.0);  // slots that only a motion fills
@@ -188,6 +209,7 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
     values_[slots.TN] = r.tangent.N;
     values_[slots.TT] = r.tangent.T;
   }
+  add_shared(rows);
   for (const UndampedMotion& motion : undamped)
     for (const auto& [other, factor] : motion.others)
       add_column(motion.dof, other, factor, weights[static_cast<std::size_t>(motion.dof)], rows);

@@ -8,6 +8,7 @@
 // of damped and u of undamped massless degrees of freedom (motion/mode_system.hpp); Newmark puts
 // (1, h/2, h^2/4). Order of unknowns and rows: the n degrees of freedom, then N_k
 // and T_k of each contact in turn. The pattern is the union over all states: one for the whole run.
+// Rigid contacts that hold one motion together have s z z' besides, so that forces are unique (linear/shared_rows.hpp).
 // Where a degree of freedom stands for a motion without mass (linear/undamped_motion.hpp), its column is
 // that of the motion, the sum of z_i times the columns that i would have with its weights.
 #pragma once
@@ -17,6 +18,7 @@
 #include "contact/law.hpp"
 #include "contact/mode.hpp"
 #include "linear/klu.hpp"
+#include "linear/shared_rows.hpp"
 #include "linear/structure.hpp"
 #include "linear/undamped_motion.hpp"
 
@@ -43,6 +45,9 @@ class SystemMatrix {
            const std::vector<UndampedMotion>& undamped = {});
   /// b := A^-1 b, length size().
   void solve(double* b) { klu_.solve(b); }
+  [[nodiscard]] const SharedRows& shared_rows() const { return shared_; }
+  /// In the rows that were set last.
+  [[nodiscard]] const std::vector<SharedForces>& shared() const { return in_force_; }
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] const Klu& klu() const { return klu_; }
 
@@ -56,10 +61,13 @@ class SystemMatrix {
   };
   /// values_ of column `to` += factor times what `from` has with these weights.
   void add_column(int to, int from, double factor, const Weights& weights, const std::vector<Rows>& rows);
+  void add_shared(const std::vector<Rows>& rows);
   [[nodiscard]] std::size_t slot(int row, int column) const;
 
   int size_;
   const Structure& structure_;
+  SharedRows shared_;
+  std::vector<SharedForces> in_force_;
   bool united_;  // some columns have the rows of others, too
   std::vector<std::int64_t> column_start_, row_;
   std::vector<std::size_t> structure_slot_;  // position of the structure's entry p

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/eigen_dense.hpp"
 #include "base/listed.hpp"
@@ -50,23 +51,43 @@ double terms_of_gap(const Scene& scene, const Model& model, const Contact& conta
   return std::abs(contact.gap) + sum * greatest;
 }
 
-void close_gap(const Scene& scene, Model& model, std::size_t k) {
+/// True: it touches, and its gap is zero now.
+bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
   const double terms = terms_of_gap(scene, model, contact);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
-  if (carries || std::abs(gap) <= rounding::of_many * terms) {
+  // Displacements that are nothing but rounding tell no more of a gap than those of the scene's size.
+  const bool rounded = gap < 0.0 && -gap <= rounding::of_few * model.scales.displacement;
+  if (carries || rounded || std::abs(gap) <= rounding::of_many * terms) {
     double square = 0.0;
     for (const auto& term : contact.normal.terms) square += term.second * term.second;
     for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;
     if (contact.normal.terms.size() == 1)
       model.u0[contact.normal.terms[0].first] = (0.0 - contact.gap) / contact.normal.terms[0].second;
-  } else if (gap < 0.0) {
+    return true;
+  }
+  if (gap < 0.0) {
     refuse(
         scene, k, "gap",
         fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
                     "penetrated",
                     gap, model.units.length));
+  }
+  return false;
+}
+
+/// Feet of one body: closing one has moved the others.  u -= H (H^T H)^-1 g, twice, so that a rounding of u is left.
+void close_together(Model& model, const std::vector<std::size_t>& contacts) {
+  Eigen::MatrixXd normals(model.size(), static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    normals.col(static_cast<Eigen::Index>(i)) = full(model.contacts[contacts[i]].normal, model.size());
+  for (int round = 0; round < 2; ++round) {
+    Eigen::VectorXd gaps(normals.cols());
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      gaps[static_cast<Eigen::Index>(i)] = model.contacts[contacts[i]].gap_at(model.u0);
+    if (gaps.isZero(0.0)) return;
+    model.u0 -= normals * least_squares(Eigen::MatrixXd(normals.transpose() * normals), gaps);
   }
 }
 
@@ -114,6 +135,7 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
 void check_rigid_contacts(const Scene& scene, Model& model) {
   std::vector<std::size_t> rigid;
   std::vector<Combination> normals;
+  std::vector<bool> closed(model.contacts.size(), false);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
     if (friction_varies(contact))
@@ -125,7 +147,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
                           d.displacement));
     if (!contact.takes_impulses()) continue;
     check_mass(scene, model, k);
-    close_gap(scene, model, k);
+    closed[k] = close_gap(scene, model, k);
     rigid.push_back(k);
     normals.push_back(contact.normal);
   }
@@ -133,6 +155,10 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
   for (const std::vector<std::size_t>& group : coupled_forms(normals)) {
     std::vector<std::size_t> members;
     for (const std::size_t i : group) members.push_back(rigid[i]);
+    std::vector<std::size_t> touching;
+    std::copy_if(members.begin(), members.end(), std::back_inserter(touching),
+                 [&](std::size_t k) { return closed[k]; });
+    if (touching.size() > 1) close_together(model, touching);
     for (const std::size_t first : members) check_redundance(scene, model, members, first);
   }
 }

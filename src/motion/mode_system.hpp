@@ -13,6 +13,7 @@
 
 #include "contact/mode.hpp"
 #include "linear/pinned.hpp"
+#include "linear/shared_rows.hpp"
 #include "linear/triangular_factors.hpp"
 #include "linear/undamped_motion.hpp"
 #include "linear/unknowns.hpp"
@@ -28,6 +29,7 @@ struct FactorisedMode {
   /// The column of such a degree of freedom is that of its whole motion.
   std::vector<UndampedMotion> undamped;
   std::vector<Pinned> pinned;
+  std::vector<SharedForces> shared;  ///< rigid contacts that hold one motion together
   std::vector<std::size_t> by_rate;  ///< contacts that slip with friction that depends on the slip rate
   bool massless = false;             ///< not all degrees of freedom are massive
   bool regular = false;              ///< false: rows are linearly dependent; there is no inverse

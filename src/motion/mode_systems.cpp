@@ -1,5 +1,7 @@
 #include "motion/mode_systems.hpp"
 
+#include <algorithm>
+
 #include "contact/friction.hpp"
 
 namespace signorini {
@@ -37,6 +39,7 @@ void ModeSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode)
                   : mode.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.0}
                                                      : Weights{0.0, 0.0, 1.0};
   mode.regular = matrix_.set(rows, weights_, true, mode.undamped);
+  mode.shared = matrix_.shared();
   if (!mode.regular) return;
   if (mode.unknowns.size() <= most_dense && mode.by_rate.empty())
     invert(rows, mode);
@@ -90,6 +93,20 @@ ModeSystemPtr ModeSystems::of(const Mode& mode) {
   }
   if (!factorised->regular) return nullptr;
   return std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
+}
+
+bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
+  const auto& groups = matrix_.shared_rows().groups();
+  const bool grouped = std::any_of(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& group) {
+    return std::find(group.begin(), group.end(), c) != group.end();
+  });
+  if (!grouped || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
+  mode[c].state = State::stick;
+  for (const SharedForces& shared : matrix_.shared_rows().in_force(rows_of(model_, mode))) {
+    const auto at = std::find(shared.rows.begin(), shared.rows.end(), 2 * c + 1) - shared.rows.begin();
+    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && !shared.null.row(at).isZero(0.0)) return true;
+  }
+  return false;
 }
 
 ModeSystemPtr ModeSystems::at_friction(const ModeSystem& system, std::span<const double> coefficients) {

@@ -31,6 +31,9 @@ class ModeSystems {
   /// rates do not return. Null: singular.
   [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const double> coefficients);
 
+  /// Others that stick hold the motion along the tangent of a contact: sticking, it would hold nothing more.
+  [[nodiscard]] bool held_by_others(std::size_t contact, Mode mode) const;
+
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   /// Of what is held now.

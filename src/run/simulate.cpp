@@ -372,6 +372,11 @@ class Loop {
     for (const std::size_t c : decision_.released)
       if (++releases_ <= most_gains)
         report_.warnings.push_back(left_at_once(model_, c, t_ * model_.unit.time));
+    if (!shares_)
+      if (auto told = shared_motion(model_, decision_, t_ * model_.unit.time)) {
+        report_.warnings.push_back(std::move(*told));
+        shares_ = true;
+      }
     if (decision_.impact_gains && ++gains_ <= most_gains)
       report_.warnings.push_back(
           impact_gain(t_ * model_.unit.time, -decision_.impact_loss * factor_of(unit::energy, model_.unit)));
@@ -444,6 +449,7 @@ class Loop {
   std::size_t next_breakpoint_ = 0;
   LoadChanges changes_;
   LoadChanges::Change change_;  // of the loads, at t_
+  bool shares_ = false;         // it was said
   int gains_ = 0, releases_ = 0;
   bool residual_due_ = false;  // at the end of the step: once for every row
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/listed.hpp"
 #include "base/rounding.hpp"
 
 namespace signorini {
@@ -34,6 +35,30 @@ std::string impact_gain(double t, double gain) {
       "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
       "does that at times",
       t, gain);
+}
+
+std::optional<std::string> shared_motion(const Model& model, const Decision& decision, double t) {
+  std::vector<std::string> names;
+  if (decision.system)
+    for (const SharedForces& shared : decision.system->factorised().shared)
+      for (std::size_t i = 0; i < shared.rows.size(); ++i)
+        if (const std::string& name = model.contacts[shared.rows[i] / 2].name;
+            !shared.null.row(static_cast<Eigen::Index>(i)).isZero(0.0) &&
+            (names.empty() || names.back() != name))
+          names.push_back(name);
+  // At its limit, and the guard of its slip is asleep: others hold it.
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].takes_impulses();
+    for (std::size_t i = 0; i < guards_per_contact; ++i)
+      asleep = asleep && decision.guards[guard_slot(c, i)].kind != Guard::sliding;
+    if (asleep) names.push_back(model.contacts[c].name);
+  }
+  if (names.empty()) return std::nullopt;
+  return fmt::format(
+      "{} hold one motion together from t = {:.6g} on: the motion is unique, their forces are not; of those "
+      "within the limits of "
+      "friction the least are taken (sum of squares)",
+      names.size() > 1 ? "contacts " + listed(names, 5) : "contact " + listed(names, 5) + " and others", t);
 }
 
 std::string left_at_once(const Model& model, std::size_t c, double t) {

@@ -17,6 +17,10 @@ namespace signorini {
 /// Parts without mass have left contact c at once. t: in the scene's unit.
 [[nodiscard]] std::string left_at_once(const Model& model, std::size_t c, double t);
 
+/// Contacts hold one motion together, if some do. t: in the scene's unit.
+[[nodiscard]] std::optional<std::string> shared_motion(const Model& model, const Decision& decision,
+                                                       double t);
+
 /// The balance of a finished audit is off by more than 1e-3 of what was exchanged, and by more than `rounding`, what a
 /// double leaves of the energy stored. other: `exact` takes the scene.
 [[nodiscard]] std::optional<std::string> energy_lost(const Audit& audit, const Method& method,

@@ -34,6 +34,25 @@ std::array<double, 2> Witness::modal_size(const Vector& x) const {
   return size;
 }
 
+namespace {
+
+/// Another foot that sticks may hold this one at the limit of its friction: what it slips is rounding of what holds it.
+bool held_beside(const Model& model, const std::vector<ContactState>& mode, std::size_t k) {
+  const auto shares = [&](const Contact& other) {
+    return std::any_of(other.tangent.terms.begin(), other.tangent.terms.end(), [&](const auto& a) {
+      const auto& own = model.contacts[k].tangent.terms;
+      return std::any_of(own.begin(), own.end(), [&](const auto& b) { return a.first == b.first; });
+    });
+  };
+  for (std::size_t j = 0; j < model.contacts.size(); ++j)
+    if (j != k && model.contacts[j].takes_impulses() && kind_of(mode[j].state) == State::stick &&
+        shares(model.contacts[j]))
+      return model.contacts[k].takes_impulses();
+  return false;
+}
+
+}  // namespace
+
 std::vector<Violation> Witness::between(double t, const WitnessedSide& now) const {
   std::vector<Violation> found;
   const Model& model = parts_->bench.model;
@@ -45,7 +64,9 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
       const std::string_view law = guard.law;
       // The slip rate with a dashpot needs an acceleration; of what sticks without a spring T is that of a solve.
       if (law == "slip direction" && (c.shear || (c.normal_damping > 0.0 && now.a == nullptr))) continue;
-      const double limit = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance;
+      double limit = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance;
+      if (law == "slip direction" && guard.value < -limit && held_beside(model, *now.mode, k))
+        limit += c.capture_velocity.value_or(parts_->bench.limits.capture_velocity);
       if (guard.value >= -limit) continue;
       found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit,
                        law == "penetration" || law == "lasting gap" ? seen::length

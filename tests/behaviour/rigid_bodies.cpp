@@ -9,6 +9,7 @@
 
 #include "behaviour/engines.hpp"
 #include "behaviour/scene_parts.hpp"
+#include "scene/outline.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/simulate.hpp"
 
@@ -204,6 +205,40 @@ TEST_CASE("reactions of supports at three nodes of a body, and their sum") {
   CHECK(values[1] == doctest::Approx((60.0 + 15.0 + 6.0 - 12.0) / 4.0).epsilon(1e-12));
   CHECK(values[0] + values[1] == doctest::Approx(35.0).epsilon(1e-12));
   CHECK(values[2] == doctest::Approx(-6.0).epsilon(1e-12));
+}
+
+TEST_CASE("reactions of supports that bear a body together are refused") {
+  const std::string text =
+      head + run_table(1.0, 0.1) + "[nodes]\nA = [0.0, 0.0]\nB = [4.0, 0.0]\nC = [8.0, 0.0]\n" +
+      body("beam", "\"B\"", "A, C", 3.0, 1.0) + fixed("A, B, C", "uy") + spring("A", "[1.0, 0.0]", 1.0) +
+      "[[output]]\nname = \"A\"\nkind = \"reaction\"\nat = \"A\"\ndirection = [0.0, 1.0]\n";
+  std::string why;
+  try {
+    (void)built(text);
+  } catch (const SceneError& error) {
+    why = error.what();
+  }
+  CHECK(why.find("output.A.at: the supports of rigid body 'beam' bear its load together") !=
+        std::string::npos);
+}
+
+TEST_CASE("a body is drawn as the hull of its nodes") {
+  const auto lines = [](const std::string& nodes, const std::string& names) {
+    const Scene scene = parse_scene(
+        head + run_table(1.0, 0.1) + "[nodes]\n" + nodes + body("block", "[0.5, 0.5]", names, 1.0, 1.0),
+        "test.toml");
+    return outline_of(scene, scene.rigid[0]);
+  };
+  const auto square = lines("A = [0.0, 0.0]\nB = [1.0, 1.0]\nC = [1.0, 0.0]\nD = [0.0, 1.0]\n", "A, B, C, D");
+  REQUIRE(square.size() == 4);
+  for (const auto& [from, to] : square) {
+    CHECK(from != "block");
+    CHECK(from != to);
+    CHECK(from + to != "AB");
+    CHECK(from + to != "BA");
+  }
+  CHECK(lines("A = [0.0, 0.0]\nB = [1.0, 1.0]\n", "A, B").size() == 1);
+  CHECK(lines("A = [0.0, 0.0]\nB = [1.0, 0.0]\n", "A, B").size() == 3);
 }
 
 TEST_CASE("a support moves a body: its nodes follow, and what it gives is that of a rigid frame by hand") {

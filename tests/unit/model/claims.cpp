@@ -43,9 +43,9 @@ struct Computed {
 
 TEST_SUITE("unit/model/claims") {
   TEST_CASE("every model has its claims below") {
-    const std::set<std::string> known = {"belt",     "chain",      "coulomb-pad", "den-hartog",
-                                         "lift-off", "matrices",   "oscillator",  "pipeline",
-                                         "piping",   "rigid-frame"};
+    const std::set<std::string> known = {"belt",     "chain",       "coulomb-pad", "den-hartog",
+                                         "lift-off", "matrices",    "oscillator",  "pipeline",
+                                         "piping",   "rigid-frame", "rocking"};
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(SIGNORINI_MODELS))
       if (entry.path().extension() == ".toml") found.insert(entry.path().stem().string());
@@ -130,6 +130,20 @@ TEST_SUITE("unit/model/claims") {
     CHECK(run.first_slip("c8") == doctest::Approx(9.9).epsilon(0.02));
     CHECK(run.first_slip("c7") == doctest::Approx(17.0).epsilon(0.03));
     CHECK(run.first_slip("c6") < 0.0);
+  }
+
+  TEST_CASE("rocking: the first impacts 0.19753 s and 0.17307 s apart, rest on both feet after 1.595 s") {
+    const Computed run("rocking", {});
+    const auto left = run.events("foot-L"), right = run.events("foot-R");
+    const auto first = [](const std::vector<Event>& events) {
+      return std::find_if(events.begin(), events.end(),
+                          [](const Event& e) { return e.type == EventType::impact; });
+    };
+    REQUIRE((first(left) != left.end() && first(right) != right.end()));
+    CHECK(first(right)->t == doctest::Approx(0.19753).epsilon(1e-4));
+    CHECK(first(left)->t - first(right)->t == doctest::Approx(0.17307).epsilon(1e-4));
+    CHECK(run.result.events.back().t == doctest::Approx(1.595).epsilon(1e-3));
+    for (const ContactSample& contact : run.result.rows.back().contacts) CHECK(contact.state == State::stick);
   }
 
   TEST_CASE("belt: static friction gives way at 7.6 s, then a limit cycle") {

@@ -1,0 +1,131 @@
+#include "linear/shared_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/disjoint_sets.hpp"
+#include "base/eigen_dense.hpp"
+
+namespace signorini {
+namespace {
+
+// What is left of a row when all others are taken out of it, of its length: that of rounding is below.
+constexpr double dependent = 1e-12;
+
+}  // namespace
+
+// H = Q R on the columns that are independent of those before, by Gram and Schmidt, twice.
+Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h) {
+  const Eigen::Index most = std::min(h.rows(), h.cols());
+  Eigen::MatrixXd q(h.rows(), most), r = Eigen::MatrixXd::Zero(most, most), null(h.cols(), 0);
+  std::vector<Eigen::Index> own;
+  for (Eigen::Index j = 0; j < h.cols(); ++j) {
+    const auto k = static_cast<Eigen::Index>(own.size());
+    Eigen::VectorXd rest = h.col(j), part = Eigen::VectorXd::Zero(k);
+    for (int round = 0; round < 2 && k > 0; ++round) {
+      const Eigen::VectorXd more = q.leftCols(k).transpose() * rest;
+      rest -= q.leftCols(k) * more;
+      part += more;
+    }
+    const double length = rest.norm();
+    if (k < most && length > dependent * h.col(j).norm()) {
+      q.col(k) = rest / length;
+      r.col(k).head(k) = part;
+      r(k, k) = length;
+      own.push_back(j);
+      continue;
+    }
+    null.conservativeResize(Eigen::NoChange, null.cols() + 1);
+    null.rightCols(1).setZero();
+    for (Eigen::Index i = k - 1; i >= 0; --i) {
+      double x = part[i];
+      for (Eigen::Index l = i + 1; l < k; ++l)
+        x -= r(i, l) * null(own[static_cast<std::size_t>(l)], null.cols() - 1);
+      null(own[static_cast<std::size_t>(i)], null.cols() - 1) = x / r(i, i);
+    }
+    null(j, null.cols() - 1) = -1.0;
+  }
+  return null.cols() == 0 ? null : orthonormal(null);
+}
+
+namespace {
+
+const Combination& form_of(const Model& model, std::size_t row) {
+  const Contact& contact = model.contacts[row / 2];
+  return row % 2 == 0 ? contact.normal : contact.tangent;
+}
+
+/// Rigid contacts that act on common degrees of freedom.
+std::vector<std::vector<std::size_t>> rigid_together(const Model& model) {
+  DisjointSets sets(model.contacts.size());
+  std::unordered_map<int, std::size_t> first;  // that acts on a degree of freedom
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& contact = model.contacts[k];
+    if (!contact.takes_impulses()) continue;
+    for (const Combination* form : {&contact.normal, &contact.tangent})
+      for (const auto& term : form->terms) sets.join(k, first.emplace(term.first, k).first->second);
+  }
+  std::vector<std::vector<std::size_t>> groups = sets.sets();
+  std::erase_if(groups, [](const std::vector<std::size_t>& group) { return group.size() < 2; });
+  return groups;
+}
+
+}  // namespace
+
+SharedRows::SharedRows(const Model& model, const Structure& structure)
+    : model_(model), lightness_(static_cast<std::size_t>(structure.size), 0.0) {
+  for (int j = 0; j < structure.size; ++j)
+    for (auto p = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
+         p < static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]); ++p)
+      if (structure.row[p] == j && structure.m[p] > 0.0)
+        lightness_[static_cast<std::size_t>(j)] = 1.0 / structure.m[p];
+  for (std::vector<std::size_t>& group : rigid_together(model)) {
+    std::vector<std::size_t> rows;
+    for (const std::size_t k : group) {
+      rows.push_back(2 * k);
+      if (model.contacts[k].sticks_rigidly()) rows.push_back(2 * k + 1);
+    }
+    // Two walls on both sides of a mass never close together: without friction nothing is shared.
+    const Eigen::MatrixXd null = null_of_columns(columns(rows));
+    bool friction = false;
+    for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
+      friction = friction || (rows[i] % 2 == 1 && !null.row(static_cast<Eigen::Index>(i)).isZero(0.0));
+    if (friction) groups_.push_back(std::move(group));
+  }
+}
+
+Eigen::MatrixXd SharedRows::columns(const std::vector<std::size_t>& rows) const {
+  std::unordered_map<int, Eigen::Index> place;
+  for (const std::size_t row : rows)
+    for (const auto& term : form_of(model_, row).terms)
+      place.emplace(term.first, static_cast<Eigen::Index>(place.size()));
+  Eigen::MatrixXd h =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(place.size()), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    for (const auto& [dof, factor] : form_of(model_, rows[j]).terms)
+      h(place.at(dof), static_cast<Eigen::Index>(j)) +=
+          factor * std::sqrt(lightness_[static_cast<std::size_t>(dof)]);
+  return h;
+}
+
+std::vector<SharedForces> SharedRows::in_force(const std::vector<Rows>& rows) const {
+  std::vector<SharedForces> result;
+  for (const std::vector<std::size_t>& group : groups_) {
+    SharedForces shared;
+    for (const std::size_t k : group) {
+      if (rows[k].normal.an != 0.0 && rows[k].normal.N == 0.0) shared.rows.push_back(2 * k);
+      if (rows[k].tangent.at != 0.0 && rows[k].tangent.T == 0.0) shared.rows.push_back(2 * k + 1);
+    }
+    if (shared.rows.size() < 2) continue;
+    const Eigen::MatrixXd h = columns(shared.rows);
+    shared.null = null_of_columns(h);
+    if (shared.null.cols() == 0) continue;
+    const double size = h.colwise().squaredNorm().maxCoeff();
+    shared.entries = size * shared.null * shared.null.transpose();
+    result.push_back(std::move(shared));
+  }
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,47 @@
+// shared_rows.hpp: rigid contacts that hold one motion several times, as two feet of one body that stick.
+//
+//   | M  H | | a |   | p |      H z = 0:  rows that say the same, and forces that are not unique
+//   | H' 0 | | f | = | b |
+//
+// With s z z' in place of 0 the matrix is regular, and where z.b = 0 its solution has H' a = b and z.f = 0: the motion
+// is the same, and of all forces that go with it those are taken whose sum of squares is least. s > 0 is of the
+// size of H' M^-1 H, which changes no digit of either. Sliders take no part: forces of several on one motion are refused.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/law.hpp"
+#include "linear/structure.hpp"
+
+namespace signorini {
+
+/// s Z Z' on rows of forces: row 2 k of the normal of contact k, 2 k + 1 of its tangent.
+struct SharedForces {
+  std::vector<std::size_t> rows;
+  Eigen::MatrixXd entries;  ///< one a pair of rows
+  Eigen::MatrixXd null;     ///< Z, orthonormal: rows x motions that are held too often
+};
+
+/// Orthonormal z with H z = 0: combinations of columns that vanish, but for a rounding.
+[[nodiscard]] Eigen::MatrixXd null_of_columns(const Eigen::MatrixXd& h);
+
+class SharedRows {
+ public:
+  SharedRows(const Model& model, const Structure& structure);
+
+  /// Contacts of which some may hold one motion together; lists of two at least.
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
+  /// Of the rows in force; empty: all are independent.
+  [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
+
+ private:
+  const Model& model_;
+  std::vector<double> lightness_;  // a degree of freedom: 1/mass; 0 without
+  std::vector<std::vector<std::size_t>> groups_;
+
+  /// H on the degrees of freedom that it touches, each over the square root of its mass.
+  [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
+};
+
+}  // namespace signorini

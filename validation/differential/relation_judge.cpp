@@ -204,7 +204,9 @@ std::vector<double> floors(const SeenRun& run, const Scales& scales, double rela
         m = std::max(m, std::abs(row.values[j]));
       }
   std::vector<double> result;
-  for (const SeenColumn& column : run.columns) result.push_back(relative * most[kind(column)]);
+  // What is spent up to a row is what a step spends less what comes after the row: two sums.
+  for (const SeenColumn& column : run.columns)
+    result.push_back((column.of == SeenColumn::Of::spent ? 2.0 : 1.0) * relative * most[kind(column)]);
   return result;
 }
 
@@ -259,6 +261,7 @@ struct RelationJudge::Members {
 
   [[nodiscard]] Spread spread_by(const std::vector<Scene>& neighbours, double factor) const {
     Spread result;
+    result.include(run, run, 0.0);  // where all neighbours are refused nothing but rounding is allowed
     for (const Scene& neighbour : neighbours) {
       const SeenRun other = see_plainly(neighbour, bounds);
       if (other.end != Track::End::refused) result.include(run, other, factor);
@@ -370,7 +373,10 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
 /// Do copies of the scene, every datum off by one rounding, part from each other as far by then?
 bool RelationJudge::Members::copies_part(const Likeness::Parting& at) const {
   std::vector<SeenRun> copies;
-  for (const std::uint64_t seed : {3U, 4U, 5U}) copies.push_back(see_plainly(disturbed(scene, seed), bounds));
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
+    SeenRun copy = see_plainly(disturbed(scene, seed), bounds);
+    if (copy.end != Track::End::refused) copies.push_back(std::move(copy));
+  }
   double most = 0.0;
   for (std::size_t i = 1; i < copies.size(); ++i) {
     const auto &a = copies[0].events, &b = copies[i].events;

@@ -41,8 +41,7 @@ std::pair<Vector, Vector> HeldRows::solve(Vector load, const Vector& r) const {
     Eigen::VectorXd miss(n);
     for (Eigen::Index i = 0; i < n; ++i)
       miss[i] = rigid_row(i).form.dot(u) - r[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])];
-    // Where rows hold the same motion, their forces are not unique: those of least norm, whatever the order of rows.
-    const Eigen::VectorXd multipliers = least_squares(schur_, miss);
+    const Eigen::VectorXd multipliers = solve_dense(schur_, miss);
     for (Eigen::Index i = 0; i < n; ++i) {
       u -= multipliers[i] * answers_[static_cast<std::size_t>(i)];
       forces[static_cast<Eigen::Index>(rigid_[static_cast<std::size_t>(i)])] = multipliers[i];

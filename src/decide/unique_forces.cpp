@@ -12,8 +12,8 @@
 namespace signorini {
 namespace {
 
-/// Of the greatest force. Noise is what counts as zero, 64 times 4 to 8 eps of the terms: a condition above 1e9, at
-/// which it pays to look.
+/// Of the greatest force. Noise is what counts as zero, 64 times 4 to 8 eps of the terms times the condition: above a
+/// condition of some 1e10 it pays to look. Chosen; the singular value decides.
 constexpr double suspicious = 1e-3;
 
 bool is_held(const Contact& contact, const ContactState& state) {

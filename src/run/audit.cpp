@@ -15,6 +15,25 @@ void raise(Extreme& extreme, double value, double t, int contact = -1) {
   if (value > extreme.value) extreme = {value, t, contact};
 }
 
+/// Energies of shears that drop, one a contact.
+struct Drops {
+  std::vector<double> own;
+  double sum = 0.0;
+  int count = 0;
+};
+
+Drops drops_of(const Model& model, const Decision& decision) {
+  Drops drops{std::vector<double>(model.contacts.size(), 0.0)};
+  for (std::size_t k = 0; k < drops.own.size(); ++k) {
+    const double from = decision.before[k].T, to = decision.after[k].T;
+    if (!decision.jumped[k] || !(std::abs(to) < std::abs(from))) continue;
+    drops.own[k] = shear_energy(model.contacts[k], from) - shear_energy(model.contacts[k], to);
+    drops.sum += drops.own[k];
+    drops.count += drops.own[k] > 0.0 ? 1 : 0;
+  }
+  return drops;
+}
+
 }  // namespace
 
 bool moves_at_once(const Model& model) {
@@ -91,6 +110,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
                               ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -
                                     (decision.impact_loss - decision.impact_surface_work)
                               : 0.0;
+  const Drops drops = drops_of(model_, decision);
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
@@ -100,12 +120,12 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
     if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
     double loss = 0.0;
     if (!massless_) {
-      if (std::abs(a.T) < std::abs(b.T)) loss = shear_energy(contact, b.T) - shear_energy(contact, a.T);
+      loss = drops.own[k];
     } else if (load_jumps) {  // parts without mass move at once; what slips does so at its limit
       loss = a.T * (slip_of(contact, a) - slip_of(contact, b));
-    } else if (contact.tangential_stiffness) {  // a force that drops where parts without mass follow:
-                                                // friction takes all that is
-                                                // released
+    } else if (drops.own[k] > 0.0) {  // parts without mass follow: friction takes all that is released
+      loss = drops.own[k] + (released - drops.sum) / drops.count;
+    } else if (drops.count == 0 && contact.tangential_stiffness) {
       loss = released - lost;
     }
     friction_[k] += loss;

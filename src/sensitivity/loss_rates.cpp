@@ -29,10 +29,20 @@ void LossRates::add_impact(const Sides& s, WorkRates& works) const {
       energy.kinetic(s.motion.before.v, s.Dv_before) - energy.kinetic(s.motion.after.v, s.Dv_after) + driven;
 }
 
+/// Of the energy that the shear of a contact loses as its force drops; nothing: it does not.
+std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
+  const Contact& contact = model_.contacts[c];
+  const ContactMotion &b = s.motion.motion_before[c], &a = s.motion.motion_after[c];
+  const double kt = contact.own ? 0.0 : contact.tangential_stiffness.value_or(0.0);
+  if (!s.motion.instant.after.jumped[c] || !(kt > 0.0 && std::abs(a.T) < std::abs(b.T))) return std::nullopt;
+  return (b.T * s.D_before[c].T - a.T * s.D_after[c].T) / kt -
+         (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
+}
+
 void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
   const ObservedInstant& now = s.motion.instant;
   const InstantMotion& m = s.motion;
-  double released = 0.0, lost = 0.0;
+  double released = 0.0, lost = 0.0, dropped = 0.0;
   if (massless_) {
     const Energy from = works.stored(
         {now.mode_before, m.before.u, m.before.v, s.Du_before, s.Dv_before, m.motion_before, s.D_before});
@@ -42,22 +52,28 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
     add_impact(s, impact);
     released = from.stored() - to.stored() - (impact.impact - impact.surface());
   }
+  std::vector<std::optional<double>> drops;
+  int count = 0;
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    drops.push_back(drop_by(s, c));
+    dropped += drops.back().value_or(0.0);
+    count += drops.back() ? 1 : 0;
+  }
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
     if (!now.after.jumped[c] && !(massless_ && now.load_jumps)) continue;
     const Contact& contact = model_.contacts[c];
     const ContactRates& rates = derivative_.contacts[c];
     const ContactMotion &b = m.motion_before[c], &a = m.motion_after[c];
     const ContactMotion &Db = s.D_before[c], &Da = s.D_after[c];
-    const double kt = contact.own ? 0.0 : contact.tangential_stiffness.value_or(0.0);
     double loss = 0.0;
     if (!massless_) {
-      if (kt > 0.0 && std::abs(a.T) < std::abs(b.T))
-        loss = (b.T * Db.T - a.T * Da.T) / kt -
-               (b.T * b.T - a.T * a.T) * rates.tangential_stiffness / (2.0 * kt * kt);
+      loss = drops[c].value_or(0.0);
     } else if (now.load_jumps) {
       loss = Da.T * (slip_of(contact, a) - slip_of(contact, b)) +
              a.T * (slip_by(contact, rates, a, Da) - slip_by(contact, rates, b, Db));
-    } else if (contact.tangential_stiffness) {
+    } else if (drops[c]) {
+      loss = *drops[c] + (released - dropped) / count;
+    } else if (count == 0 && contact.tangential_stiffness) {
       loss = released - lost;
     }
     works.now().works.friction[c] += loss;

@@ -3,11 +3,14 @@
 //   impact     L = v-^T M v-/2 - v+^T M v+/2 + sum Pt s'
 //   friction   L = (T-^2 - T+^2)/2kt                where a force drops
 //   parts without mass, which move at once (run/audit.hpp):
-//   friction   L = T+ (slip+ - slip-)               where a load jumps, L = what is released where friction drops
+//   friction   L = T+ (slip+ - slip-)               where a load jumps, L = what is released where friction drops;
+//                                                   of several their own and an equal part of the rest
 //   loads      W += sum of L - what is released     where a load jumps
 //
 // DL: along the moving instant, as all that happens at it.
 #pragma once
+
+#include <optional>
 
 #include "sensitivity/tangent_event.hpp"
 #include "sensitivity/work_rates.hpp"
@@ -28,6 +31,7 @@ class LossRates {
  private:
   struct Sides;
   void add_impact(const Sides& sides, WorkRates& works) const;
+  [[nodiscard]] std::optional<double> drop_by(const Sides& sides, std::size_t contact) const;
   void add_drops(const Sides& sides, WorkTangent& works) const;
 
   const Model& model_;

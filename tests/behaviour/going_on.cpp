@@ -416,11 +416,11 @@ TEST_SUITE_END();
 // Rounding of the split grows as that of the run does: most in the chain.
 TEST_SUITE_BEGIN("slow/behaviour/going_on");
 
-TEST_CASE("exact in halves, series") {
+TEST_CASE("exact in halves by series") {
   check_all({{"run.engine", "exact"}, {"run.flow", "taylor"}, {"run.rtol", "1e-10"}}, 0.3819660112501051,
             1e-8, 1e-5);
 }
-TEST_CASE("exact in halves, modes where they can be") {
+TEST_CASE("exact in halves by modes where they can be") {
   check_all({{"run.engine", "exact"}, {"run.rtol", "1e-10"}}, 0.7236067977499789, 1e-8, 1e-5);
 }
 TEST_CASE("ida in halves") {

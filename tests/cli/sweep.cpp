@@ -91,14 +91,18 @@ TEST_CASE("cli sweep: a run that is refused is a row with its reason") {
 
 TEST_CASE("cli sweep: where every run is refused the sweep is, by the code of a wrong scene") {
   const Shell shell;
-  shell.write("belt.toml", belt(5));
-  const Ending ending =
-      shell.run({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=0.25,0.5", "--no-plots"});
+  shell.write(
+      "falls.toml",
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\ngravity = "
+      "[0.0, -9.81]\n[run]\nt_end = 1.0\ninitial = \"static\"\n[nodes]\nb = [0.0, 0.0]\n[[masses]]\nnode "
+      "= \"b\"\nmass = 1.0\n");
+  const Ending ending = shell.run({"sweep", "falls.toml", "--vary", "masses.1.mass=1,2", "--no-plots"});
   CHECK(ending.code == 3);
   CHECK(has(ending.err, "every run of the sweep was refused, the first of them: "));
-  CHECK(has(ending.err, "expected at most the static coefficient"));
-  const json list = rows(shell, "belt-sweep");
+  CHECK(has(ending.err, "nothing holds its"));
+  const json list = rows(shell, "falls-sweep");
   REQUIRE(list.size() == 2);
+  CHECK(list[0]["outcome"] == "refused");
   CHECK(list[1]["outcome"] == "refused");
 }
 

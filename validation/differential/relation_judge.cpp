@@ -20,6 +20,8 @@ constexpr double of_roundings = 30.0;
 constexpr double of_steps = 5.0;
 /// Sums over a hundred terms.
 constexpr double rounding_of_sums = 100.0 * eps;
+/// Of a difference of a few terms.
+constexpr double rounding_of_terms = 8.0 * eps;
 
 std::string mirror_image(const std::string& state) {
   return state == "slip+" ? "slip-" : state == "slip-" ? "slip+" : state;
@@ -202,8 +204,24 @@ std::vector<double> floors(const SeenRun& run, const Scales& scales, double rela
         m = std::max(m, std::abs(row.values[j]));
       }
   std::vector<double> result;
-  for (const SeenColumn& column : run.columns) result.push_back(relative * most[kind(column)]);
+  // What is spent up to a row is what a step spends less what comes after the row: two sums.
+  for (const SeenColumn& column : run.columns)
+    result.push_back((column.of == SeenColumn::Of::spent ? 2.0 : 1.0) * relative * most[kind(column)]);
   return result;
+}
+
+/// Forces of elements are k times a difference of displacements, which are known to some eps of the greatest.
+double rounding_of_element(const Model& model, const SeenColumn& column) {
+  if (column.of != SeenColumn::Of::force) return 0.0;
+  double greatest = model.scales.displacement;
+  for (Eigen::Index i = 0; i < model.u0.size(); ++i)
+    if (!model.dofs[static_cast<std::size_t>(i)].rotation)
+      greatest = std::max(greatest, std::abs(model.u0[i]));
+  for (const Contact& c : model.contacts)
+    if (c.name == column.contact)
+      return rounding_of_terms * greatest *
+             std::max(c.normal_stiffness, c.tangential_stiffness.value_or(0.0));
+  return 0.0;
 }
 
 /// Where a row may be on an event's other side.
@@ -222,14 +240,15 @@ bool near_event(const SeenRun& run, double t, double t_end, double from) {
 
 const char* to_string(Class verdict) {
   constexpr const char* names[] = {
-      "same",     "certain part ended before", "other order of one instant", "stopped alike",
-      "too long", "stopped on one side",       "refused on one side",        "UNEXPLAINED"};
+      "same",       "certain part ended before", "other order of one instant", "stopped alike",
+      "too long",   "stopped on one side",       "refused on one side",        "STATED ERROR TOO SMALL",
+      "UNEXPLAINED"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
 bool is_explained(Class verdict) {
   return verdict != Class::stopped_one_side && verdict != Class::refused_one_side &&
-         verdict != Class::unexplained;
+         verdict != Class::understated && verdict != Class::unexplained;
 }
 
 struct RelationJudge::Members {
@@ -242,6 +261,7 @@ struct RelationJudge::Members {
 
   [[nodiscard]] Spread spread_by(const std::vector<Scene>& neighbours, double factor) const {
     Spread result;
+    result.include(run, run, 0.0);  // where all neighbours are refused nothing but rounding is allowed
     for (const Scene& neighbour : neighbours) {
       const SeenRun other = see_plainly(neighbour, bounds);
       if (other.end != Track::End::refused) result.include(run, other, factor);
@@ -285,9 +305,11 @@ struct RelationJudge::Members {
   void figures(const Related& related, const SeenRun& other, const Spread* as_written,
                Likeness& result) const;
   void all(const Related& related, const SeenRun& other, const Spread* as_written, Likeness& result) const;
-  static void exceeds(Likeness& result, const char* of, std::string what) {
+  [[nodiscard]] bool copies_part(const Likeness::Parting& at) const;
+  static void exceeds(Likeness& result, const char* of, std::string what, Likeness::Parting at = {}) {
     if (result.verdict == Class::unexplained) return;
     result.verdict = Class::unexplained;
+    result.at = at;
     result.of = of;
     result.what = std::move(what);
   }
@@ -333,7 +355,8 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
     result.worst = std::max(result.worst, off / allowed);
     if (off > allowed)
       exceeds(result, "time of an event",
-              fmt::format("{} at {:.12g}, other at {:.12g}, {:.2g} allowed", x.name(), x.t, y.t, allowed));
+              fmt::format("{} at {:.12g}, other at {:.12g}, {:.2g} allowed", x.name(), x.t, y.t, allowed),
+              {x.t, off});
   }
   if (aligned.swapped > 0 && result.verdict == Class::same) result.verdict = Class::other_order;
   if (!aligned.split) return;
@@ -344,7 +367,26 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
   const auto side = [](const std::vector<LoggedEvent>& events, const std::optional<std::size_t>& i) {
     return i ? fmt::format("{:.12g} {}", events[*i].t, events[*i].name()) : std::string("none");
   };
-  exceeds(result, "sequence", side(a, split.reference) + " | " + side(b, split.other));
+  exceeds(result, "sequence", side(a, split.reference) + " | " + side(b, split.other), {split.t, never});
+}
+
+/// Do copies of the scene, every datum off by one rounding, part from each other as far by then?
+bool RelationJudge::Members::copies_part(const Likeness::Parting& at) const {
+  std::vector<SeenRun> copies;
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
+    SeenRun copy = see_plainly(disturbed(scene, seed), bounds);
+    if (copy.end != Track::End::refused) copies.push_back(std::move(copy));
+  }
+  double most = 0.0;
+  for (std::size_t i = 1; i < copies.size(); ++i) {
+    const auto &a = copies[0].events, &b = copies[i].events;
+    const Alignment aligned = align(a, b, {run.t, rounding_of_sums * run.t});
+    if (aligned.split && aligned.split->t <= at.t * (1.0 + rounding_of_sums)) return true;
+    for (const AlignedPair& pair : aligned.pairs)
+      if (a[pair.reference].t <= at.t * (1.0 + rounding_of_sums))
+        most = std::max(most, std::abs(a[pair.reference].t - b[pair.other].t));
+  }
+  return of_roundings * most >= at.off;
 }
 
 void RelationJudge::Members::rows(const Related& related, const SeenRun& other, const Spread* as_written,
@@ -425,7 +467,10 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   if (m_->run.end == Track::End::refused) return;
   // Two runs of ida err by so much a step even where the exact flow is near one of them.
   const double relative = m_->scene.run.engine == Engine::ida ? of_steps * m_->scene.run.rtol : 0.0;
-  m_->floor = floors(m_->run, build_model(m_->scene).scales, rounding_of_sums + relative);
+  const Model model = build_model(m_->scene);
+  m_->floor = floors(m_->run, model.scales, rounding_of_sums + relative);
+  for (std::size_t j = 0; j < m_->floor.size(); ++j)
+    m_->floor[j] += rounding_of_element(model, m_->run.columns[j]);
 }
 
 RelationJudge::~RelationJudge() = default;
@@ -489,6 +534,10 @@ Likeness RelationJudge::compare(const Related& related, SeenRun other) const {
   write_back(m_->run, related, other);
   m_->all(related, other, nullptr, result);
   const bool by_rows = result.of == "row" || result.of == "extreme" || result.of == "peak";
+  if (result.of == "sequence" || result.of == "time of an event") {
+    if (m_->copies_part(result.at)) result.verdict = Class::understated;
+    return result;
+  }
   if (!by_rows || m_->scene.run.engine == Engine::ida) return result;
   // In its own numbers the other scene may be worse conditioned: along the axes a beam's bending has the rounding
   // of EI, turned it has that of EA, too. Copies are held against each other: beside the run that is judged, what is

@@ -25,10 +25,15 @@ struct Likeness {
     too_long,       ///< given up
     stopped_one_side,
     refused_one_side,
+    understated,  ///< copies with every datum off by one rounding part as far: t_error, or the certain part, is too sharp
     unexplained
   } verdict = Class::same;
   std::string of;    ///< unexplained: "sequence", "time of an event", "row", "extreme", "peak"
   std::string what;  ///< contact or column, time, both values and the bound
+  /// Of events: when the runs part, and by how much; infinite where their sequences do.
+  struct Parting {
+    double t = 0.0, off = 0.0;
+  } at;
   double until = 0.0;
   double worst = 0.0;  ///< greatest difference over its bound
   std::size_t events = 0;

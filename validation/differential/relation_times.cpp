@@ -77,13 +77,13 @@ class KeptRun {
   KeptRun& operator=(const KeptRun&) = delete;
   [[nodiscard]] const Report& report() const { return report_; }
 
-  /// As the reader of scenes finds it; which scene asks is nothing to it.
-  [[nodiscard]] SavedState state() const {
+  /// That of the frame at t, as the reader of scenes finds it; which scene asks is nothing to it.
+  [[nodiscard]] SavedState state(double t) const {
     const std::string text = fmt::format(
         "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n[run]\nt_end "
         "= 1.0\n"
-        "initial = {{ run = '{}' }}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n",
-        path_.string());
+        "initial = {{ run = '{}', t = {} }}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n",
+        path_.string(), t);
     SavedState saved = *parse_scene(text, (path_ / "reader.toml").string()).initial.saved;
     saved.differing.clear();
     return saved;
@@ -121,21 +121,28 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
 std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed) {
   Random draw(seed);
   const double at = scene.run.t_end * draw.real(0.1, 0.9);
-  Scene first = scene;
-  first.run.t_end = at;
-  first.run.certify = Certify::no;
-  first.run.output_times.reset();
-  first.run.output_dt = at;
-  const KeptRun kept(first);
-  if (kept.report().outcome.kind != Outcome::Kind::done) return std::nullopt;
+  // The whole run keeps the state: scales follow from t_end, and with them what a rebound is that rests.
+  Scene whole = scene;
+  whole.run.certify = Certify::no;
+  if (scene.matrices)
+    whole.run.t_end = at;  // no frames there
+  else
+    whole.run.frames = {at};
+  whole.run.output_times.reset();
+  whole.run.output_dt = whole.run.t_end;
+  const KeptRun kept(whole);
+  if (kept.report().outcome.t < at) return std::nullopt;
+  Scene first = whole;
+  first.run.frames.clear();
+  first.run.t_end = first.run.output_dt.emplace(at);
   Related result{fmt::format("going on at {:.6g}", at), scene};
   result.later = -at;
   result.from = at;
-  result.extremes_before = kept.report().response;
+  result.extremes_before = simulate(build_model(first), first.run).report.response;
   Scene& second = result.scene;
   second.run.t_end -= at;
   second.initial = {};
-  second.initial.saved = kept.state();
+  second.initial.saved = kept.state(at);
   shift_histories(second, -at);
   return result;
 }

@@ -18,6 +18,7 @@ constexpr std::array all_classes = {Likeness::Class::same,
                                     Likeness::Class::too_long,
                                     Likeness::Class::stopped_one_side,
                                     Likeness::Class::refused_one_side,
+                                    Likeness::Class::understated,
                                     Likeness::Class::unexplained};
 
 }  // namespace

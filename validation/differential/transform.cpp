@@ -100,9 +100,19 @@ void shuffle_springs(Scene& scene, Random& draw) {
           static_cast<std::size_t>(std::find(places.begin(), places.end(), output.spring) - places.begin());
 }
 
-/// Not for a scene that is refused.
+/// The first contact of the file holds what nothing else does; a stop that it is then held at has no force. Not for a
+/// scene that is refused.
 bool has_free_start(const Scene& scene) {
-  return scene.initial.is_static && !build_model(scene).statics.free_motions.empty();
+  if (!scene.initial.is_static) return false;
+  const Model model = build_model(scene);
+  if (!model.statics.free_motions.empty()) return true;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& contact = model.contacts[k];
+    const double size = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+    const bool touches = contact.has_gap() && std::abs(contact.gap_at(model.u0)) <= 1e-12 * size;
+    if (touches && contact.gap != 0.0 && model.statics.reactions[k] <= 1e-9 * model.scales.force) return true;
+  }
+  return false;
 }
 
 double size_of(const Scene& scene) {

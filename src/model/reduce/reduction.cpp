@@ -83,7 +83,8 @@ struct Basis {
   Eigen::MatrixXd shapes;           ///< physical x reduced
   Eigen::VectorXd mass, stiffness;  ///< diagonals
   Eigen::MatrixXd damping;
-  Eigen::Index heavy = 0;  ///< how many have mass
+  Eigen::Index heavy = 0;             ///< how many have mass
+  std::vector<Eigen::Index> at_once;  ///< shapes whose damping is left out
 };
 
 Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& dampers, double alpha,
@@ -117,6 +118,7 @@ Basis basis_of(const KeptModes& modes, StaticShapes shapes, const SparseMatrix& 
     if (b.damping(j, j) * first <= quick_damper) {
       b.damping.row(j).setZero();
       b.damping.col(j).setZero();
+      b.at_once.push_back(j);
     }
   return b;
 }
@@ -147,6 +149,35 @@ Combination reduced_form(const Combination& form, const Basis& b, bool massive) 
     if (const double factor = full_form.dot(b.shapes.col(j)); std::abs(factor) > nothing * size)
       result.terms.emplace_back(static_cast<int>(j), factor);
   return result;
+}
+
+/// The support whose velocity this load comes from by beta K and dampers; null: none.
+const Load* driving(const std::vector<Load>& loads, const Load& rate) {
+  if (rate.kind != LoadKind::support_rate || rate.of_history.time != -1) return nullptr;
+  for (const Load& load : loads)
+    if (load.kind == LoadKind::support && rate.name.starts_with(load.name + " (")) return &load;
+  return nullptr;
+}
+
+/// A shape whose damping beta K is left out follows its support at once, q = s x. What beta K adds for the support's
+/// velocity, beta s x', balances the shape's own beta q', and is left out with it.
+void reduce_loads(const Basis& b, double beta, std::vector<Load>& loads) {
+  std::vector<Combination> forms;
+  for (const Load& load : loads) {
+    Combination form = reduced_form(load.direction, b, false);
+    if (const Load* support = driving(loads, load)) {
+      Vector direction = full(form, static_cast<int>(b.shapes.cols()));
+      const Vector s = full(reduced_form(support->direction, b, false), static_cast<int>(b.shapes.cols()));
+      const double size = direction.cwiseAbs().maxCoeff();
+      for (const Eigen::Index j : b.at_once) direction[j] -= beta * s[j];
+      form.terms.clear();
+      for (Eigen::Index j = 0; j < direction.size(); ++j)
+        if (std::abs(direction[j]) > nothing * size)
+          form.terms.emplace_back(static_cast<int>(j), direction[j]);
+    }
+    forms.push_back(std::move(form));
+  }
+  for (std::size_t i = 0; i < loads.size(); ++i) loads[i].direction = std::move(forms[i]);
 }
 
 bool has_mass(const Combination& form, const Basis& b) {
@@ -319,7 +350,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   facts.ringing = ringing(model, shapes.answers, scene.run.t_end);
   const std::vector<Contact> physical = model.contacts;
   reduce_contacts(scene, b, model);
-  for (Load& load : model.loads) load.direction = reduced_form(load.direction, b, false);
+  reduce_loads(b, model.beta, model.loads);
   reduce_state(scene, b, facts.modes, model, physical, facts);
   set_matrices(b, model);
   name_dofs(facts, b, model);

@@ -195,6 +195,9 @@ struct Model {
   Vector u0, v0;                             ///< initial state (static equilibrium where asked)
   bool static_start = false;
   StaticStart statics;
+  /// Where the run left its contacts that this one goes on from, one a contact; empty: it goes on from none of the same
+  /// structure, or that says nothing of them.
+  std::vector<SavedState::Left> continues;
   Scales scales;
   double alpha = 0.0, beta = 0.0;  ///< Rayleigh factors in force
   double omega1 = 0.0;             ///< lowest circular frequency, initially closed contacts held; 0: none

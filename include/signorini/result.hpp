@@ -74,6 +74,38 @@ struct Curves {
   std::vector<std::vector<CurvePoint>> points;  ///< a list a name; t ascends, and may repeat
 };
 
+/// One side of an instant: of all degrees of freedom of the model, those of a reduced one are amplitudes.
+struct InstantSide {
+  Vector u, v, a;                    ///< a: after the instant; just before it empty
+  std::vector<ContactState> states;  ///< one a contact
+  Vector forces;                     ///< (N_1, T_1, N_2, ...)
+};
+
+/// What a rigid contact takes of one impact; those of an instant come one after the other, turn 1, 2, ...
+struct InstantBlow {
+  int contact = 0, turn = 1;
+  double normal = 0.0, tangent = 0.0;  ///< on the body along n and t; force * time
+};
+
+/// An instant at which states were decided, whether any changed or not: two rows of instants.csv.
+struct InstantRow {
+  double t = 0.0;
+  double resolution = 0.0;  ///< times closer than this are one instant
+  double forgiven = 0.0;    ///< by how many of their roundings states fail that were said to be undecided
+  double dependence = 1.0;  ///< of the modes of engine `exact`: what roundings of their sums are greater by
+  bool start = false;       ///< of the run
+  bool breakpoint = false;  ///< the forcing is not smooth here
+  bool load_jumps = false;
+  bool located =
+      true;  ///< a guard is zero here; false: the end of a step, at which states were found to differ
+  InstantSide before, after;
+  std::vector<InstantBlow> blows;
+  /// Impulses along n and t that no law of impact gives, slots as those of forces: what stays is set to rest, and
+  /// what rounding and tolerances have left of velocities that are zero is taken out. Empty: none.
+  Vector captures;
+  std::vector<int> released;  ///< contacts that parts without mass left at once
+};
+
 /// What whoever follows a run may change in it.
 class Steering {
  public:
@@ -99,6 +131,10 @@ class Recorder {
   virtual void curves(const Curves& /*curves*/) {}
   /// The model's outputs, at output times and on both sides of every instant; t ascends, and may repeat.
   virtual void response(double /*t*/, const std::vector<double>& /*values*/) {}
+  /// Whether `instant` is of use: each hands over several vectors as long as the model.
+  [[nodiscard]] virtual bool wants_instants() const { return false; }
+  /// After the events of the instant; the first one is the start.
+  virtual void instant(const InstantRow& /*instant*/) {}
   /// Whether `steer` is of use: it ends no step, but makes a sample at each.
   [[nodiscard]] virtual bool steers() const { return false; }
   /// At the start, at the end of every step of the engine, and after every event and breakpoint: the state

@@ -144,6 +144,14 @@ struct SavedState {
     double memory = 0.0;    ///< p
   };
   std::vector<Own> own;  ///< contacts with laws of one's own
+  double t = 0.0;        ///< of the state, in the run's time
+  /// A row of the run's contacts.csv at t: where contacts are that the motion goes on from, whatever states.csv has.
+  struct Left {
+    std::string contact, state;
+    std::optional<double> gap;
+    double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
+  };
+  std::vector<Left> left;  ///< empty: contacts.csv has no such rows
   /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
   /// velocity, force.
   std::optional<std::array<double, 5>> scales;

@@ -50,6 +50,10 @@ class Tracker : public Recorder {
     if (next_ != nullptr) next_->curves(curves);
   }
   void response(double t, const std::vector<double>& values) override;
+  [[nodiscard]] bool wants_instants() const override { return next_ != nullptr && next_->wants_instants(); }
+  void instant(const InstantRow& row) override {
+    if (next_ != nullptr) next_->instant(row);
+  }
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;

@@ -23,6 +23,7 @@ struct Program {
 void add_run(Program& program);
 void add_check(Program& program);
 void add_compare(Program& program);
+void add_witness(Program& program);
 void add_plot(Program& program);
 void add_report(Program& program);
 void add_paraview(Program& program);

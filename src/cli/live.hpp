@@ -36,6 +36,8 @@ class Live : public Recorder {
   void motion(int contact, const std::vector<MotionRow>& rows) override { next_.motion(contact, rows); }
   void curves(const Curves& curves) override { next_.curves(curves); }
   void response(double t, const std::vector<double>& values) override { next_.response(t, values); }
+  [[nodiscard]] bool wants_instants() const override { return next_.wants_instants(); }
+  void instant(const InstantRow& row) override { next_.instant(row); }
   bool progress(double t) override;
   /// Asked once, after two seconds, with the seconds that the run will take in all: a note, or nothing.
   void when_long(std::function<std::string(double)> advice) { advice_ = std::move(advice); }

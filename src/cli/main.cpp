@@ -89,9 +89,9 @@ int main_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 a bug, 2 wrong command line, 3 wrong scene, 4 stopped early, or verify cannot\n"
-      "decide, 5 a limit of compare was exceeded, or verify found a difference, 6 a file could not be read "
-      "or\n"
-      "written, 130 interrupted.");
+      "decide, 5 a limit of compare was exceeded, or verify or witness found something, 6 a file could not "
+      "be\n"
+      "read or written, 130 interrupted.");
   Program program{app, std::vector<std::string>(argv, argv + argc), {}};
   add_run(program);
   add_check(program);
@@ -99,6 +99,7 @@ int main_program(int argc, char** argv) {
   add_sensitivity(program);
   add_fit(program);
   add_compare(program);
+  add_witness(program);
   add_sweep(program);
   add_study(program);
   add_plot(program);

@@ -30,7 +30,7 @@ struct RunOptions : OutputOptions {
   std::string scene, engine;
   std::optional<std::string> directory, trace;
   std::vector<std::string> settings;
-  bool certify = false;
+  bool certify = false, instants = false;
   std::string table;
 };
 
@@ -115,7 +115,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;
   if (trace) listener = [&](const Round& round) { trace->write(round); };
-  RunDirectory directory(path, scene, model, {options.force, command_line});
+  RunDirectory directory(path, scene, model, {options.force, command_line, options.instants});
 
   CertifiedReport certified;
   const Report& report = certified.report;
@@ -173,6 +173,8 @@ void add_run(Program& program) {
       "sequence is certain; the same as --set run.certify=true");
   command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
       ->option_text("FILE");
+  command->add_flag("--instants", options->instants,
+                    "write both sides of every instant to instants.csv, which `signorini witness` reads");
   add_table_option(*command, options->table);
   add_output_options(*command, *options,
                      "replace an earlier run in the directory, unless the scene lies in it", "summary.json");

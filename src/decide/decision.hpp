@@ -43,6 +43,7 @@ struct Decision {
   std::vector<bool> jumped;           ///< contacts whose N or T jumps
   std::vector<std::size_t> released;  ///< contacts that parts without mass left at once (release.hpp)
   std::vector<Impulse> impulses;      ///< one a contact, where rigid contacts were hit; else empty
+  std::vector<Blow> blows;            ///< those that the impulses are the sums of, turn by turn
   std::vector<double> departures;     ///< Findings::departures
   double impact_loss = 0.0;           ///< energy that the impacts dissipate
   double impact_surface_work = 0.0;   ///< that moving surfaces do in them

@@ -26,10 +26,15 @@ struct Impulse {
   bool hit = false;  ///< it was open and takes an impulse; closed contacts may take one too
   double normal = 0.0, tangent = 0.0;
   bool rests = false, sticks = false;  ///< vn+ = 0, vt+ = 0 by the solution
-  int strikes = 0;                     ///< of how many impacts, one after the other, it is the sum
-  int turn = 0;                        ///< its last impact among those of the instant, from 1; 0: it has none
   /// Its rebound over capture_velocity; less than one: it was captured. NaN: it has none.
   double rebound = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What one contact that touches takes of one impact. Impacts of an instant come one after the other: turn 1, 2, ...
+struct Blow {
+  std::size_t contact = 0;
+  int turn = 1;
+  double normal = 0.0, tangent = 0.0;
 };
 
 struct Impact {

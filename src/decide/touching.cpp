@@ -229,14 +229,10 @@ Refusal Touching::strike(Instant& instant, const Forcing& forcing, const Met& me
   decision.impact_surface_work += result.surface_work;
   decision.impact_gains = decision.impact_gains || result.gains;
   if (decision.impulses.empty()) decision.impulses.resize(mode.size());
-  int turn = 1;
-  for (const Impulse& sum : decision.impulses) turn = std::max(turn, sum.turn + 1);
+  const int turn = decision.blows.empty() ? 1 : decision.blows.back().turn + 1;
   for (const std::size_t c : met.contacts) {
     Impulse& sum = decision.impulses[c];
-    if (result.impulses[c].normal > 0.0 || !(sum.normal > 0.0)) {  // it is hit, or was not before
-      sum.strikes = sum.normal > 0.0 ? sum.strikes + 1 : 1;
-      sum.turn = turn;
-    }
+    decision.blows.push_back({c, turn, result.impulses[c].normal, result.impulses[c].tangent});
     sum.hit = sum.hit || result.impulses[c].hit;
     sum.normal += result.impulses[c].normal;
     sum.tangent += result.impulses[c].tangent;

@@ -38,6 +38,21 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
   return effect(rows, rows);
 }
 
+/// Feet of one body that share a motion have shares that are unique: s z z' stands where they do nothing
+/// (linear/shared_rows.hpp).
+void add_shares(const std::vector<SharedForces>& shared, const std::vector<std::size_t>& contacts,
+                Eigen::MatrixXd& W) {
+  const auto place = [&](std::size_t row) {
+    const auto at = std::find(contacts.begin(), contacts.end(), row / 2) - contacts.begin();
+    return row % 2 == 0 ? normal_place(at) : tangent_place(at);
+  };
+  for (const SharedForces& of : shared)
+    for (std::size_t i = 0; i < of.rows.size(); ++i)
+      for (std::size_t j = 0; j < of.rows.size(); ++j)
+        W(place(of.rows[i]), place(of.rows[j])) +=
+            of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
 }  // namespace
 
 bool forces_are_noise(const Model& model, const std::vector<MotionJet>& jets) {
@@ -64,7 +79,9 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
   if (contacts.size() < 2) return true;  // normal and tangent of one contact are two directions
   const ModeSystemPtr system = systems.of(free);
   if (!system) return true;
-  Eigen::MatrixXd a = held_part(model, mode, contacts, delassus(model, *system, contacts).W);
+  Eigen::MatrixXd W = delassus(model, *system, contacts).W;
+  if (const ModeSystemPtr held = systems.of(mode)) add_shares(held->shared, contacts, W);
+  Eigen::MatrixXd a = held_part(model, mode, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's: another matter
   for (Eigen::Index i = 0; i < a.rows(); ++i)

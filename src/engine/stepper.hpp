@@ -87,6 +87,10 @@ class Stepper {
   /// The modes that it follows motions in; null: it knows none.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
 
+  /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
+  /// that the last step was followed in, y . x = 1. 1: it was followed in none.
+  [[nodiscard]] virtual double dependence() const { return 1.0; }
+
   /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
   [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }
 

@@ -49,6 +49,14 @@ void take_contacts(const SavedState& saved, Model& model) {
   }
 }
 
+/// Each of the model's contacts, once; else nothing.
+std::vector<SavedState::Left> left_contacts(const SavedState& saved, const Model& model) {
+  if (!saved.differing.empty() || saved.left.size() != model.contacts.size()) return {};
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (saved.left[k].contact != model.contacts[k].name) return {};
+  return saved.left;
+}
+
 void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
   if (scene.initial.is_frictional) {
     start_with_friction(scene, map, model);
@@ -58,7 +66,9 @@ void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
     const InitialState state = given_state(scene, map);
     model.u0 = state.u;
     model.v0 = state.v;
-    if (scene.initial.saved) take_contacts(*scene.initial.saved, model);
+    if (!scene.initial.saved) return;
+    take_contacts(*scene.initial.saved, model);
+    model.continues = left_contacts(*scene.initial.saved, model);
     return;
   }
   bool loaded = false;

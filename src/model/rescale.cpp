@@ -202,6 +202,12 @@ Model rescaled(Model model, const Factors& factors) {
   for (StageEnd& end : model.statics.stages)
     for (std::vector<double>* forces : {&end.N, &end.T})
       for (double& force : *forces) rescale(force, unit::force);
+  for (SavedState::Left& left : model.continues) {
+    rescale(left.gap, unit::length);
+    for (double* length : {&left.ut, &left.slip}) rescale(*length, unit::length);
+    rescale(left.vt, unit::velocity);
+    for (double* force : {&left.N, &left.T}) rescale(*force, unit::force);
+  }
   rescale(model.scales);
   rescale(model.alpha, unit::rate);
   rescale(model.beta, unit::time);

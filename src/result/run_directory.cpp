@@ -8,6 +8,7 @@
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
+#include "result/instants.hpp"
 #include "result/load_table.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plots.hpp"
@@ -22,10 +23,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 15> run_files = {
-    "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
-    "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
-    "summary.json", "run.toml",    "states.csv", "report.html",  "response.csv"};
+constexpr std::array<std::string_view, 16> run_files = {
+    "events.csv", "history.csv", "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
+    "loads.csv",  "energy.csv",  "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
+    "states.csv", "report.html", "response.csv", "instants.csv"};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -72,6 +73,7 @@ struct RunDirectory::Writers {
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<StateWriter> states;
   std::unique_ptr<TableFile<ContactRow>> motion;
+  std::unique_ptr<InstantWriter> instants;
 };
 
 RunDirectory::RunDirectory(fs::path path, const Scene& scene, const Model& model, RunDirectoryOptions options)
@@ -153,6 +155,12 @@ void RunDirectory::response(double t, const std::vector<double>& values) {
   TableFile<ResponseRow>& file = *writers().response;
   file.add({t, values});
   file.flush();
+}
+
+void RunDirectory::instant(const InstantRow& row) {
+  Writers& w = writers();
+  if (!w.instants) w.instants = std::make_unique<InstantWriter>(path_, model_);
+  w.instants->write(row);
 }
 
 bool RunDirectory::progress(double /*t*/) {

@@ -23,6 +23,7 @@ namespace signorini {
 struct RunDirectoryOptions {
   bool force = false;
   std::vector<std::string> command_line;  ///< for summary.json
+  bool instants = false;                  ///< instants.csv, too
 };
 
 /// Errors of all members: FileError.
@@ -40,6 +41,8 @@ class RunDirectory : public Recorder {
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override;
   void response(double t, const std::vector<double>& values) override;
+  [[nodiscard]] bool wants_instants() const override { return options_.instants; }
+  void instant(const InstantRow& row) override;
   bool progress(double t) override;
   /// Writes the final summary.json and returns its text; of a certified run what its certificate says, too.
   std::string finish(const Report& report);

@@ -14,6 +14,7 @@
 #include "result/certificate_json.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
+#include "result/witness_json.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -232,19 +233,6 @@ Json audit_json(const Model& model, const Audit& a) {
                {"energy", extreme_json(model, a.energy, a.energy_scale)}};
   if (a.reactions) json["reactions"] = extreme_json(model, *a.reactions, a.force_scale);
   return json;
-}
-
-Json witness_json(const Model& model, const Testimony& witness) {
-  Json list = Json::array();
-  for (const Violation& v : witness.violations)
-    list.push_back(
-        {{"t", v.t},
-         {"event", v.event},
-         {"contact", v.contact < 0 ? Json() : Json(model.contacts[static_cast<std::size_t>(v.contact)].name)},
-         {"law", v.law},
-         {"value", v.value},
-         {"limit", v.limit}});
-  return {{"checked", witness.checked}, {"violated", witness.violated}, {"violations", list}};
 }
 
 Json energy_json(const Energy& e) {

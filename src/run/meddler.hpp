@@ -22,8 +22,8 @@ class Meddler {
   virtual bool change(const Mode& /*mode_before*/, const Vector& /*v_before*/, Decision& /*decided*/) {
     return false;
   }
-  /// What is reported of the whole run.
-  virtual void report(Report& /*report*/) {}
+  /// Peaks are those of the ends of steps.
+  virtual bool forgets_peaks_inside() { return false; }
 };
 
 /// signorini/simulate.hpp, with errors planted.

@@ -119,11 +119,26 @@ Report physical(Report report, const Model& computed) {
   return report;
 }
 
-Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of) {
-  const double per_time = rate ? 1.0 / of.time : 1.0;
+Vector physical(Vector motion, const std::vector<Dof>& dofs, int order, const Factors& of) {
+  const double per_time = factor_of({0, 0, -order}, of);
   for (std::size_t i = 0; i < dofs.size(); ++i)
     motion[static_cast<Eigen::Index>(i)] *= dofs[i].rotation ? per_time : of.length * per_time;
   return motion;
+}
+
+InstantRow physical(InstantRow row, const std::vector<Dof>& dofs, const Factors& of) {
+  const ToScene convert(of);
+  convert(unit::time, {&row.t, &row.resolution});
+  for (InstantSide* side : {&row.before, &row.after}) {
+    side->u = physical(std::move(side->u), dofs, 0, of);
+    side->v = physical(std::move(side->v), dofs, 1, of);
+    if (side->a.size() > 0) side->a = physical(std::move(side->a), dofs, 2, of);
+    for (ContactState& state : side->states) convert(unit::length, {&state.anchor});
+    side->forces *= of.force;
+  }
+  for (InstantBlow& blow : row.blows) convert(unit::impulse, {&blow.normal, &blow.tangent});
+  row.captures *= factor_of(unit::impulse, of);
+  return row;
 }
 
 void PhysicalRecorder::motion(int contact, const std::vector<MotionRow>& rows) {
@@ -153,8 +168,8 @@ RoundListener physical(const RoundListener& listener, const Model& model) {
 }
 
 Sample PhysicalRecorder::in_scene(const Sample& sample) {
-  u_ = physical(*sample.u, model_.physical_dofs(), false, model_.unit);
-  v_ = physical(*sample.v, model_.physical_dofs(), true, model_.unit);
+  u_ = physical(*sample.u, model_.physical_dofs(), 0, model_.unit);
+  v_ = physical(*sample.v, model_.physical_dofs(), 1, model_.unit);
   Sample result = physical(sample, model_.unit);
   result.u = &u_;
   result.v = &v_;

@@ -18,8 +18,10 @@ namespace signorini {
 [[nodiscard]] Report physical(Report report, const Factors& of);
 /// The same, and the extremes of the outputs of the model that was computed.
 [[nodiscard]] Report physical(Report report, const Model& computed);
-/// Displacements, or velocities with `rate`, of these degrees of freedom.
-[[nodiscard]] Vector physical(Vector motion, const std::vector<Dof>& dofs, bool rate, const Factors& of);
+/// Displacements, velocities (order 1) or accelerations (order 2) of these degrees of freedom.
+[[nodiscard]] Vector physical(Vector motion, const std::vector<Dof>& dofs, int order, const Factors& of);
+/// dofs: of the model that was computed, amplitudes of a reduced one.
+[[nodiscard]] InstantRow physical(InstantRow row, const std::vector<Dof>& dofs, const Factors& of);
 
 /// Hands all that it receives on in the scene's units.
 class PhysicalRecorder : public Recorder {
@@ -33,6 +35,8 @@ class PhysicalRecorder : public Recorder {
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override { recorder_.curves(curves); }  // they are in the scene's units
   void response(double t, const std::vector<double>& values) override;
+  [[nodiscard]] bool wants_instants() const override { return recorder_.wants_instants(); }
+  void instant(const InstantRow& row) override { recorder_.instant(physical(row, model_.dofs, model_.unit)); }
   [[nodiscard]] bool steers() const override { return recorder_.steers(); }
   bool steer(const Sample& now, Steering& run) override { return recorder_.steer(in_scene(now), run); }
   bool progress(double t) override { return recorder_.progress(t * model_.unit.time); }

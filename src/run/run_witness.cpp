@@ -6,37 +6,19 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "scene/quantities.hpp"
+#include "witness/laws.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t most_violations = 100;  // that are kept; all are counted
 
-WitnessLimits limits_of(const RunSpec& run, const Tolerance& tolerance, bool knows_low_flights) {
-  WitnessLimits limits;
-  limits.capture_velocity = tolerance.capture_velocity();
-  limits.knows_low_flights = knows_low_flights;
-  if (name_of(run.engine).accuracy == Accuracy::step) limits.step = run.dt.value_or(0.0);
-  if (name_of(run.engine).accuracy != Accuracy::tolerance) return limits;
-  limits.rtol = tolerance.rtol;
-  limits.displacement = tolerance.displacement;
-  limits.rotation = tolerance.rotation;
-  limits.velocity = tolerance.velocity;
-  limits.angular_velocity = tolerance.angular_velocity;
-  limits.force = tolerance.force;
-  return limits;
-}
-
+/// The guard's rate in the units that are computed in, which its row has not.
 RecordedEvent recorded(const Event& event, const Decision& decision) {
-  RecordedEvent result;
-  result.contact = static_cast<std::size_t>(event.contact);
-  result.type = to_string(event.type);
-  result.from = event.from;
-  result.to = event.to;
-  if (!event.t_uncertainty) return result;
-  result.t_uncertainty = *event.t_uncertainty;
-  result.guard_rate = decision.crossings[result.contact].derivatives[0];
+  RecordedEvent result = recorded_event(event);
+  if (event.t_uncertainty) result.guard_rate = decision.crossings[result.contact].derivatives[0];
   return result;
 }
 
@@ -56,77 +38,93 @@ std::string sentence_of(const Testimony& testimony, const Model& model) {
   return sentence;
 }
 
-// A sum over modes starts a flight at g = 0 and does not see it return where it is lower than the sum's rounding.
-RunWitness::RunWitness(const Model& model, const RunSpec& run, const Tolerance& tolerance,
-                       bool sums_over_modes, bool knows_low_flights)
+RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder)
     : model_(model),
-      witness_(model, limits_of(run, tolerance, knows_low_flights && !sums_over_modes)),
-      located_(run.engine != Engine::friction_iteration &&
-               !(run.engine == Engine::newmark && run.refine == Refine::linear)),
-      follows_(run.engine != Engine::friction_iteration),
-      ends_(name_of(run.engine).accuracy != Accuracy::step),
-      sums_over_modes_(sums_over_modes) {}
+      recorder_(recorder),
+      engine_(engine),
+      witness_(model, engine.limits),
+      motion_(model, engine.sums_over_modes) {}
 
-WitnessedSide RunWitness::side_of(const Forcing& forcing, double t) const {
-  WitnessedSide side;
-  side.u_reach = u_reach_;
-  side.v_reach = v_reach_;
-  side.driven.resize(model_.contacts.size());
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    side.driven[k] = {forcing.surface(k, t, 0), forcing.surface(k, t, 1), forcing.surface(k, t, 2),
-                      forcing.pressing(k, t, 0), forcing.pressing(k, t, 1)};
-  return side;
+namespace {
+
+/// What the record points to, to be kept.
+InstantRow row_of(const InstantRecord& record) {
+  const auto side = [](const WitnessedSide& s) {
+    return InstantSide{*s.u, *s.v, s.a != nullptr ? *s.a : Vector(), *s.mode, *s.forces};
+  };
+  InstantRow row;
+  row.t = record.t;
+  row.resolution = record.resolution;
+  row.forgiven = record.forgiven;
+  row.dependence = record.dependence;
+  row.start = record.start;
+  row.breakpoint = record.breakpoint;
+  row.load_jumps = record.load_jumps;
+  row.located = record.located;
+  row.before = side(record.before);
+  row.after = side(record.after);
+  for (const RecordedImpulse& p : record.impulses)
+    row.blows.push_back({static_cast<int>(p.contact), p.turn, p.normal, p.tangent});
+  row.captures = record.captures;
+  for (const std::size_t k : record.released) row.released.push_back(static_cast<int>(k));
+  return row;
 }
 
-/// At instants alone: what is greater between two is little greater.
-void RunWitness::reach(const Vector& u, const Vector& v) {
-  for (int i = 0; i < model_.size(); ++i) {
-    const bool turns = model_.dofs[static_cast<std::size_t>(i)].rotation;
-    u_reach_[turns] = std::max(u_reach_[turns], std::abs(u[i]));
-    v_reach_[turns] = std::max(v_reach_[turns], std::abs(v[i]));
-  }
-  if (!sums_over_modes_) return;
-  const std::array<double, 2> of_u = witness_.modal_size(u), of_v = witness_.modal_size(v);
-  for (std::size_t turns : {0U, 1U}) {
-    u_reach_[turns] = std::max(u_reach_[turns], of_u[turns]);
-    v_reach_[turns] = std::max(v_reach_[turns], of_v[turns]);
-  }
-}
+}  // namespace
 
 void RunWitness::instant(const Instant& now) {
   const Decision& d = *now.decision;
-  reach(now.before->u, now.before->v);
+  if (now.start) start_peaks(now);
+  motion_.reach(witness_, now.before->u, now.before->v);
   InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
-  record.before = side_of(*now.forcing_before, now.t);
+  record.before = motion_.side(*now.forcing_before, now.t, now.dependence);
   record.before.u = &now.before->u;
   record.before.v = &now.before->v;
   record.before.forces = &now.before->forces;
   record.before.mode = now.mode_before;
-  record.after = side_of(*now.forcing_after, now.t);
+  record.after = motion_.side(*now.forcing_after, now.t, now.dependence);
   const Vector forces = d.jet.forces.col(0), a = d.jet.a();
   record.after.u = &d.u;
   record.after.v = &d.v;
   record.after.a = &a;
+  record.after.a_reach = motion_.of_accelerations(witness_, a, now.dependence);
   record.after.forces = &forces;
   record.after.mode = &d.mode;
-  for (const Impulse& p : d.impulses)
-    record.impulses.push_back({p.normal, p.tangent, p.strikes, p.rebound < 1.0, p.turn});
+  for (const Blow& blow : d.blows)
+    record.impulses.push_back({blow.contact, blow.turn, blow.normal, blow.tangent});
   record.captures = d.captures;
+  record.released = d.released;
   for (const Event& event : *now.events)
     if (event.contact >= 0) record.events.push_back(recorded(event, d));
   record.start = now.start;
-  record.breakpoint = now.breakpoint;
+  std::vector<ContactState> left;
+  Vector forces_left;
+  if (now.start && !model_.continues.empty()) {
+    record.continues = record.breakpoint = true;
+    left = left_states(model_, *now.mode_before);
+    forces_left = left_forces(model_);
+    record.before.mode = &left;
+    record.before.forces = &forces_left;
+  }
+  record.breakpoint = record.breakpoint || now.breakpoint;
   record.load_jumps = now.load_jumps;
-  record.located = located_ && !now.adopted;
+  record.located = engine_.located && !now.adopted;
   record.forgiven = d.forgiven;
+  record.dependence = now.dependence;
+  held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
+  for (std::size_t k = 0; k < passed_.size(); ++k)
+    passed_[k].place = std::max(passed_[k].place, see(model_.contacts[k], k, record.before).place);
+  if (recorder_.wants_instants()) recorder_.instant(row_of(record));
   keep(witness_.instant(record));
 }
 
-void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point) {
-  if (!follows_) return;
-  WitnessedSide side = side_of(forcing, t);
+void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point,
+                         double dependence) {
+  if (!engine_.follows) return;
+  motion_.fill(forcing, t, dependence, point_);
+  WitnessedSide& side = point_;
   side.u = &point.u;
   side.v = &point.v;
   side.a = point.a.size() > 0 ? &point.a : nullptr;
@@ -135,11 +133,57 @@ void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, con
   keep(witness_.between(t, side));
 }
 
+void RunWitness::start_peaks(const Instant& now) {
+  passed_.resize(model_.contacts.size());
+  for (std::size_t k = 0; k < passed_.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    passed_[k].g0 = c.normal.dot(now.decision->u);
+    passed_[k].ut0 = c.body_tangent().dot(now.decision->u) - now.forcing_after->surface(k, now.t, 0);
+  }
+}
+
+void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
+  if (engine_.limits.step > 0.0) return;  // peaks are those of the ends of steps
+  for (std::size_t k = 0; k < passed_.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    PassedPeak& p = passed_[k];
+    p.most.N = std::max(p.most.N, std::abs(point.forces[at]));
+    p.most.T = std::max(p.most.T, std::abs(point.forces[at + 1]));
+    p.most.normal = std::max(p.most.normal, std::abs(c.normal.dot(point.u) - p.g0));
+    const double ut = c.body_tangent().dot(point.u) - forcing.surface(k, t, 0);
+    p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
+  }
+}
+
+void RunWitness::peaks(double t, const std::vector<Peak>& told) {
+  for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
+    const Contact& c = model_.contacts[k];
+    const PassedPeak& p = passed_[k];
+    // Of the same sums, but each at its own points.
+    const WitnessLimits& tol = engine_.limits;
+    const double length =
+        rounding::of_elimination * p.place + of_tolerance * (tol.rtol * p.place + tol.displacement);
+    const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
+                         (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
+                         (c.has_spring() ? 0.0 : rounding::of_elimination * held_forces_) +
+                         of_tolerance * tol.force;
+    const auto check = [&](double farthest, double said, double limit, const Unit& unit) {
+      if (farthest - said > limit)
+        keep({{t, "end", static_cast<int>(k), "peak", farthest - said, limit, unit, false}});
+    };
+    check(p.most.N, told[k].N, force, unit::force);
+    check(p.most.T, told[k].T, force, unit::force);
+    check(p.most.normal, told[k].normal, length, unit::length);
+    check(p.most.tangential, told[k].tangential, length, unit::length);
+  }
+}
+
 void RunWitness::keep(std::vector<Violation> found) {
   ++testimony_.checked;
   testimony_.violated += static_cast<long>(found.size());
   for (Violation& v : found) {
-    if (v.grave && ends_ && grave_.empty()) {
+    if (v.grave && grave_.empty()) {
       Violation shown = v;
       shown.t *= model_.unit.time;
       shown.value *= factor_of(v.unit, model_.unit);

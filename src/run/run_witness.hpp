@@ -6,18 +6,21 @@
 // that is computed.
 #pragma once
 
-#include <array>
-
 #include "engine/stepper.hpp"
-#include "engine/tolerance.hpp"
-#include "witness/witness.hpp"
+#include "run/witnessed_motion.hpp"
 
 namespace signorini {
 
+/// Where a contact was at the start, and the farthest that it was seen from there.
+struct PassedPeak {
+  double g0 = 0.0, ut0 = 0.0, place = 0.0;  // place: Sight
+  Peak most;
+};
+
 class RunWitness {
  public:
-  RunWitness(const Model& model, const RunSpec& run, const Tolerance& tolerance, bool sums_over_modes,
-             bool knows_low_flights);
+  /// All must outlive it; the recorder is handed instants if it wants them.
+  RunWitness(const Model& model, const WitnessedEngine& engine, Recorder& recorder);
 
   struct Instant {
     double t = 0.0, resolution = 0.0;
@@ -27,11 +30,17 @@ class RunWitness {
     const Decision* decision = nullptr;
     const std::vector<Event>* events = nullptr;
     bool start = false, breakpoint = false, load_jumps = false;
-    bool adopted = false;  ///< the engine found states, and no time
+    bool adopted = false;     ///< the engine found states, and no time
+    double dependence = 1.0;  ///< Stepper::dependence()
   };
   void instant(const Instant& now);
   /// A point inside a stretch.
-  void between(double t, const Forcing& forcing, const Mode& mode, const Point& point);
+  void between(double t, const Forcing& forcing, const Mode& mode, const Point& point, double dependence);
+
+  /// A point inside a step, that of a row or where something turns.
+  void passes(double t, const Forcing& forcing, const Point& point);
+  /// At the end: none of those points is beyond what is told.
+  void peaks(double t, const std::vector<Peak>& told);
 
   /// Why the run ends: the first violation that nothing explains. Empty: there is none.
   [[nodiscard]] const std::string& grave() const { return grave_; }
@@ -39,15 +48,17 @@ class RunWitness {
   [[nodiscard]] Testimony& testimony() { return testimony_; }
 
  private:
-  [[nodiscard]] WitnessedSide side_of(const Forcing& forcing, double t) const;
-  void reach(const Vector& u, const Vector& v);
+  void start_peaks(const Instant& now);
   void keep(std::vector<Violation> found);
 
   const Model& model_;
+  Recorder& recorder_;
+  const WitnessedEngine engine_;
   Witness witness_;
-  bool located_, follows_, ends_,
-      sums_over_modes_;  // ends_: engines of given steps are rough, and are warned of
-  std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
+  WitnessedMotion motion_;
+  WitnessedSide point_;  // between instants
+  std::vector<PassedPeak> passed_;
+  double held_forces_ = 0.0;  // greatest Witness::held_forces
   Testimony testimony_;
   std::string grave_;
 };

@@ -56,7 +56,8 @@ class Loop {
         decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity()),
         engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order})),
         truth_(meddler ? std::make_unique<Model>(model) : nullptr),
-        witness_(corrected(), spec, tolerance_, method.flow == "modal", engine_->knows_low_flights()),
+        witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
+                 recorder),
         auditor_(model, structure_),
         log_(model, recorder, report_),
         samples_(model, spec, auditor_, recorder),
@@ -158,7 +159,7 @@ class Loop {
       if (step.kind == Step::Kind::event)
         return instant(std::move(step.fired), std::move(step.adopted)) && steered();
       auditor_.observe(forcing_, t_, decision_.mode, point_);
-      witness_.between(t_, forcing_, decision_.mode, point_);
+      witness_.between(t_, forcing_, decision_.mode, point_, engine_->dependence());
       if (residual_due_) auditor_.equilibrium(t_, engine_->residual());
       residual_due_ = false;
       if (!recorder_.progress(t_)) return stop("interrupted", Outcome::Kind::interrupted);
@@ -207,11 +208,14 @@ class Loop {
       works_.clear();
       engine_->integrate(t, step.end, works_);
       emit(t, point);
+      witness_.passes(t, forcing_, point);
     }
     response_.inside(*engine_, step.begin, step.end);
     for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
       engine_->glimpse(t, point_);
-      if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
+      if (turns && !(meddler_ && meddler_->forgets_peaks_inside()))
+        auditor_.observe(forcing_, t, decision_.mode, point_);
+      if (turns) witness_.passes(t, forcing_, point_);
       motion_.add(t, auditor_, forcing_, decision_.mode, point_);
       if (curves_.needs(t)) add_curves(t, step.end);
     }
@@ -271,7 +275,7 @@ class Loop {
     log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps, std::move(unseen)}, *engine_);
     zero_since_.decided(t_, decision_, all);
     witness_.instant({t_, resolution_, &point_, &old_mode, before ? &*before : &forcing_, &forcing_,
-                      &decision_, &log_.latest(), false, all, load_jumps, adopted.has_value()});
+                      &decision_, &log_.latest(), false, all, load_jumps, adopted.has_value(), engine_->dependence()});
     for (std::size_t k = 0; k < old_mode.size(); ++k)
       if (decision_.mode[k].state != old_mode[k].state) changed.push_back(k);
     take_decision(all ? std::nullopt : std::optional(std::move(changed)));
@@ -399,6 +403,8 @@ class Loop {
     curves_.write(recorder_);
     report_.warnings.insert(report_.warnings.end(), engine_->warnings.begin(), engine_->warnings.end());
     auditor_.finish(report_, last_energy_, t_, decision_.mode);
+    // Rows of a step that leads to no instant are kept; no peak takes part in it.
+    if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(t_, report_.peaks);
     report_.witness = std::move(witness_.testimony());
     report_.response = response_.extremes();
     if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();

@@ -61,6 +61,14 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
   }
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
   for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);
+  for (SavedState::Left& left : initial.saved->left) {
+    visit_optional(left.gap, length, visit);
+    visit(left.ut, length);
+    visit(left.vt, velocity);
+    visit(left.slip, length);
+    visit(left.N, force);
+    visit(left.T, force);
+  }
   if (!initial.saved->scales) return;
   const std::array units{length, plain, velocity, rate, force};
   for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);

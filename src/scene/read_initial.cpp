@@ -8,6 +8,7 @@
 #include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "scene/data_file.hpp"
+#include "scene/left_contacts.hpp"
 #include "scene/readers.hpp"
 #include "scene/saved_state.hpp"
 
@@ -128,6 +129,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
                                 path.string(), found.times.empty() ? "none" : listed_plainly(found.times)));
   initial.saved = std::move(*found.wanted);
   initial.saved->run = directory.string();
+  initial.saved->left = read_left_contacts(directory / "contacts.csv", initial.saved->t);
   const Json model = model_of_run(directory);
   initial.saved->scales = scales_of_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);

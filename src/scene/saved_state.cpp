@@ -83,6 +83,7 @@ SavedStates read_saved_states(std::istream& in, const std::string& file, const s
       else if (!take_own(names[i], *value, state.own))
         state.motions.emplace_back(names[i], *value);
     }
+    state.t = time;
     found.times.push_back(shortest(time));
     // The file has the digits of the run; the scene may have fewer.
     if (!t || std::abs(time - *t) <= 1e-9 * std::abs(*t)) found.wanted = std::move(state);

@@ -98,8 +98,8 @@ void RateRecord::add_row(const TangentSample& s) {
     std::vector<double>& row = result_.value_rates[p].emplace_back(result_.columns.size(), nothing);
     const SeriesPoint& w = s.tangents[p];
     if (w.u.size() == 0) continue;
-    const Vector u = physical(model_.physical(w.u), model_.physical_dofs(), false, model_.unit);
-    const Vector v = physical(model_.physical(w.v), model_.physical_dofs(), true, model_.unit);
+    const Vector u = physical(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
+    const Vector v = physical(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
     std::size_t at = 0;
     for (const Column& column : model_.columns)
       row[at++] = column.dof < 0 ? 0.0 : (column.velocity ? v : u)[column.dof];

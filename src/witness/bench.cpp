@@ -24,6 +24,22 @@ Bench::Bench(const Model& model_, const WitnessLimits& limits_)
     massive_.push_back(!model.dofs[static_cast<std::size_t>(i)].massless);
     if (massive_.back()) factor_->dofs.push_back(i);
   }
+  note_massless();
+}
+
+void Bench::note_massless() {
+  for (int i = 0; i < model.size(); ++i)
+    if (!has_mass(i)) massless_.push_back(i);
+  if (massless_.empty()) return;
+  stiffness_by_rows_ = model.stiffness.transpose();
+  damping_by_rows_ = model.damping.transpose();
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const auto without = [&](const auto& term) { return !has_mass(term.first); };
+    if (std::any_of(c.normal.terms.begin(), c.normal.terms.end(), without) ||
+        std::any_of(c.tangent.terms.begin(), c.tangent.terms.end(), without))
+      on_massless_.push_back(k);
+  }
 }
 
 Bench::~Bench() = default;
@@ -106,10 +122,55 @@ double Bench::balance(const WitnessedSide& side) const {
   return sum.size() > 0 ? sum.maxCoeff() : 0.0;
 }
 
+double Bench::moved_by(const Vector& captures, std::size_t k) const {
+  const OwnResponse* own = captures.size() > 0 ? own_response(k) : nullptr;
+  double speed = 0.0;
+  for (std::size_t l = 0; own != nullptr && l < model.contacts.size(); ++l) {
+    const Contact& c = model.contacts[l];
+    const auto at = static_cast<Eigen::Index>(2 * l);
+    for (const Vector* by : {&own->by_n, &own->by_t})
+      speed += std::abs(c.normal.dot(*by) * captures[at]) + std::abs(c.tangent.dot(*by) * captures[at + 1]);
+  }
+  return speed;
+}
+
 double Bench::pull(const InstantRecord& record, std::size_t k) const {
   const Sight m = see(model.contacts[k], k, record.after);
   const OwnResponse* own = own_response(k);
   return std::abs(m.ddg) + (own != nullptr ? own->nn * std::abs(m.N) : 0.0);
+}
+
+double Bench::swing(const InstantRecord& record, std::size_t k) const {
+  const Contact& c = model.contacts[k];
+  const Sight after = see(c, k, record.after), before = see(c, k, record.before);
+  const OwnResponse* own = own_response(k);
+  if (own == nullptr) return std::max(std::abs(after.ddg), std::abs(after.ddut));
+  double n = 0.0, t = 0.0;  // what the accelerations of both sides differ by
+  for (std::size_t j = 0; j < model.contacts.size(); ++j) {
+    const Contact& other = model.contacts[j];
+    const Sight b = see(other, j, record.before), a = see(other, j, record.after);
+    for (const auto& [form, force] :
+         {std::pair(&other.normal, a.N - b.N), std::pair(&other.tangent, a.T - b.T)}) {
+      n += force * form->dot(own->by_n);
+      t += force * form->dot(own->by_t);
+    }
+  }
+  const double held = std::max(own->nn * std::max(std::abs(before.N), std::abs(after.N)),
+                               own->tt * std::max(std::abs(before.T), std::abs(after.T)));
+  return held + std::max({std::abs(after.ddg), std::abs(after.ddg + n), std::abs(after.ddut),
+                          std::abs(after.ddut + t)});
+}
+
+Vector Bench::swung(const InstantRecord& record) const {
+  if (!(limits.step > 0.0) || record.captures.size() == 0) return {};
+  Vector impulse = Vector::Zero(model.size());
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    model.contacts[k].normal.add_to(impulse, record.captures[at]);
+    model.contacts[k].tangent.add_to(impulse, record.captures[at + 1]);
+  }
+  const Vector dv = per_mass(impulse);
+  return dv.size() > 0 ? per_mass(model.damping * dv) : Vector();
 }
 
 double Bench::slowest(const InstantRecord& record, std::size_t k) const {

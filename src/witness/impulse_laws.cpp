@@ -38,13 +38,14 @@ void Finder::momentum() {
     form.add_to(impulse, value);
     for (const auto& [dof, factor] : form.terms) size[dof] += std::abs(factor * value);
   };
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const Contact& c = model_.contacts[k];
+  for (const RecordedImpulse& p : record_.impulses) {
+    push(model_.contacts[p.contact].normal, p.normal);
+    push(model_.contacts[p.contact].tangent, p.tangent);
+  }
+  for (std::size_t k = 0; record_.captures.size() > 0 && k < model_.contacts.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);
-    if (!record_.impulses.empty()) push(c.normal, record_.impulses[k].normal);
-    if (!record_.impulses.empty()) push(c.tangent, record_.impulses[k].tangent);
-    if (record_.captures.size() > 0) push(c.normal, record_.captures[at]);
-    if (record_.captures.size() > 0) push(c.tangent, record_.captures[at + 1]);
+    push(model_.contacts[k].normal, record_.captures[at]);
+    push(model_.contacts[k].tangent, record_.captures[at + 1]);
   }
   Vector jump = Vector::Zero(model_.size()), speed = jump;
   double translation = record_.before.v_reach[0], rotation = record_.before.v_reach[1];
@@ -82,7 +83,8 @@ void Finder::momentum() {
       true);
 }
 
-/// What no law of impact gives is no more than a contact that rests may have had.
+/// What no law of impact gives is no more than a contact that rests may have had. It is held still while others are
+/// stopped, and moves with them where it slides: what counts is the less of what its own capture does and of what all do.
 void Finder::captures() {
   if (record_.captures.size() == 0) return;
   Vector impulse = Vector::Zero(model_.size());
@@ -97,25 +99,23 @@ void Finder::captures() {
     const Contact& c = model_.contacts[k];
     const auto at = static_cast<Eigen::Index>(2 * k);
     if (record_.captures[at] == 0.0 && record_.captures[at + 1] == 0.0) continue;
-    const double speed = std::max(std::abs(c.normal.dot(change)), std::abs(c.tangent.dot(change)));
+    const OwnResponse* own = bench_.own_response(k);
+    const double most = std::numeric_limits<double>::infinity();  // by itself, without the others
+    const double by_n = own != nullptr ? std::abs(own->nn * record_.captures[at]) : most;
+    const double by_t = own != nullptr ? std::abs(own->tt * record_.captures[at + 1]) : most;
+    const double speed = std::max(std::min(by_n, std::abs(c.normal.dot(change))),
+                                  std::min(by_t, std::abs(c.tangent.dot(change))));
     double limit = with_slow_slips * bench_.slowest(record_, k);
-    // Between steps that hold its gap g' swings by what a step makes of the acceleration that is held.
-    if (!is_open((*record_.before.mode)[k].state)) limit += bench_.limits.step * bench_.pull(record_, k);
-    if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, true);
+    // Between steps g' of a gap that is held swings by what a step makes of the acceleration that is held; and what comes
+    // to rest within a step is found at its end, by when it moves again.
+    if (bench_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
+      limit += bench_.limits.step * bench_.swing(record_, k);
+    // What stops within a step of an engine that finds no instants swings on by up to the speed that it had.
+    if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, record_.located);
   }
 }
 
 void Finder::restitution() {
-  double greatest = 0.0;  // impulse, those included that rounding leaves of velocities that cancel
-  for (std::size_t k = 0; k < record_.impulses.size(); ++k) {
-    const RecordedImpulse& p = record_.impulses[k];
-    const OwnResponse* own = p.strikes > 0 ? bench_.own_response(k) : nullptr;
-    greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
-    if (own == nullptr) continue;
-    const double speed = see(model_.contacts[k], k, record_.before).speed;
-    if (own->nn > 0.0) greatest = std::max(greatest, speed / own->nn);
-    if (own->tt > 0.0) greatest = std::max(greatest, speed / own->tt);
-  }
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& c = model_.contacts[k];
     if (!c.takes_impulses()) continue;
@@ -124,31 +124,36 @@ void Finder::restitution() {
     const double rounding_of_speed = bench_.slowest(record_, k);
     if ((closed || m.g <= 0.0) && m.dg < -rounding_of_speed)
       add(static_cast<int>(k), "penetration rate", -m.dg, rounding_of_speed, seen::velocity, true);
-    if (record_.impulses.empty()) continue;
-    restitution_of(k, greatest);
-    friction_impulse(k, greatest);
+  }
+  double greatest = 0.0;  // impulse, those included that rounding leaves of velocities that cancel
+  for (const RecordedImpulse& p : record_.impulses) {
+    greatest = std::max({greatest, std::abs(p.normal), std::abs(p.tangent)});
+    const OwnResponse* own = bench_.own_response(p.contact);
+    if (own == nullptr) continue;
+    const double speed = see(model_.contacts[p.contact], p.contact, record_.before).speed;
+    if (own->nn > 0.0) greatest = std::max(greatest, speed / own->nn);
+    if (own->tt > 0.0) greatest = std::max(greatest, speed / own->tt);
+  }
+  for (const RecordedImpulse& p : record_.impulses) {
+    const Contact& c = model_.contacts[p.contact];
+    const Strike strike = strike_of(p, see(c, p.contact, record_.before), see(c, p.contact, record_.after));
+    restitution_of(p, strike, greatest);
+    friction_impulse(p, strike, greatest);
   }
 }
 
-/// Of several hits at one instant each starts where the last one ended: v- and the impulses of earlier turns make its
-/// beginning, v+ less those of later turns its end.
-std::optional<Finder::Strike> Finder::strike_of(std::size_t k, const Sight& before,
-                                                const Sight& after) const {
-  const RecordedImpulse& p = record_.impulses[k];
-  if (p.strikes != 1 || std::any_of(record_.impulses.begin(), record_.impulses.end(),
-                                    [](const RecordedImpulse& other) { return other.strikes > 1; }))
-    return std::nullopt;
+/// Each impact starts where the last one ended: v- and the impulses of earlier turns make its beginning, v+ less those of
+/// later turns its end.
+Finder::Strike Finder::strike_of(const RecordedImpulse& p, const Sight& before, const Sight& after) const {
   Strike strike{before.dg, after.dg, after.dut};
-  const auto is_other = [&](const RecordedImpulse& other) {
-    return other.strikes > 0 && other.turn != p.turn;
-  };
-  if (std::none_of(record_.impulses.begin(), record_.impulses.end(), is_other)) return strike;
-  const OwnResponse* own = bench_.own_response(k);
-  if (own == nullptr) return std::nullopt;
-  for (std::size_t l = 0; l < record_.impulses.size(); ++l) {
-    const RecordedImpulse& other = record_.impulses[l];
-    if (!is_other(other)) continue;
-    const Contact& c = model_.contacts[l];
+  const OwnResponse* own = bench_.own_response(p.contact);
+  if (own == nullptr) {  // rigid contacts act on mass (docs/theory.md, "Rigid contacts")
+    strike.unsure = std::numeric_limits<double>::infinity();
+    return strike;
+  }
+  for (const RecordedImpulse& other : record_.impulses) {
+    if (other.turn == p.turn) continue;
+    const Contact& c = model_.contacts[other.contact];
     const double dg = c.normal.dot(own->by_n) * other.normal + c.tangent.dot(own->by_n) * other.tangent;
     const double dut = c.normal.dot(own->by_t) * other.normal + c.tangent.dot(own->by_t) * other.tangent;
     if (other.turn < p.turn) {
@@ -158,52 +163,38 @@ std::optional<Finder::Strike> Finder::strike_of(std::size_t k, const Sight& befo
       strike.dut_after -= dut;
     }
   }
-  for (std::size_t l = 0; record_.captures.size() > 0 && l < record_.impulses.size(); ++l) {
-    const Contact& c = model_.contacts[l];
-    const auto at = static_cast<Eigen::Index>(2 * l);
-    for (const Vector* by : {&own->by_n, &own->by_t})
-      strike.unsure += std::abs(c.normal.dot(*by) * record_.captures[at]) +
-                       std::abs(c.tangent.dot(*by) * record_.captures[at + 1]);
-  }
+  strike.unsure = bench_.moved_by(record_.captures, p.contact);
   return strike;
 }
 
-/// 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0. Of several hits of one contact at one instant the sum is recorded: then Pn >= 0
-/// alone.
-void Finder::restitution_of(std::size_t k, double greatest) {
-  const RecordedImpulse& p = record_.impulses[k];
-  if (p.strikes == 0) return;
-  const int contact = static_cast<int>(k);
+/// 0 <= Pn _|_ g'+ + e min(g'-, 0) >= 0.
+void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, double greatest) {
+  const int contact = static_cast<int>(p.contact);
   const double zero = rounding::of_elimination * greatest;
   if (p.normal < -zero) add(contact, "restitution", -p.normal, zero, seen::impulse, true);
-  const Contact& c = model_.contacts[k];
-  const auto strike = strike_of(k, see(c, k, record_.before), see(c, k, record_.after));
-  if (!strike) return;
-  const OwnResponse* own = bench_.own_response(k);
-  const double slow = bench_.slowest(record_, k);
-  const double limit =
-      slow + strike->unsure + (own != nullptr ? rounding::of_elimination * own->nn * greatest : 0.0);
-  const double asked = -c.restitution * std::min(strike->dg_before, 0.0);
-  double off = asked - strike->dg_after;                                // slower than restitution asks for
-  if (p.normal > zero) off = std::abs(off);                             // or faster than it gives
-  if (asked <= limit) off = std::min(off, std::abs(strike->dg_after));  // e = 0: rest
+  const Contact& c = model_.contacts[p.contact];
+  const OwnResponse* own = bench_.own_response(p.contact);
+  const double limit = bench_.slowest(record_, p.contact) + strike.unsure +
+                       (own != nullptr ? rounding::of_elimination * own->nn * greatest : 0.0);
+  const double asked = -c.restitution * std::min(strike.dg_before, 0.0);
+  double off = asked - strike.dg_after;                                // slower than restitution asks for
+  if (p.normal > zero) off = std::abs(off);                            // or faster than it gives
+  if (asked <= limit) off = std::min(off, std::abs(strike.dg_after));  // e = 0: rest
   if (off > limit) add(contact, "restitution", off, limit, seen::velocity, true);
 }
 
-void Finder::friction_impulse(std::size_t k, double greatest) {
-  const Contact& c = model_.contacts[k];
-  const RecordedImpulse& p = record_.impulses[k];
+void Finder::friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest) {
+  const Contact& c = model_.contacts[p.contact];
+  const int contact = static_cast<int>(p.contact);
   const double zero = rounding::of_elimination * greatest * (1.0 + c.friction.static_);
   const double over = std::abs(p.tangent) - c.friction.static_ * p.normal;
-  if (over > zero) add(static_cast<int>(k), "friction impulse", over, zero, seen::impulse, true);
+  if (over > zero) add(contact, "friction impulse", over, zero, seen::impulse, true);
   if (!c.has_friction() || c.friction.varies() || !(p.normal > zero)) return;
-  const auto strike = strike_of(k, see(c, k, record_.before), see(c, k, record_.after));
-  if (!strike) return;
-  const double slow = with_slow_slips * bench_.slowest(record_, k) + strike->unsure;
-  if (std::abs(strike->dut_after) <= slow) return;
+  const double slow = with_slow_slips * bench_.slowest(record_, p.contact) + strike.unsure;
+  if (std::abs(strike.dut_after) <= slow) return;
   const double off =
-      std::abs(p.tangent + (strike->dut_after > 0.0 ? 1.0 : -1.0) * c.friction.kinetic * p.normal);
-  if (off > zero) add(static_cast<int>(k), "friction impulse", off, zero, seen::impulse, true);
+      std::abs(p.tangent + (strike.dut_after > 0.0 ? 1.0 : -1.0) * c.friction.kinetic * p.normal);
+  if (off > zero) add(contact, "friction impulse", off, zero, seen::impulse, true);
 }
 
 }  // namespace signorini

@@ -2,8 +2,8 @@
 //
 //   before: u, v-, mode-, N-, T-     impulses P_k, captures c_k     after: u, v+, a+, mode+, N+, T+
 //
-// The record holds data alone: no decision, no engine. A run fills it once an instant (run/run_witness.hpp), a directory
-// of results once an event (witness/from_files.hpp). What it points to outlives it. Units: those of the model.
+// The record holds data alone: no decision, no engine. A run fills it once an instant (run/run_witness.hpp), so does a
+// directory of results (study/witness/directory_witness.hpp). What it points to outlives it. Units: those of the model.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ namespace signorini {
 /// What drives one contact: the motion of its surface and the compression of a slider.
 struct Driven {
   double s = 0.0, ds = 0.0, dds = 0.0;  ///< place, velocity, acceleration of the surface
-  double q = 0.0, dq = 0.0;             ///< normal_force and its rate
+  double q = 0.0, dq = 0.0, ddq = 0.0;  ///< normal_force and its rates
+  double speed = 0.0;  ///< the greatest that energies of the run's displacements could make of its velocities
 };
 
 /// One side of an instant, or a point of the motion between two.
@@ -28,17 +29,19 @@ struct WitnessedSide {
   const std::vector<ContactState>* mode = nullptr;
   const Vector* forces = nullptr;  ///< (N_1, T_1, N_2, ...)
   std::vector<Driven> driven;      ///< one a contact
+  std::vector<Vector> loads = {};  ///< P, P', P''; empty: all degrees of freedom have mass
   /// Greatest displacement and velocity of the run so far (translations; rotations): sums over modes, and solves, are
   /// known relative to these. 0: those of this side.
   std::array<double, 2> u_reach = {0.0, 0.0}, v_reach = {0.0, 0.0};
+  std::array<double, 2> a_reach = {0.0, 0.0};  ///< of sums over modes, of this side's accelerations
 };
 
-/// The impulse of one contact, on the body along n and t. Unit: force * time.
+/// What a contact takes of one impact, on the body along n and t. Unit: force * time. Impacts of one instant come one
+/// after the other; all contacts that touch have an entry in each, and be it of nothing.
 struct RecordedImpulse {
+  std::size_t contact = 0;
+  int turn = 1;
   double normal = 0.0, tangent = 0.0;
-  int strikes = 0;        ///< hits that it is the sum of
-  bool captured = false;  ///< its rebound was slower than capture_velocity: e = 0
-  int turn = 0;           ///< hits of one instant come one after the other: which its last one was
 };
 
 /// A row of the events of this instant.
@@ -47,19 +50,27 @@ struct RecordedEvent {
   std::string type;
   State from = State::open, to = State::open;
   double guard_rate = 0.0, t_uncertainty = -1.0;  ///< negative: no guard fell
+  /// As the row says; just before and just after.
+  double N = 0.0, T = 0.0, N_after = 0.0, T_after = 0.0;
+  double vn = 0.0, vn_after = 0.0, vt = 0.0, vt_after = 0.0;
+  double impulse_n = 0.0, impulse_t = 0.0;  ///< 0: the row has none
 };
 
 struct InstantRecord {
   double t = 0.0;
   double resolution = 0.0;  ///< times closer than this are one instant
   WitnessedSide before, after;
-  std::vector<RecordedImpulse> impulses;  ///< one a contact, where rigid contacts were hit; else empty
+  std::vector<RecordedImpulse> impulses;  ///< turn by turn; empty: no rigid contact was hit
   Vector captures;                        ///< as forces, along n and t; empty: none
   std::vector<RecordedEvent> events;
-  bool start = false;       ///< of the run: `before` was guessed from the gaps
+  std::vector<std::size_t> released;  ///< contacts that parts without mass left at once
+  bool start = false;                 ///< of the run: `before` was guessed from the gaps, unless it
+  bool continues = false;   ///< goes on from another run: `before` is where that one left its contacts
   bool breakpoint = false;  ///< the forcing is not smooth here
   bool load_jumps = false;
-  bool located = true;    ///< the engine finds the time at which a guard is zero
+  bool located = true;  ///< the engine finds the time at which a guard is zero
+  double dependence =
+      1.0;  ///< of the modes that the motion before was a sum over; 1: of none, or of orthogonal ones
   double forgiven = 0.0;  ///< by how many of their roundings states fail that were said to be undecided
 };
 

@@ -1,5 +1,6 @@
 #include "witness/sight.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace signorini {
@@ -28,7 +29,7 @@ double size_of_normal(const Contact& c, const Sight& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }
 
-Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
+Sight glance(const Contact& c, std::size_t k, const WitnessedSide& side) {
   const auto at = static_cast<Eigen::Index>(2 * k);
   const Driven& d = side.driven[k];
   Sight m;
@@ -38,17 +39,27 @@ Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
   m.ut = c.tangent.dot(*side.u) - d.s;
   m.dg = c.normal.dot(*side.v);
   m.dut = c.tangent.dot(*side.v) - d.ds;
+  if (side.a != nullptr) {
+    m.ddg = c.normal.dot(*side.a);
+    m.ddut = c.tangent.dot(*side.a) - d.dds;
+  }
+  m.q = d.q;
+  m.dq = d.dq;
+  m.ddq = d.ddq;
+  return m;
+}
+
+Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
+  const Driven& d = side.driven[k];
+  Sight m = glance(c, k, side);
   m.place = size_on(c.normal, *side.u, side.u_reach[0]) + size_on(c.tangent, *side.u, side.u_reach[0]) +
             std::abs(c.gap) + std::abs(d.s);
   m.speed = size_on(c.normal, *side.v, side.v_reach[0]) + size_on(c.tangent, *side.v, side.v_reach[0]) +
             std::abs(d.ds);
-  if (side.a != nullptr) {
-    m.ddg = c.normal.dot(*side.a);
-    m.ddut = c.tangent.dot(*side.a) - d.dds;
-    m.push = size_on(c.normal, *side.a, 0.0) + size_on(c.tangent, *side.a, 0.0) + std::abs(d.dds);
-  }
-  m.q = d.q;
-  m.dq = d.dq;
+  m.speed = std::max(m.speed, d.speed);
+  if (side.a != nullptr)
+    m.push = size_on(c.normal, *side.a, side.a_reach[0]) + size_on(c.tangent, *side.a, side.a_reach[0]) +
+             std::abs(d.dds);
   return m;
 }
 

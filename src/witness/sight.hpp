@@ -11,7 +11,8 @@
 namespace signorini {
 
 struct Sight {
-  double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0;
+  double N = 0.0, T = 0.0, g = 0.0, ut = 0.0, dg = 0.0, dut = 0.0, ddg = 0.0, ddut = 0.0, q = 0.0, dq = 0.0,
+         ddq = 0.0;
   // Sizes of the terms of g and ut, of g' and ut', of g'' and ut''.
   double place = 0.0, speed = 0.0, push = 0.0;
 };
@@ -33,6 +34,8 @@ struct SeenGuards {
 };
 
 [[nodiscard]] Sight see(const Contact& contact, std::size_t k, const WitnessedSide& side);
+/// Without sizes: where no guard is negative nobody asks how far below zero it may be.
+[[nodiscard]] Sight glance(const Contact& contact, std::size_t k, const WitnessedSide& side);
 /// +1, -1 while slipping, else 0; open; sticking.
 [[nodiscard]] int sign_of_slip(State state);
 /// The guards of a state at a motion whose forces are those of the state's own rows.

@@ -19,26 +19,35 @@ const Unit& unit_of(const SeenGuard& guard) {
 struct HeldRows {
   std::vector<Vector> columns;  // accelerations by a unit force; of what slides with its friction
   std::vector<const Combination*> rows;
-  std::vector<double> asked;
+  std::vector<double> asked, noise;  // noise: of the accelerations along the rows
 
-  void add(const Contact& c, const ContactState& state, const OwnResponse& response, double an, double at) {
+  /// swung: accelerations with which a guard was seen, and that are gone; empty: none.
+  void add(const Contact& c, const ContactState& state, const OwnResponse& response, const Sight& m,
+           const Vector& swung, bool hold) {
     const bool tangent = holds_tangent(c, state.state);
+    double of_row = rounding::of_elimination * m.push;
+    if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
       const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * c.friction.kinetic;
       columns.push_back(-response.by_n - friction * response.by_t);
       rows.push_back(&c.normal);
-      asked.push_back(an);
+      asked.push_back(hold ? -m.ddg : 0.0);
+      noise.push_back(of_row);
     }
     if (!tangent) return;
     columns.push_back(-response.by_t);
     rows.push_back(&c.tangent);
-    asked.push_back(at);
+    asked.push_back(hold ? -m.ddut : 0.0);
+    noise.push_back(of_row);
   }
   static bool holds_tangent(const Contact& c, State state) {
     return kind_of(state) == State::stick && !c.tangential_stiffness && !c.shear;
   }
+  struct Change {
+    Eigen::VectorXd forces, unsure;
+  };
   /// dF; push: accelerations that change besides, to which those by dF are added.
-  Eigen::VectorXd solve(Vector& push) const {
+  Change solve(Vector& push) const {
     const auto size = static_cast<Eigen::Index>(columns.size());
     if (size == 0) return {};
     Eigen::MatrixXd W(size, size);
@@ -48,8 +57,9 @@ struct HeldRows {
       miss[i] = asked[static_cast<std::size_t>(i)] - row.dot(push);
       for (Eigen::Index j = 0; j < size; ++j) W(i, j) = row.dot(columns[static_cast<std::size_t>(j)]);
     }
-    Eigen::VectorXd change = least_squares(W, miss);
-    for (Eigen::Index j = 0; j < size; ++j) push += change[j] * columns[static_cast<std::size_t>(j)];
+    const Eigen::MatrixXd inverse = pseudo_inverse(W);
+    Change change{inverse * miss, inverse.cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(noise.data(), size)};
+    for (Eigen::Index j = 0; j < size; ++j) push += change.forces[j] * columns[static_cast<std::size_t>(j)];
     return change;
   }
 };
@@ -71,8 +81,44 @@ double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
 }
 
 void Finder::states() {
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (!model_.contacts[k].own) state_of(k);
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    if (model_.contacts[k].own) continue;
+    state_of(k);
+    if (!record_.start && record_.located) old_rows(k);
+  }
+}
+
+/// Forces just before are those of the old state, as far as its rows say them by u and v.
+void Finder::old_rows(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState& state = (*record_.before.mode)[k];
+  const Sight m = see(c, k, record_.before);
+  const WitnessLimits& tol = bench_.limits;
+  const double kn = c.normal_stiffness, cn = c.normal_damping, kt = c.tangential_stiffness.value_or(0.0);
+  const double held = c.takes_impulses() ? force_noise() : 0.0;
+  const double limit =
+      rounding::of_elimination *
+          (size_of_normal(c, m) + kt * (m.place + std::abs(state.anchor)) + std::abs(m.N) + std::abs(m.T)) +
+      of_tolerance *
+          ((kn + kt) * (tol.rtol * m.place + tol.displacement) + cn * (tol.rtol * m.speed + tol.velocity) +
+           tol.rtol * (std::abs(m.N) + std::abs(m.T)) + tol.force) +
+      held;
+  const auto check = [&](const char* law, double off) {
+    if (std::abs(off) > limit) add(static_cast<int>(k), law, std::abs(off), limit, seen::force, false);
+  };
+  const int s = sign_of_slip(state.state);
+  if (c.is_pressed())
+    check("normal force", m.N + m.q);
+  else if (is_open(state.state))
+    check("normal force", m.N);
+  else if (c.has_spring())
+    check("normal force", m.N - kn * m.g - cn * m.dg);
+  if (is_open(state.state) && !c.is_pressed())
+    check("friction force", m.T);
+  else if (s != 0 && !c.friction.varies() && !c.shear)
+    check("friction force", m.T + s * c.friction.kinetic * m.N);
+  else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
+    check("friction force", m.T - kt * (m.ut - state.anchor));
 }
 
 /// Guards of the new state, and its rows.
@@ -82,9 +128,13 @@ void Finder::state_of(std::size_t k) {
   const Sight m = see(c, k, record_.after);
   const int contact = static_cast<int>(k);
   for (const SeenGuard& guard : guards_of(c, state, m, bench_.limits)) {
-    if (std::string_view(guard.law) == "slip direction" && c.shear) continue;
+    // What finds states at ends of steps asks for the slip of a whole step.
+    if (std::string_view(guard.law) == "slip direction" && (c.shear || !record_.located)) continue;
+    // And it stops for a step what goes on sliding the other way.
+    if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
     const double zero = zero_of(guard, c);
-    if (guard.value < -zero) add(contact, guard.law, -guard.value, zero, unit_of(guard), false);
+    if (guard.value < -zero)
+      add(contact, guard.law, -guard.value, zero, unit_of(guard), -guard.value > gross * guard.size);
   }
   double asked = 0.0, size = std::abs(m.N);
   if (c.is_pressed()) {
@@ -133,12 +183,13 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
 bool Finder::moves_at_once(std::size_t k) const { return bench_.own_response(k) == nullptr; }
 
 /// Contact k in its old state, with u, v+ and the new states of all others. Nothing: its old rows cannot be told.
-std::optional<Sight> Finder::as_before(std::size_t k) const {
+std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState& old = (*record_.before.mode)[k];
   const OwnResponse* own = bench_.own_response(k);
   if (own == nullptr) return std::nullopt;
-  Sight m = see(c, k, record_.after);
+  Old result{see(c, k, record_.after)};
+  Sight& m = result.m;
   const bool solved_N = c.takes_impulses() && !is_open(old.state),
              solved_T = HeldRows::holds_tangent(c, old.state);
   const double sliding = -sign_of_slip(old.state) * c.friction.kinetic, N = m.N, T = m.T;
@@ -153,7 +204,8 @@ std::optional<Sight> Finder::as_before(std::size_t k) const {
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
   HeldRows held;
-  held.add(c, old, *own, -m.ddg, -m.ddut);
+  const Vector swung = bench_.swung(record_);
+  held.add(c, old, *own, m, swung, true);
   for (std::size_t j = 0; j < model_.contacts.size(); ++j) {
     const Contact& other = model_.contacts[j];
     const ContactState& state = (*record_.after.mode)[j];
@@ -161,15 +213,21 @@ std::optional<Sight> Finder::as_before(std::size_t k) const {
     if (j == k || other.own || is_open(state.state) || !rigid) continue;
     const OwnResponse* response = bench_.own_response(j);
     if (response == nullptr) return std::nullopt;
-    held.add(other, state, *response, 0.0, 0.0);
+    held.add(other, state, *response, see(other, j, record_.after), swung, false);
   }
-  const Eigen::VectorXd change = held.solve(push);
-  if (solved_N) m.N = N + change[0];
-  if (solved_T) m.T = T + change[solved_N ? 1 : 0];
+  const HeldRows::Change change = held.solve(push);
+  if (solved_N) {
+    m.N = N + change.forces[0];
+    result.unsure_N = change.unsure[0];
+  }
+  if (solved_T) {
+    m.T = T + change.forces[solved_N ? 1 : 0];
+    result.unsure_T = change.unsure[solved_N ? 1 : 0];
+  }
   if (solved_N && !solved_T) m.T = sliding * m.N;
   m.ddg += c.normal.dot(push);
   m.ddut += c.tangent.dot(push);
-  return m;
+  return result;
 }
 
 /// Its own g', ut', N or T jump: what it did before does not tell what it was led to.
@@ -192,10 +250,27 @@ void Finder::transitions() {
     if (plain(old.state) != plain(now.state) && !record_.start &&
         (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))
       add(static_cast<int>(k), "record", 1.0, 0.0, {}, true);
-    if (model_.contacts[k].own || record_.start || !record_.located) continue;
+    if (model_.contacts[k].own || (record_.start && !record_.continues) || !record_.located) continue;
     if (old.state != now.state) necessity(k);
-    if (event != nullptr && event->t_uncertainty >= 0.0 && !record_.breakpoint && !jumps(k)) guard_of(*event);
+    if (event != nullptr && event->t_uncertainty >= 0.0 && !record_.breakpoint && !record_.start && !jumps(k))
+      guard_of(*event);
   }
+}
+
+/// What stuck rigidly slides after a hit that its friction could not hold, however slowly: |Pt| = fk Pn.
+bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& after) const {
+  const Contact& c = model_.contacts[k];
+  if (kind_of(old.state) != State::stick || c.tangential_stiffness) return false;
+  if (std::abs(after.dut) > rounding::of_elimination * after.speed) return true;
+  if (record_.impulses.empty() || after.dut == 0.0) return false;
+  for (const RecordedImpulse& p : record_.impulses) {
+    if (p.contact != k) continue;
+    double greatest = 0.0;
+    for (const RecordedImpulse& other : record_.impulses)
+      greatest = std::max({greatest, std::abs(other.normal), std::abs(other.tangent)});
+    return std::abs(p.tangent) >= c.friction.kinetic * p.normal - rounding::of_elimination * greatest;
+  }
+  return true;  // a slider: it takes none
 }
 
 /// The least guard of the old state, with v+, is above its rounding: nothing asked for another state.
@@ -205,9 +280,8 @@ void Finder::necessity(std::size_t k) {
   if (c.shear || c.friction.varies() || (moves_at_once(k) && record_.breakpoint)) return;
   const Sight before = see(c, k, record_.before), after = see(c, k, record_.after);
   if (c.is_pressed() && (is_open(old.state) || is_open(now.state))) return;  // as the compression asks
-  const bool sticks_rigidly = kind_of(old.state) == State::stick && !c.tangential_stiffness;
   const double rest = rounding::of_elimination * after.speed;
-  if (sticks_rigidly && std::abs(after.dut) > rest) return;  // pushed off
+  if (is_pushed_off(k, old, after)) return;
   // Thrown off: beside a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))
@@ -216,14 +290,16 @@ void Finder::necessity(std::size_t k) {
   const double jump =
       rounding::of_elimination * (std::abs(before.N) + std::abs(after.N) + size_of_normal(c, after));
   if (c.tangential_stiffness && sign_of_slip(old.state) != 0 && std::abs(after.N - before.N) > jump) return;
-  const std::optional<Sight> m = as_before(k);
-  if (!m) return;
-  const SeenGuards guards = guards_of(c, old, *m, bench_.limits);
+  const std::optional<Old> before_it = as_before(k);
+  if (!before_it) return;
+  const SeenGuards guards = guards_of(c, old, before_it->m, bench_.limits);
   const RecordedEvent* event = event_of(k);
   const SeenGuard* nearest = nullptr;
   double limit = 0.0;
   for (const SeenGuard& guard : guards) {
     double zero = zero_of(guard, c);
+    if (guard.law != std::string_view("slip direction") && guard.law != std::string_view("penetration"))
+      zero += (1.0 + c.friction.static_) * before_it->unsure_N + before_it->unsure_T;
     if (event != nullptr && event->t_uncertainty >= 0.0)
       zero +=
           of_uncertainty * event->t_uncertainty * std::max(std::abs(event->guard_rate), std::abs(guard.rate));
@@ -234,7 +310,8 @@ void Finder::necessity(std::size_t k) {
     limit = zero;
   }
   if (nearest != nullptr)
-    add(static_cast<int>(k), "necessity", nearest->value, limit, unit_of(*nearest), false);
+    add(static_cast<int>(k), "necessity", nearest->value, limit, unit_of(*nearest),
+        nearest->value > gross * nearest->size);
 }
 
 /// The guard that fell is zero at the time of its event, in the motion just before.
@@ -259,68 +336,6 @@ void Finder::guard_of(const RecordedEvent& event) {
   }
   if (which != nullptr && std::abs(least) > limit)
     add(static_cast<int>(k), "time of the event", std::abs(least), limit, unit_of(*which), false);
-}
-
-/// u, and T where nothing but its state's row changes. Both sides of u are rounded.
-void Finder::continuity() {
-  const WitnessLimits& tol = bench_.limits;
-  // Sizes of u, and of v within what the time is known to, of translations and of rotations.
-  double size[2] = {record_.before.u_reach[0] + model_.scales.displacement,
-                    record_.before.u_reach[1] + model_.scales.rotation};
-  double moved[2] = {0.0, 0.0}, clock = record_.resolution;
-  for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
-  const auto turns = [&](int i) { return model_.dofs[static_cast<std::size_t>(i)].rotation; };
-  // Gaps that close do so by the smallest change in the norm of M.
-  Vector closed = Vector::Zero(model_.size());
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    const OwnResponse* own = model_.contacts[k].takes_impulses() ? bench_.own_response(k) : nullptr;
-    if (own == nullptr || !(own->nn > 0.0) || is_open((*record_.after.mode)[k].state)) continue;
-    const double gap = rounding::of_elimination * see(model_.contacts[k], k, record_.before).place;
-    closed += gap / own->nn * own->by_n.cwiseAbs();
-  }
-  for (int i = 0; i < model_.size(); ++i) {
-    size[turns(i)] = std::max(size[turns(i)], std::abs((*record_.before.u)[i]));
-    moved[turns(i)] = std::max(moved[turns(i)], clock * std::abs((*record_.before.v)[i]));
-  }
-  for (int i = 0; i < model_.size(); ++i) {
-    if (!bench_.has_mass(i) && (record_.breakpoint || record_.start)) continue;
-    const bool turn = turns(i);
-    const double limit = 2.0 * rounding::of_elimination * size[turn] + closed[i] +
-                         of_uncertainty * moved[turn] +
-                         of_tolerance * (tol.rtol * size[turn] + (turn ? tol.rotation : tol.displacement));
-    const double off = std::abs((*record_.after.u)[i] - (*record_.before.u)[i]);
-    if (off <= limit) continue;
-    add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
-    break;
-  }
-  if (record_.start || !record_.located) return;
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    if (!model_.contacts[k].own) friction_continuity(k);
-}
-
-/// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
-void Finder::friction_continuity(std::size_t k) {
-  const Contact& c = model_.contacts[k];
-  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
-  if (moves_at_once(k) && record_.breakpoint) return;
-  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
-  const double fs = c.friction.static_, fk = c.friction.kinetic, kt = *c.tangential_stiffness;
-  const double off_N =
-      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
-      of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));
-  if (std::abs(a.N - b.N) > off_N && sign_of_slip(now.state) != 0) return;  // T = -s fk N follows
-  double limit = rounding::of_elimination * (kt * (a.place + std::abs(now.anchor)) + std::abs(b.T)) +
-                 of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement)) +
-                 fs * off_N;
-  if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
-    limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
-  const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
-  const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
-  const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
-  if (lets_go || above) return;
-  if (const double off = std::abs(a.T - b.T); off > limit)
-    add(static_cast<int>(k), "continuity of friction", off, limit, seen::force, false);
 }
 
 }  // namespace signorini

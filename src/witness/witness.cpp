@@ -24,56 +24,104 @@ std::vector<Violation> Witness::instant(const InstantRecord& record) const {
   finder.states();
   finder.transitions();
   finder.continuity();
+  finder.releases();
+  finder.continuation();
+  finder.rows();
+  finder.balance();
   return found;
 }
 
-std::array<double, 2> Witness::modal_size(const Vector& x) const {
+std::array<double, 2> Witness::modal_size(double norm) const {
   std::array<double, 2> size = parts_->bench.lightness();
-  const double norm = std::sqrt(std::max(0.0, x.dot(parts_->bench.model.mass * x)));
   for (double& s : size) s *= norm;
   return size;
 }
 
 namespace {
 
-/// Another foot that sticks may hold this one at the limit of its friction: what it slips is rounding of what holds it.
-bool held_beside(const Model& model, const std::vector<ContactState>& mode, std::size_t k) {
+/// Another rigid foot may hold this one at the limit of its friction: what it slips then is rounding of what holds it.
+bool held_beside(const Model& model, std::size_t k) {
+  const Contact& foot = model.contacts[k];
   const auto shares = [&](const Contact& other) {
     return std::any_of(other.tangent.terms.begin(), other.tangent.terms.end(), [&](const auto& a) {
-      const auto& own = model.contacts[k].tangent.terms;
-      return std::any_of(own.begin(), own.end(), [&](const auto& b) { return a.first == b.first; });
+      return std::any_of(foot.tangent.terms.begin(), foot.tangent.terms.end(),
+                         [&](const auto& b) { return a.first == b.first; });
     });
   };
+  if (!foot.takes_impulses()) return false;
   for (std::size_t j = 0; j < model.contacts.size(); ++j)
-    if (j != k && model.contacts[j].takes_impulses() && kind_of(mode[j].state) == State::stick &&
-        shares(model.contacts[j]))
-      return model.contacts[k].takes_impulses();
+    if (j != k && model.contacts[j].takes_impulses() && shares(model.contacts[j])) return true;
   return false;
 }
 
 }  // namespace
 
+std::array<double, 2> Witness::modal_size(const Vector& x) const {
+  return modal_size(std::sqrt(std::max(0.0, x.dot(parts_->bench.model.mass * x))));
+}
+
+double Witness::twice_energy(const Vector& u) const {
+  const Model& model = parts_->bench.model;
+  double twice = std::max(0.0, u.dot(model.stiffness * u));
+  for (const Contact& c : model.contacts) {
+    const double g = c.normal.dot(u), ut = c.body_tangent().dot(u);
+    twice += c.normal_stiffness * g * g + c.tangential_stiffness.value_or(0.0) * ut * ut;
+  }
+  return twice;
+}
+
+double Witness::lightness(std::size_t k) const {
+  const OwnResponse* own = parts_->bench.own_response(k);
+  return own != nullptr ? std::sqrt(std::max(0.0, own->nn)) + std::sqrt(std::max(0.0, own->tt)) : 0.0;
+}
+
+void Witness::contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,
+                      double of_held, std::vector<Violation>& found) const {
+  const Contact& c = parts_->bench.model.contacts[k];
+  if (c.own || c.friction.varies()) return;
+  for (const SeenGuard& guard : guards_of(c, state, m, parts_->bench.limits)) {
+    const std::string_view law = guard.law;
+    // The slip rate with a dashpot needs an acceleration.
+    if (law == "slip direction" && (c.shear || (c.normal_damping > 0.0 && !accelerates))) continue;
+    const bool held = law == "tension" ? c.takes_impulses() : law == "friction" && !c.tangential_stiffness;
+    double limit =
+        rounding::of_elimination * (guard.size + (held ? of_held : 0.0)) + of_tolerance * guard.tolerance;
+    if (guard.value >= -limit) continue;
+    if (law == "slip direction" && held_beside(parts_->bench.model, k)) {
+      limit += c.capture_velocity.value_or(parts_->bench.limits.capture_velocity);
+      if (guard.value >= -limit) continue;
+    }
+    found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit,
+                     law == "penetration" || law == "lasting gap" ? seen::length
+                     : law == "slip direction"                    ? seen::velocity
+                                                                  : seen::force,
+                     false});
+  }
+}
+
+double Witness::held_forces(const WitnessedSide& side) const { return parts_->bench.balance(side); }
+
 std::vector<Violation> Witness::between(double t, const WitnessedSide& now) const {
   std::vector<Violation> found;
   const Model& model = parts_->bench.model;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = model.contacts[k];
-    if (c.own || c.friction.varies()) continue;
-    const Sight m = see(c, k, now);
-    for (const SeenGuard& guard : guards_of(c, (*now.mode)[k], m, parts_->bench.limits)) {
-      const std::string_view law = guard.law;
-      // The slip rate with a dashpot needs an acceleration; of what sticks without a spring T is that of a solve.
-      if (law == "slip direction" && (c.shear || (c.normal_damping > 0.0 && now.a == nullptr))) continue;
-      double limit = rounding::of_elimination * guard.size + of_tolerance * guard.tolerance;
-      if (law == "slip direction" && guard.value < -limit && held_beside(model, *now.mode, k))
-        limit += c.capture_velocity.value_or(parts_->bench.limits.capture_velocity);
-      if (guard.value >= -limit) continue;
-      found.push_back({t, "between", static_cast<int>(k), guard.law, -guard.value, limit,
-                       law == "penetration" || law == "lasting gap" ? seen::length
-                       : law == "slip direction"                    ? seen::velocity
-                                                                    : seen::force,
-                       false});
-    }
+    const Sight seen_quickly = glance(model.contacts[k], k, now);
+    const SeenGuards guards =
+        guards_of(model.contacts[k], (*now.mode)[k], seen_quickly, parts_->bench.limits);
+    if (std::all_of(guards.begin(), guards.end(), [](const SeenGuard& guard) { return guard.value >= 0.0; }))
+      continue;
+    const Sight m = see(model.contacts[k], k, now);
+    const std::size_t before = found.size();
+    contact(t, k, (*now.mode)[k], m, now.a != nullptr, 0.0, found);
+    if (found.size() == before || (model.contacts[k].has_spring() && model.contacts[k].tangential_stiffness))
+      continue;
+    found.resize(before);  // rarely: what its forces are known to takes a sum over the structure
+    contact(t, k, (*now.mode)[k], m, now.a != nullptr, parts_->bench.balance(now), found);
+  }
+  for (const Unbalanced& off : massless_balance(parts_->bench, now, 2)) {
+    const bool turns = model.dofs[static_cast<std::size_t>(off.dof)].rotation;
+    found.push_back(
+        {t, "between", -1, off.law, off.value, off.limit, Unit{1, turns ? 1 : 0, -off.order}, false});
   }
   return found;
 }

@@ -31,6 +31,8 @@ struct WitnessLimits {
       true;  ///< flights lower than the rounding of their gaps are followed, not taken as rest
 };
 
+struct Sight;
+
 class Witness {
  public:
   Witness(const Model& model, const WitnessLimits& limits);
@@ -42,9 +44,22 @@ class Witness {
   [[nodiscard]] std::vector<Violation> instant(const InstantRecord& record) const;
   /// Guards and rows at a point of the motion inside a stretch.
   [[nodiscard]] std::vector<Violation> between(double t, const WitnessedSide& now) const;
+  /// Guards of one contact's state, by what is known of its motion; accelerates: g'' and ut'' are. of_held: the size of
+  /// the terms that forces are differences of which hold accelerations.
+  void contact(double t, std::size_t k, const ContactState& state, const Sight& m, bool accelerates,
+               double of_held, std::vector<Violation>& found) const;
+  /// The size of the terms that forces are differences of which hold accelerations.
+  [[nodiscard]] double held_forces(const WitnessedSide& side) const;
   /// The most that a sum over modes that is x may have as terms, of translations and of rotations:
   /// x = sum phi q,  sum_k |phi_ik q_k| <= sqrt((M^-1)_ii x^T M x),  since sum phi phi^T = M^-1 and sum q^2 = x^T M x.
   [[nodiscard]] std::array<double, 2> modal_size(const Vector& x) const;
+  /// The same, of x with this norm.
+  [[nodiscard]] std::array<double, 2> modal_size(double norm) const;
+  /// u^T K u, springs of contacts in K.
+  [[nodiscard]] double twice_energy(const Vector& u) const;
+  /// The greatest velocity along n and t of contact k that an energy can make, over the root of twice that energy:
+  /// |n v| <= sqrt(n M^-1 n) sqrt(v^T M v). Roundings of u are velocities a quarter of a period later. 0: it acts on no mass.
+  [[nodiscard]] double lightness(std::size_t k) const;
 
  private:
   struct Parts;

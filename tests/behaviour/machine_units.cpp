@@ -89,8 +89,8 @@ void check_rows(const Model& model, const Told& here, const Told& there, const F
   REQUIRE(here.rows.size() == there.rows.size());
   for (std::size_t i = 0; i < here.rows.size(); ++i) {
     const Result::Row& row = there.rows[i];
-    CHECK(row.u == physical(here.rows[i].u, model.physical_dofs(), false, factors));
-    CHECK(row.v == physical(here.rows[i].v, model.physical_dofs(), true, factors));
+    CHECK(row.u == physical(here.rows[i].u, model.physical_dofs(), 0, factors));
+    CHECK(row.v == physical(here.rows[i].v, model.physical_dofs(), 1, factors));
     Sample sample{here.rows[i].t, nullptr, nullptr, here.rows[i].contacts, here.rows[i].energy};
     sample = physical(sample, factors);
     CHECK(row.t == sample.t);

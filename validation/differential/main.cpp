@@ -10,6 +10,7 @@
 //   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
 //   signorini_differential --relations --from 1 --count 1000              (relations.hpp)
 //   signorini_differential --landings --from 1 --count 1000               (landings.hpp)
+//   signorini_differential --witness --coupled --from 1 --count 1000      (witnessed.hpp)
 //
 // One line a scene, then a table. Exit code 1 if any scene is called DISAGREE, or one written in another way
 // has another answer, 2 for a wrong command line.
@@ -30,6 +31,7 @@
 #include "differential/metamorphic.hpp"
 #include "differential/relations.hpp"
 #include "differential/shrink.hpp"
+#include "differential/witnessed.hpp"
 
 namespace {
 
@@ -42,8 +44,7 @@ struct Asked {
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
   bool shrink = false, print = false, coupled = false, flows = false, loaded = false, relations = false,
-       landings = false;
-  bool verbose = false;
+       landings = false, verbose = false, witness = false;
   std::string relation;  ///< the only one
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
@@ -278,6 +279,42 @@ void look_at_decisions(const std::string& name, const std::string& text, Decisio
   std::fflush(stdout);
 }
 
+/// Of runs before their witness.
+struct Alarms {
+  long scenes = 0, refused = 0, runs = 0, checked = 0, with_alarms = 0;
+  std::map<std::string, long> laws;
+
+  void print() const {
+    fmt::print("\n{} scenes ({} refused), {} runs, {} instants and stretches, {} runs with alarms\n", scenes,
+               refused, runs, checked, with_alarms);
+    for (const auto& [law, count] : laws) fmt::print("  {}: {}\n", law, count);
+  }
+  [[nodiscard]] int exit_code() const { return with_alarms > 0 ? 1 : 0; }
+};
+
+void look_at_witness(const std::string& name, const std::string& text, const Asked& asked, Alarms& alarms) {
+  ++alarms.scenes;
+  try {
+    const Witnessed found = before_the_witness(
+        parse_scene(text, asked.scene.empty() ? name + ".toml" : asked.scene, overrides(asked.changes)),
+        asked.run_steps);
+    alarms.runs += found.runs;
+    alarms.checked += found.checked;
+    std::map<std::string, long> ways;
+    for (const Alarm& a : found.alarms) {
+      ++ways[a.way];
+      ++alarms.laws[a.way + ", " + a.law];
+      fmt::print("{} {}: {} {} {} times, t = {:.9g} ({}): {:.3g}, limit {:.3g}{}\n", name, a.way, a.law,
+                 a.contact, a.count, a.worst.t, a.worst.event, a.worst.value, a.worst.limit,
+                 a.worst.grave ? " GRAVE" : "");
+    }
+    alarms.with_alarms += static_cast<long>(ways.size());
+  } catch (const SceneError&) {
+    ++alarms.refused;
+  }
+  std::fflush(stdout);
+}
+
 std::vector<std::string> names_of_relations() {
   std::vector<std::string> names;
   for (const RelationKind& kind : relation_kinds) names.emplace_back(kind.name);
@@ -315,7 +352,7 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
       ->check(CLI::IsMember({"exact", "ida", "newmark"}));
   app.add_option("--angles", asked.angles, "of --transformed: so many turns around, in place of drawn ways");
   app.add_option("--scales", asked.scales, "and so many scales of force, length and time over 40 decades");
-  app.add_option("--set", asked.changes, "PATH=VALUE in each scene that is transformed")
+  app.add_option("--set", asked.changes, "PATH=VALUE in each scene that is transformed, or witnessed")
       ->allow_extra_args(false);
   app.add_flag(
          "--coupled", asked.coupled,
@@ -323,6 +360,8 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
       ->excludes("--transformed");
   app.add_flag("--loaded", asked.loaded, "draw frames with heat, moments, supports that move, stops, stages")
       ->excludes("--coupled");
+  app.add_flag("--witness", asked.witness,
+               "run each scene with all engines, and print what their witness finds");
   app.add_flag("--flows", asked.flows,
                "change each scene to what modes follow, and run it with both flows of exact")
       ->excludes("--transformed");
@@ -363,8 +402,11 @@ int main(int argc, char** argv) {
   Decisions decisions;
   RelationTally relations;
   LandingsTally landings;
+  Alarms alarms;
   const auto look_at = [&](const std::string& name, const std::string& text) {
-    if (asked.relations)
+    if (asked.witness)
+      look_at_witness(name, text, asked, alarms);
+    else if (asked.relations)
       look_at_relations(name, text, asked, relations);
     else if (asked.landings)
       look_at_landings(name, text, landings);
@@ -376,7 +418,9 @@ int main(int argc, char** argv) {
       rewrite(name, text, asked, ways);
   };
   const auto finish = [&] {
-    if (asked.relations)
+    if (asked.witness)
+      alarms.print();
+    else if (asked.relations)
       relations.print();
     else if (asked.landings)
       landings.print();
@@ -387,7 +431,7 @@ int main(int argc, char** argv) {
     else if (asked.scene.empty())
       tally.print();
     return std::max({tally.exit_code(), ways.exit_code(), decisions.exit_code(), landings.exit_code(),
-                     relations.unexplained() > 0 ? 1 : 0});
+                     alarms.exit_code(), relations.unexplained() > 0 ? 1 : 0});
   };
   if (!asked.scene.empty()) {
     std::ifstream file(asked.scene);

@@ -42,6 +42,7 @@ class DampedFlow final : public ModalFlow {
   void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
     works_.add(from, to, works);
   }
+  [[nodiscard]] double dependence() const override { return motion_.dependence(); }
   [[nodiscard]] long states_made() const override { return motion_.system().made(); }
 
  private:

@@ -43,6 +43,7 @@ class DampedMotion {
   void motion(const ModalPoint& at, Vector& q, Vector& rate, Vector* change) const;
 
   [[nodiscard]] const DampedState& state() const { return *state_; }
+  [[nodiscard]] double dependence() const { return state_ ? state_->modes.condition : 1.0; }
   [[nodiscard]] const DampedSystem& system() const { return system_; }
   [[nodiscard]] const Eigen::VectorXcd& root() const { return state_->modes.root; }
   [[nodiscard]] const TimeBasis& time() const { return time_; }

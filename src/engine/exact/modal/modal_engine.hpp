@@ -40,6 +40,7 @@ class ModalEngine final : public Stepper {
   /// A guard that leaves zero is followed by its leading derivative.
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
+  [[nodiscard]] double dependence() const override { return modal_ ? flow_->dependence() : 1.0; }
   [[nodiscard]] ModalSystem* modes() override { return flow_ ? flow_->modes() : nullptr; }
   void count() override;
 

@@ -53,6 +53,8 @@ class ModalFlow {
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const = 0;
   /// The uncoupled modes of contact states; null: they are others.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
+  /// Stepper::dependence() of the segment.
+  [[nodiscard]] virtual double dependence() const = 0;
   /// Contact states whose modes were made.
   [[nodiscard]] virtual long states_made() const = 0;
 };

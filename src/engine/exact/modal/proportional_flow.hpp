@@ -35,6 +35,7 @@ class ProportionalFlow final : public ModalFlow {
     works_.add(proof_, from, to, time, works);
   }
   [[nodiscard]] ModalSystem* modes() override { return &system_; }
+  [[nodiscard]] double dependence() const override { return state_ ? state_->spectrum.condition() : 1.0; }
   [[nodiscard]] long states_made() const override { return system_.made(); }
 
  private:

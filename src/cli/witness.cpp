@@ -1,0 +1,66 @@
+// signorini witness DIR: does a run keep the laws of every instant, by its files alone?
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/terminal.hpp"
+#include "result/witness_json.hpp"
+#include "study/witness/directory_witness.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+struct WitnessOptions {
+  std::string directory;
+  bool json = false;
+};
+
+std::string text_of(const DirectoryTestimony& found, const std::string& directory) {
+  std::string text;
+  for (const Violation& v : found.testimony.violations)
+    text += fmt::format("t = {:<14.9g} {:<14} {:<12} {:<22} {:.4g}, limit {:.2g}\n", v.t,
+                        v.event.empty() ? "-" : v.event,
+                        v.contact < 0 ? "-" : found.model.contacts[static_cast<std::size_t>(v.contact)].name,
+                        v.law, v.value, v.limit);
+  if (const auto more = found.testimony.violated - static_cast<long>(found.testimony.violations.size());
+      more > 0)
+    text += fmt::format("and {} more\n", more);
+  text += fmt::format("{}: {} instants, {} events, {} rows of contacts: ", directory, found.instants,
+                      found.events, found.rows);
+  text += found.testimony.violated == 0 ? "all laws hold\n"
+                                        : fmt::format("{} violations\n", found.testimony.violated);
+  return text;
+}
+
+ExitCode hear_witness(const WitnessOptions& options) {
+  const DirectoryTestimony found = witness_directory(options.directory);
+  if (!found.complete)
+    print_note(options.directory + ": the run had not ended; its files are checked as far as they go");
+  if (options.json) {
+    Json json = {{"instants", found.instants},
+                 {"events", found.events},
+                 {"rows", found.rows},
+                 {"ended", found.complete}};
+    json.update(witness_json(found.model, found.testimony));
+    print(json_text(json));
+  } else {
+    print(text_of(found, options.directory));
+  }
+  return found.testimony.violated == 0 ? ExitCode::done : ExitCode::limit;
+}
+
+}  // namespace
+
+void add_witness(Program& program) {
+  auto options = std::make_shared<WitnessOptions>();
+  CLI::App* command = program.app.add_subcommand(
+      "witness", "check every instant of a run by its files alone (run --instants)");
+  command->add_option("DIR", options->directory, "a directory that `signorini run --instants` wrote")
+      ->required();
+  command->add_flag("--json", options->json, "print JSON instead of text");
+  command->callback([&program, options] { program.action = [options] { return hear_witness(*options); }; });
+}
+
+}  // namespace signorini::cli

@@ -1,0 +1,241 @@
+#include "result/instants.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "base/excerpt.hpp"
+#include "base/number.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+// The order of the columns.
+enum Head : std::size_t {
+  at_t,
+  at_side,
+  at_resolution,
+  at_start,
+  at_breakpoint,
+  at_load,
+  at_located,
+  at_forgiven,
+  at_dependence,
+  heads
+};
+constexpr const char* head_names[heads] = {"t",          "side",    "resolution", "start",     "breakpoint",
+                                           "load_jumps", "located", "forgiven",   "dependence"};
+enum Part : std::size_t {
+  of_state,
+  of_p,
+  of_N,
+  of_T,
+  of_blows,
+  of_capture_n,
+  of_capture_t,
+  of_released,
+  parts
+};
+constexpr const char* part_names[parts] = {".state", ".p",         ".N",         ".T",
+                                           ".blows", ".capture_n", ".capture_t", ".released"};
+
+std::vector<std::string> columns_of(const Model& model) {
+  std::vector<std::string> names(head_names, head_names + heads);
+  for (const Dof& dof : model.dofs) names.push_back(dof.displacement);
+  for (const Dof& dof : model.dofs) names.push_back(dof.velocity);
+  for (const Dof& dof : model.dofs) names.push_back(dof.displacement + ".acceleration");
+  for (const Contact& contact : model.contacts)
+    for (const char* part : part_names) names.push_back(contact.name + part);
+  return names;
+}
+
+std::string text_of(State state) {
+  if (is_own(state)) return std::to_string(number_of(state));
+  return state == State::inside ? "inside" : to_string(state);
+}
+
+}  // namespace
+
+InstantWriter::InstantWriter(const std::filesystem::path& directory, const Model& model)
+    : model_(model), file_(directory / instants_file) {
+  for (const std::string& name : columns_of(model)) block_.text(name);
+  block_.end_row();
+  file_.write(block_);
+}
+
+void InstantWriter::write(const InstantRow& row) {
+  side(row, false);
+  side(row, true);
+  file_.write(block_);
+}
+
+void InstantWriter::side(const InstantRow& row, bool after) {
+  const InstantSide& s = after ? row.after : row.before;
+  block_.number(row.t).text(after ? "after" : "before").number(row.resolution);
+  for (const bool flag : {row.start, row.breakpoint, row.load_jumps, row.located})
+    block_.text(flag ? "1" : "0");
+  block_.number(row.forgiven).number(row.dependence);
+  const auto numbers = [&](const Vector& x) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) block_.number(x[i]);
+    for (Eigen::Index i = x.size(); i < model_.size(); ++i) block_.empty();
+  };
+  numbers(s.u);
+  numbers(s.v);
+  numbers(s.a);
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(2 * k);
+    block_.text(text_of(s.states[k].state))
+        .number(s.states[k].anchor)
+        .number(s.forces[at])
+        .number(s.forces[at + 1]);
+    if (!after) {
+      block_.empty().empty().empty().empty();
+      continue;
+    }
+    std::string blows;
+    for (const InstantBlow& blow : row.blows)
+      if (blow.contact == static_cast<int>(k))
+        blows += fmt::format("{}{}:{}:{}", blows.empty() ? "" : " ", blow.turn, shortest(blow.normal),
+                             shortest(blow.tangent));
+    block_.text(blows);
+    for (const Eigen::Index i : {at, at + 1})
+      if (row.captures.size() > 0)
+        block_.number(row.captures[i]);
+      else
+        block_.empty();
+    bool released = false;
+    for (const int contact : row.released) released = released || contact == static_cast<int>(k);
+    block_.text(released ? "1" : "0");
+  }
+  block_.end_row();
+}
+
+InstantReader::InstantReader(const std::filesystem::path& directory, const Model& model)
+    : path_(directory / instants_file), model_(model), header_(columns_of(model)), reader_(path_) {
+  const std::vector<std::string>& found = reader_.header();
+  for (std::size_t i = 0; i < std::max(found.size(), header_.size()); ++i) {
+    if (i < found.size() && i < header_.size() && found[i] == header_[i]) continue;
+    throw FileError(path_.string(),
+                    fmt::format("line 1, column {}: found {}, expected {}", i + 1,
+                                i < found.size() ? "\"" + excerpt(found[i]) + "\"" : "no more columns",
+                                i < header_.size() ? "\"" + header_[i] + "\"" : "no more"));
+  }
+}
+
+void InstantReader::fail(std::size_t column, const std::string& expected) const {
+  throw FileError(path_.string(), fmt::format("line {}: {}: found \"{}\", expected {}", line_,
+                                              header_[column], excerpt(reader_.cell(column)), expected));
+}
+
+double InstantReader::number(std::size_t column) const {
+  const std::optional<double> value = parse_number(reader_.cell(column));
+  if (!value || !std::isfinite(*value)) fail(column, "a number");
+  return *value;
+}
+
+bool InstantReader::flag(std::size_t column) const {
+  if (reader_.cell(column) != "0" && reader_.cell(column) != "1") fail(column, "0 or 1");
+  return reader_.cell(column) == "1";
+}
+
+Vector InstantReader::vector(std::size_t column) const {
+  Vector x(model_.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = number(column + static_cast<std::size_t>(i));
+  return x;
+}
+
+ContactState InstantReader::state(std::size_t contact, std::size_t column) const {
+  const std::string& text = reader_.cell(column);
+  const auto& own = model_.contacts[contact].own;
+  ContactState result;
+  result.anchor = number(column + of_p);
+  if (own) {
+    const std::optional<double> found = parse_number(text);
+    for (std::size_t i = 0; i < own->states.size(); ++i)
+      if (found && *found == static_cast<double>(i)) {
+        result.state = own_state(i, own->states[i].kind);
+        return result;
+      }
+    fail(column, "the number of a state of its law");
+  }
+  for (const State known :
+       {State::open, State::inside, State::closed, State::stick, State::slip_plus, State::slip_minus})
+    if (text == text_of(known)) {
+      result.state = known;
+      return result;
+    }
+  fail(column, "open, inside, closed, stick, slip+ or slip-");
+}
+
+std::size_t InstantReader::of_contact(std::size_t contact) const {
+  return heads + 3 * static_cast<std::size_t>(model_.size()) + parts * contact;
+}
+
+void InstantReader::take_side(InstantSide& side, bool after) const {
+  const auto n = static_cast<std::size_t>(model_.size());
+  side.u = vector(heads);
+  side.v = vector(heads + n);
+  if (after) side.a = vector(heads + 2 * n);
+  side.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const std::size_t column = of_contact(k);
+    side.states.push_back(state(k, column));
+    side.forces[static_cast<Eigen::Index>(2 * k)] = number(column + of_N);
+    side.forces[static_cast<Eigen::Index>(2 * k + 1)] = number(column + of_T);
+  }
+}
+
+void InstantReader::take_impulses(std::size_t contact, std::size_t column, InstantRow& row) const {
+  std::istringstream blows(reader_.cell(column + of_blows));
+  for (std::string word; blows >> word;) {
+    const std::size_t first = word.find(':'), second = word.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos)
+      fail(column + of_blows, "turn:Pn:Pt between blanks");
+    const auto turn = parse_number(word.substr(0, first)),
+               n = parse_number(word.substr(first + 1, second - first - 1)),
+               t = parse_number(word.substr(second + 1));
+    if (!turn || !n || !t || !(*turn >= 1.0 && *turn < 1e6) || !std::isfinite(*n) || !std::isfinite(*t))
+      fail(column + of_blows, "turn:Pn:Pt between blanks");
+    row.blows.push_back({static_cast<int>(contact), static_cast<int>(*turn), *n, *t});
+  }
+  const auto at = static_cast<Eigen::Index>(2 * contact);
+  if (!reader_.cell(column + of_capture_n).empty()) {
+    if (row.captures.size() == 0)
+      row.captures = Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()));
+    row.captures[at] = number(column + of_capture_n);
+    row.captures[at + 1] = number(column + of_capture_t);
+  }
+  if (flag(column + of_released)) row.released.push_back(static_cast<int>(contact));
+}
+
+std::optional<InstantRow> InstantReader::next() {
+  ++line_;
+  if (!reader_.next()) return std::nullopt;
+  InstantRow row;
+  row.t = number(at_t);
+  if (reader_.cell(at_side) != "before") fail(at_side, "before");
+  row.resolution = number(at_resolution);
+  row.start = flag(at_start);
+  row.breakpoint = flag(at_breakpoint);
+  row.load_jumps = flag(at_load);
+  row.located = flag(at_located);
+  row.forgiven = number(at_forgiven);
+  row.dependence = number(at_dependence);
+  row.dependence = number(at_dependence);
+  take_side(row.before, false);
+  ++line_;
+  if (!reader_.next())
+    throw FileError(
+        path_.string(),
+        fmt::format("line {}: missing, expected the side \"after\" of t = {:.9g}; the file is cut", line_,
+                    row.t));
+  if (reader_.cell(at_side) != "after") fail(at_side, "after");
+  if (number(at_t) != row.t) fail(at_t, fmt::format("{}, the time of the side before", shortest(row.t)));
+  take_side(row.after, true);
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) take_impulses(k, of_contact(k), row);
+  return row;
+}
+
+}  // namespace signorini

@@ -1,0 +1,62 @@
+// instants.hpp: both sides of every instant of a run, for whoever checks it by the files alone (docs/output.md).
+//
+//   instants.csv   t, side ("before", "after"), resolution, start, breakpoint, load_jumps, located, forgiven, dependence;
+//                  displacements, velocities and accelerations of all degrees of freedom of the model;
+//                  of each contact c: c.state, c.p, c.N, c.T, c.blows, c.capture_n, c.capture_t, c.released
+//
+// Two rows an instant, one block: a run that is killed leaves both or, at the very end, one. Cells that mean nothing on a
+// side are empty. c.blows: impacts that the contact took part in, "turn:Pn:Pt" between blanks. States of laws of one's own
+// are their numbers. Errors: FileError.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/csv.hpp"
+#include "result/csv_read.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+inline constexpr const char* instants_file = "instants.csv";
+
+class InstantWriter {
+ public:
+  InstantWriter(const std::filesystem::path& directory, const Model& model);
+  void write(const InstantRow& row);
+
+ private:
+  void side(const InstantRow& row, bool after);
+
+  const Model& model_;
+  CsvBlock block_;
+  CsvFile file_;
+};
+
+class InstantReader {
+ public:
+  /// The columns must be those of the model.
+  InstantReader(const std::filesystem::path& directory, const Model& model);
+  /// Nothing: the file has ended.
+  [[nodiscard]] std::optional<InstantRow> next();
+
+ private:
+  [[noreturn]] void fail(std::size_t column, const std::string& expected) const;
+  [[nodiscard]] double number(std::size_t column) const;
+  [[nodiscard]] bool flag(std::size_t column) const;
+  [[nodiscard]] Vector vector(std::size_t column) const;
+  [[nodiscard]] ContactState state(std::size_t contact, std::size_t column) const;
+  void take_side(InstantSide& side, bool after) const;
+  void take_impulses(std::size_t contact, std::size_t column, InstantRow& row) const;
+  [[nodiscard]] std::size_t of_contact(std::size_t contact) const;
+
+  std::filesystem::path path_;
+  const Model& model_;
+  std::vector<std::string> header_;
+  CsvReader reader_;
+  int line_ = 1;
+};
+
+}  // namespace signorini

@@ -1,0 +1,12 @@
+// witness_json.hpp: what a witness found, in summary.json and by `signorini witness --json`.
+#pragma once
+
+#include "base/json.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// {"checked", "violated", "violations": [{"t", "event", "contact", "law", "value", "limit"}, ...]}
+[[nodiscard]] Json witness_json(const Model& model, const Testimony& witness);
+
+}  // namespace signorini

@@ -1,0 +1,141 @@
+#include "run/witnessed_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/rounding.hpp"
+
+namespace signorini {
+namespace {
+
+// Modes of a state are used where they give back a motion to 1e-12 of its size (src/engine/exact/modal): over what
+// sums of other kinds are known to.
+constexpr double of_round_trip = 1e-12 / rounding::of_elimination;
+
+}  // namespace
+
+// A sum over modes starts a flight at g = 0 and does not see it return where it is lower than the sum's rounding.
+WitnessedEngine witnessed_engine(const RunSpec& run, const Tolerance& tolerance, const std::string& flow,
+                                 bool low_flights) {
+  WitnessedEngine engine;
+  const Accuracy accuracy = name_of(run.engine).accuracy;
+  engine.sums_over_modes = flow == "modal";
+  engine.follows = run.engine != Engine::friction_iteration;
+  engine.located = engine.follows && !(run.engine == Engine::newmark && run.refine == Refine::linear);
+  WitnessLimits& limits = engine.limits;
+  limits.capture_velocity = tolerance.capture_velocity();
+  limits.knows_low_flights = low_flights && !engine.sums_over_modes;
+  if (accuracy == Accuracy::step) limits.step = run.dt.value_or(0.0);
+  if (accuracy != Accuracy::tolerance) return engine;
+  limits.rtol = tolerance.rtol;
+  limits.displacement = tolerance.displacement;
+  limits.rotation = tolerance.rotation;
+  limits.velocity = tolerance.velocity;
+  limits.angular_velocity = tolerance.angular_velocity;
+  limits.force = tolerance.force;
+  return engine;
+}
+
+RecordedEvent recorded_event(const Event& event) {
+  RecordedEvent result;
+  result.contact = static_cast<std::size_t>(event.contact);
+  result.type = to_string(event.type);
+  result.from = event.from;
+  result.to = event.to;
+  result.N = event.N;
+  result.T = event.T;
+  result.N_after = event.N_after;
+  result.T_after = event.T_after;
+  result.vn = event.vn;
+  result.vn_after = event.vn_after;
+  result.vt = event.vt;
+  result.vt_after = event.vt_after;
+  result.impulse_n = event.impulse_n.value_or(0.0);
+  result.impulse_t = event.impulse_t.value_or(0.0);
+  if (event.t_uncertainty) result.t_uncertainty = *event.t_uncertainty;
+  return result;
+}
+
+std::vector<ContactState> left_states(const Model& model, const std::vector<ContactState>& guessed) {
+  std::vector<ContactState> states = guessed;
+  for (std::size_t k = 0; k < model.continues.size(); ++k) {
+    const SavedState::Left& left = model.continues[k];
+    if (model.contacts[k].own) continue;
+    for (const State state : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus})
+      if (left.state == to_string(state)) states[k] = {state, state == State::stick ? left.slip : 0.0};
+    if (states[k].state == State::open && left.gap && *left.gap < 0.0) states[k].state = State::inside;
+  }
+  return states;
+}
+
+Vector left_forces(const Model& model) {
+  Vector forces = Vector::Zero(static_cast<Eigen::Index>(2 * model.contacts.size()));
+  for (std::size_t k = 0; k < model.continues.size(); ++k) {
+    forces[static_cast<Eigen::Index>(2 * k)] = model.continues[k].N;
+    forces[static_cast<Eigen::Index>(2 * k + 1)] = model.continues[k].T;
+  }
+  return forces;
+}
+
+WitnessedMotion::WitnessedMotion(const Model& model, bool sums_over_modes)
+    : model_(model),
+      sums_over_modes_(sums_over_modes),
+      massless_(
+          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })) {}
+
+WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dependence) const {
+  WitnessedSide side;
+  fill(forcing, t, dependence, side);
+  return side;
+}
+
+void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
+  for (std::size_t turns : {0U, 1U}) {
+    side.u_reach[turns] = std::max(u_reach_[turns], dependence * of_round_trip * u_modal_[turns]);
+    side.v_reach[turns] = std::max(v_reach_[turns], dependence * of_round_trip * v_modal_[turns]);
+  }
+  side.driven.resize(model_.contacts.size());
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    side.driven[k] = {forcing.surface(k, t, 0),
+                      forcing.surface(k, t, 1),
+                      forcing.surface(k, t, 2),
+                      forcing.pressing(k, t, 0),
+                      forcing.pressing(k, t, 1),
+                      forcing.pressing(k, t, 2),
+                      k < lightness_.size() ? lightness_[k] * std::sqrt(energy_) : 0.0};
+  if (!massless_) return;
+  side.loads.resize(3);
+  for (int order = 0; order < 3; ++order) {
+    Vector& load = side.loads[static_cast<std::size_t>(order)];
+    load.setZero(model_.size());
+    forcing.add_load(t, order, load.data());
+  }
+}
+
+void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vector& v) {
+  for (int i = 0; i < model_.size(); ++i) {
+    const bool turns = model_.dofs[static_cast<std::size_t>(i)].rotation;
+    u_reach_[turns] = std::max(u_reach_[turns], std::abs(u[i]));
+    v_reach_[turns] = std::max(v_reach_[turns], std::abs(v[i]));
+  }
+  energy_ = std::max(energy_, witness.twice_energy(u));
+  for (std::size_t k = lightness_.size(); k < model_.contacts.size(); ++k)
+    lightness_.push_back(witness.lightness(k));
+  if (!sums_over_modes_) return;
+  const std::array<double, 2> of_u = witness.modal_size(u), of_v = witness.modal_size(v);
+  const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));
+  const double period = model_.omega1 > 0.0 ? 1.0 / model_.omega1 : 0.0;
+  for (std::size_t turns : {0U, 1U}) {
+    u_modal_[turns] = std::max({u_modal_[turns], of_u[turns], period * by_energy[turns]});
+    v_modal_[turns] = std::max({v_modal_[turns], of_v[turns], by_energy[turns]});
+  }
+}
+
+std::array<double, 2> WitnessedMotion::of_accelerations(const Witness& witness, const Vector& a,
+                                                        double dependence) const {
+  if (!sums_over_modes_) return {0.0, 0.0};
+  const std::array<double, 2> size = witness.modal_size(a);
+  return {dependence * of_round_trip * size[0], dependence * of_round_trip * size[1]};
+}
+
+}  // namespace signorini

@@ -1,0 +1,200 @@
+#include "study/witness/directory_witness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "contact/friction.hpp"
+#include "model/assembly/parts.hpp"
+#include "result/instants.hpp"
+#include "run/witnessed_motion.hpp"
+#include "signorini/error.hpp"
+#include "study/reduction/find_cutoff.hpp"
+#include "study/witness/table_rows.hpp"
+#include "study/witness/told_run.hpp"
+
+namespace signorini {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_violations = 100;  // that are kept; all are counted
+
+Scene scene_of(const fs::path& directory) {
+  const fs::path path = directory / "run.toml";
+  std::error_code missing;
+  if (!fs::exists(path, missing))
+    throw FileError(path.string(), "is not there; expected a directory that `signorini run` wrote");
+  if (!fs::exists(directory / instants_file, missing))
+    throw FileError((directory / instants_file).string(),
+                    "is not there; `signorini run --instants` writes it");
+  return find_cutoff(read_scene(path.string()), [] { return true; });
+}
+
+bool follows_low_flights(const Model& model, Engine engine) {
+  return engine == Engine::exact ||
+         (engine == Engine::ida &&
+          std::none_of(model.contacts.begin(), model.contacts.end(), friction_varies));
+}
+
+RunSpec spec_of(const Scene& scene, const ToldSummary& told) {
+  RunSpec spec = scene.run;
+  spec.engine = told.engine;
+  return spec;
+}
+
+class DirectoryWitness {
+ public:
+  DirectoryWitness(const fs::path& directory, const Scene& scene, DirectoryTestimony& result)
+      : directory_(directory),
+        model_(result.model),
+        result_(result),
+        told_(told_summary(directory, model_)),
+        engine_(witnessed_engine(spec_of(scene, told_), tolerance_of(model_, scene.run), told_.flow,
+                                 follows_low_flights(model_, told_.engine))),
+        witness_(model_, engine_.limits),
+        motion_(model_, engine_.sums_over_modes),
+        rows_(model_, engine_, witness_) {
+    result_.complete = told_.ended;
+    for (Event& event : told_events(directory, model_)) events_.push_back(std::move(event));
+    result_.events = static_cast<long>(events_.size());
+  }
+
+  void run() {
+    count_events();
+    InstantReader reader(directory_, model_);
+    double t = 0.0;
+    while (const auto row = reader.next()) {
+      if (result_.instants == 0 && !row->start) missing(row->t, "start");
+      if (row->t < t) missing(row->t, "order");
+      t = row->t;
+      instant(*row);
+      ++result_.instants;
+    }
+    while (!events_.empty()) unmatched();
+    const auto found = [this](Violation v) { add(std::move(v)); };
+    result_.rows = rows_.check(directory_ / "contacts.csv", true, found);
+    if (std::error_code none; fs::exists(directory_ / "motion.csv", none))
+      result_.rows += rows_.check(directory_ / "motion.csv", false, found);
+    rows_.check_peaks(told_.peaks, found);
+    result_.testimony.checked = result_.instants;
+  }
+
+ private:
+  void add(Violation v) {
+    ++result_.testimony.violated;
+    if (result_.testimony.violations.size() < most_violations)
+      result_.testimony.violations.push_back(std::move(v));
+  }
+  void missing(double t, const char* law) { add({t, instants_file, -1, law, 1.0, 0.0, {}, true}); }
+  /// A row of events.csv at a time that is no instant.
+  void unmatched() {
+    add({events_.front().t, "events.csv", events_.front().contact, "record", 1.0, 0.0, {}, true});
+    events_.pop_front();
+  }
+
+  void count_events() {
+    if (!told_.ended) return;
+    std::map<std::string, long> counts;
+    for (const Event& event : events_)
+      if (event.type != EventType::time || event.contact < 0) ++counts[to_string(event.type)];
+    for (const auto& [type, count] : told_.events_by_type)
+      if (const long off = std::abs(count - counts[type]); off > 0)
+        add({told_.t, "summary.json", -1, "count of " + type, static_cast<double>(off), 0.0, {}, true});
+  }
+
+  /// Rows of events.csv that belong to the instant: in the order of contacts, from the states before it.
+  std::vector<Event> events_of(const InstantRow& row) {
+    while (!events_.empty() && events_.front().t < row.t) unmatched();
+    std::vector<Event> events;
+    int last = -2;
+    while (!events_.empty() && events_.front().t == row.t && events_.front().contact > last) {
+      const Event& event = events_.front();
+      if (event.contact >= 0 && !row.start && !begins_with(event, row)) break;
+      last = event.contact;
+      events.push_back(event);
+      events_.pop_front();
+    }
+    return events;
+  }
+  /// An own state counts as its kind.
+  [[nodiscard]] static bool begins_with(const Event& event, const InstantRow& row) {
+    const State state = row.before.states[static_cast<std::size_t>(event.contact)].state;
+    return std::string(to_string(state)) == to_string(event.from);
+  }
+
+  [[nodiscard]] RecordedEvent recorded(const Event& event, const InstantRow& row) const {
+    RecordedEvent result = recorded_event(event);
+    const auto plain = [](State told, State kept) {
+      return is_own(kept) && kind_of(kept) == told ? kept : told;
+    };
+    result.from = plain(event.from, row.before.states[result.contact].state);
+    result.to = plain(event.to, row.after.states[result.contact].state);
+    result.guard_rate = event.guard_rate.value_or(0.0);
+    return result;
+  }
+
+  void instant(const InstantRow& row) {
+    motion_.reach(witness_, row.before.u, row.before.v);
+    InstantRecord record;
+    const Side side = row.breakpoint && !row.start ? Side::before : Side::after;
+    record.before = motion_.side(Forcing(model_, row.t, side), row.t, row.dependence);
+    record.after = motion_.side(Forcing(model_, row.t, Side::after), row.t, row.dependence);
+    point_to(row, record);
+    for (const Event& event : events_of(row))
+      if (event.contact >= 0) record.events.push_back(recorded(event, row));
+    for (Violation& v : witness_.instant(record)) add(std::move(v));
+    rows_.instant(row, record);
+  }
+
+  void point_to(const InstantRow& row, InstantRecord& record) const {
+    record.t = row.t;
+    record.resolution = row.resolution;
+    record.forgiven = row.forgiven;
+    record.dependence = row.dependence;
+    record.start = row.start;
+    record.continues = row.start && !model_.continues.empty();
+    record.breakpoint = row.breakpoint;
+    record.load_jumps = row.load_jumps;
+    record.located = row.located;
+    const auto point = [](const InstantSide& side, WitnessedSide& to) {
+      to.u = &side.u;
+      to.v = &side.v;
+      to.a = side.a.size() > 0 ? &side.a : nullptr;
+      to.mode = &side.states;
+      to.forces = &side.forces;
+    };
+    point(row.before, record.before);
+    point(row.after, record.after);
+    record.after.a_reach = motion_.of_accelerations(witness_, row.after.a, row.dependence);
+    for (const InstantBlow& blow : row.blows)
+      record.impulses.push_back(
+          {static_cast<std::size_t>(blow.contact), blow.turn, blow.normal, blow.tangent});
+    std::stable_sort(record.impulses.begin(), record.impulses.end(),
+                     [](const RecordedImpulse& a, const RecordedImpulse& b) { return a.turn < b.turn; });
+    record.captures = row.captures;
+    for (const int k : row.released) record.released.push_back(static_cast<std::size_t>(k));
+  }
+
+  fs::path directory_;
+  const Model& model_;
+  DirectoryTestimony& result_;
+  ToldSummary told_;
+  WitnessedEngine engine_;
+  Witness witness_;
+  WitnessedMotion motion_;
+  TableRows rows_;
+  std::deque<Event> events_;
+};
+
+}  // namespace
+
+DirectoryTestimony witness_directory(const fs::path& directory) {
+  const Scene scene = scene_of(directory);
+  DirectoryTestimony result;
+  result.model = build_model(scene);
+  DirectoryWitness(directory, scene, result).run();
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,196 @@
+#include "study/witness/table_rows.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/excerpt.hpp"
+#include "base/number.hpp"
+#include "base/rounding.hpp"
+#include "result/csv_read.hpp"
+#include "signorini/error.hpp"
+#include "witness/laws.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr const char* heading[] = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
+
+double number(const CsvReader& reader, std::size_t column, const std::filesystem::path& file, int line) {
+  const std::optional<double> value = parse_number(reader.cell(column));
+  if (!value || !std::isfinite(*value))
+    throw FileError(file.string(), fmt::format("line {}: {}: found \"{}\", expected a number", line,
+                                               heading[column], excerpt(reader.cell(column))));
+  return *value;
+}
+
+Violation violation(const char* file, double t, std::size_t contact, const char* law, double value,
+                    double limit, const Unit& unit) {
+  return {t, file, static_cast<int>(contact), law, value, limit, unit, false};
+}
+
+}  // namespace
+
+TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness)
+    : model_(model),
+      engine_(engine),
+      witness_(witness),
+      sizes_(model.contacts.size()),
+      peaks_(model.contacts.size()) {}
+
+void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
+  states_.push_back({row.t, row.resolution, row.before.states, row.after.states});
+  const double held = witness_.held_forces(record.after);
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    Size& size = sizes_[k];
+    const Sight m = see(model_.contacts[k], k, record.after);
+    if (row.start) {
+      size.gap_at_start = m.g;
+      size.ut_at_start = m.ut;
+    }
+    size.place = std::max(size.place, m.place);
+    size.speed = std::max(size.speed, m.speed);
+    size.force = std::max(size.force, held);
+  }
+}
+
+/// Those after the last instant; at an instant those of both of its sides, and of others that are no further than the
+/// clock tells.
+std::vector<ContactState> TableRows::states_at(std::size_t contact, double t) const {
+  std::vector<ContactState> states;
+  auto next = std::upper_bound(states_.begin(), states_.end(), t,
+                               [](double time, const States& s) { return time < s.t - s.resolution; });
+  while (next != states_.begin()) {
+    --next;
+    states.push_back(next->after[contact]);
+    if (next->t + next->resolution < t) break;
+    states.push_back(next->before[contact]);
+  }
+  return states;
+}
+
+long TableRows::check(const std::filesystem::path& file, bool complete, const Found& found) {
+  const ContactNames names(model_);
+  const std::string name = file.filename().string();
+  CsvReader reader(file);
+  if (!std::equal(reader.header().begin(), reader.header().end(), std::begin(heading), std::end(heading)))
+    throw FileError(file.string(), "line 1: expected t,contact,state,gap,ut,vt,slip,N,T");
+  long rows = 0;
+  std::size_t due = 0;
+  double t = 0.0;
+  int line = 1;
+  while (reader.next()) {
+    ++line;
+    Row row;
+    row.t = number(reader, 0, file, line);
+    row.contact = static_cast<std::size_t>(names.at(reader.cell(1), file, line));
+    row.state = reader.cell(2);
+    if (!reader.cell(3).empty()) row.gap = number(reader, 3, file, line);
+    double* const numbers[] = {&row.ut, &row.vt, &row.slip, &row.N, &row.T};
+    for (std::size_t i = 0; i < std::size(numbers); ++i) *numbers[i] = number(reader, 4 + i, file, line);
+    if (complete && (row.contact != due || (due > 0 && row.t != t))) {
+      found(violation(name.c_str(), row.t, due, "rows", 1.0, 0.0, {}));
+      due = row.contact;
+    }
+    t = row.t;
+    due = (due + 1) % model_.contacts.size();
+    check(row, name.c_str(), found);
+    ++rows;
+  }
+  if (complete && due != 0) found(violation(name.c_str(), t, due, "rows", 1.0, 0.0, {}));
+  return rows;
+}
+
+void TableRows::check(const Row& row, const char* file, const Found& found) {
+  const Contact& c = model_.contacts[row.contact];
+  const std::vector<ContactState> states = states_at(row.contact, row.t);
+  const auto state = std::find_if(states.begin(), states.end(),
+                                  [&](const ContactState& s) { return row.state == to_string(s.state); });
+  if (state == states.end()) {
+    found(violation(file, row.t, row.contact, "state", 1.0, 0.0, {}));
+    return;
+  }
+  reach(row);
+  if (c.own || !engine_.follows) return;
+  Sight m;
+  const Size& size = sizes_[row.contact];
+  m.N = row.N;
+  m.T = row.T;
+  m.g = row.gap.value_or(0.0);
+  m.ut = row.ut;
+  m.dut = row.vt;
+  m.place = size.place;
+  m.speed = size.speed;
+  if (state->state == State::inside) m.g = 0.0;  // it is a dashpot's: the same
+  std::vector<Violation> broken;
+  witness_.contact(row.t, row.contact, *state, m, false, size.force, broken);
+  for (Violation& v : broken) {
+    if (c.tangential_stiffness && v.law == "slip direction")
+      continue;  // it takes g', which tables do not have
+    v.event = file;
+    found(std::move(v));
+  }
+  check_forces(row, *state, file, found);
+}
+
+void TableRows::check_forces(const Row& row, const ContactState& state, const char* file,
+                             const Found& found) const {
+  const Contact& c = model_.contacts[row.contact];
+  const double kn = c.normal_stiffness, kt = c.tangential_stiffness.value_or(0.0),
+               place = sizes_[row.contact].place;
+  const double held = c.takes_impulses() ? sizes_[row.contact].force : 0.0;
+  const double limit =
+      rounding::of_elimination * ((kn + kt) * place + std::abs(row.N) + std::abs(row.T) + held) +
+      of_tolerance * (kn + kt) * (engine_.limits.rtol * place + engine_.limits.displacement);
+  const auto check = [&](const char* law, double force, double asked) {
+    if (const double off = std::abs(force - asked); off > limit)
+      found(violation(file, row.t, row.contact, law, off, limit, seen::force));
+  };
+  if (is_open(state.state) && !c.is_pressed()) {
+    check("normal force", row.N, 0.0);
+    check("friction force", row.T, 0.0);
+    return;
+  }
+  if (c.has_spring() && c.normal_damping == 0.0 && row.gap) check("normal force", row.N, kn * *row.gap);
+  if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
+    check("friction force", row.T, -s * c.friction.kinetic * row.N);
+  else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
+    check("friction force", row.T, kt * (row.ut - state.anchor));
+}
+
+void TableRows::reach(const Row& row) {
+  Peak& peak = peaks_[row.contact];
+  const Size& size = sizes_[row.contact];
+  const Contact& c = model_.contacts[row.contact];
+  if (c.surface_motion.is_constant() && !c.shear)
+    peak.tangential = std::max(peak.tangential, std::abs(row.ut - size.ut_at_start));
+  if (row.gap) peak.normal = std::max(peak.normal, std::abs(*row.gap - size.gap_at_start));
+  peak.N = std::max(peak.N, std::abs(row.N));
+  peak.T = std::max(peak.T, std::abs(row.T));
+}
+
+void TableRows::check_peaks(const std::vector<std::optional<Peak>>& told, const Found& found) const {
+  if (engine_.limits.step > 0.0) return;  // they are those of the ends of steps
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    if (!told[k]) continue;
+    const Contact& c = model_.contacts[k];
+    const double length =
+        rounding::of_elimination * sizes_[k].place +
+        of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
+    const auto check = [&](double seen_one, double told_one, double limit, const Unit& unit) {
+      if (const double off = seen_one - told_one; off > limit)
+        found(violation("summary.json", 0.0, k, "peak", off, limit, unit));
+    };
+    const double force =
+        (rounding::of_elimination + of_tolerance * engine_.limits.rtol) * (peaks_[k].N + peaks_[k].T) +
+        of_tolerance * engine_.limits.force +
+        (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length;
+    check(peaks_[k].tangential, told[k]->tangential, length, seen::length);
+    check(peaks_[k].normal, told[k]->normal, length, seen::length);
+    check(peaks_[k].N, told[k]->N, force, seen::force);
+    check(peaks_[k].T, told[k]->T, force, seen::force);
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "witness/laws.hpp"
+
+namespace signorini {
+namespace {
+
+struct ClosedRows {
+  std::vector<const Combination*> forms;
+  std::vector<Vector> columns;  // M^-1 form; of what slides with its friction
+  std::vector<double> gaps;
+
+  void add(const Combination& form, Vector column, double gap) {
+    forms.push_back(&form);
+    columns.push_back(std::move(column));
+    gaps.push_back(gap);
+  }
+  [[nodiscard]] Vector moved(int size) const {
+    Vector by = Vector::Zero(size);
+    const auto m = static_cast<Eigen::Index>(gaps.size());
+    if (m == 0) return by;
+    Eigen::MatrixXd W(m, m);
+    for (Eigen::Index i = 0; i < m; ++i)
+      for (Eigen::Index j = 0; j < m; ++j)
+        W(i, j) = forms[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
+    const Eigen::VectorXd push =
+        pseudo_inverse(W).cwiseAbs() * Eigen::Map<const Eigen::VectorXd>(gaps.data(), m);
+    for (Eigen::Index j = 0; j < m; ++j) by += push[j] * columns[static_cast<std::size_t>(j)].cwiseAbs();
+    return by;
+  }
+};
+
+}  // namespace
+
+/// u, and T where nothing but its state's row changes. Both sides of u are rounded.
+void Finder::continuity() {
+  const WitnessLimits& tol = bench_.limits;
+  // Sizes of u, and of v within what the time is known to, of translations and of rotations.
+  double size[2] = {record_.before.u_reach[0] + model_.scales.displacement,
+                    record_.before.u_reach[1] + model_.scales.rotation};
+  double moved[2] = {0.0, 0.0}, clock = record_.resolution;
+  for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
+  const auto turns = [&](int i) { return model_.dofs[static_cast<std::size_t>(i)].rotation; };
+  std::optional<Vector> closed;
+  const bool massless_jump = lets_massless_jump();
+  for (int i = 0; i < model_.size(); ++i) {
+    size[turns(i)] = std::max(size[turns(i)], std::abs((*record_.before.u)[i]));
+    moved[turns(i)] = std::max(moved[turns(i)], clock * std::abs((*record_.before.v)[i]));
+  }
+  for (int i = 0; i < model_.size(); ++i) {
+    if (!bench_.has_mass(i) && massless_jump) continue;
+    const bool turn = turns(i);
+    double limit = 2.0 * rounding::of_elimination * size[turn] + of_uncertainty * moved[turn] +
+                   of_tolerance * (tol.rtol * size[turn] + (turn ? tol.rotation : tol.displacement));
+    const double off = std::abs((*record_.after.u)[i] - (*record_.before.u)[i]);
+    if (off <= limit) continue;
+    if (!closed) closed = closing();
+    limit += (*closed)[i];
+    if (off <= limit) continue;
+    add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
+    break;
+  }
+  if ((record_.start && !record_.continues) || !record_.located) return;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    if (!model_.contacts[k].own) friction_continuity(k);
+}
+
+/// What gaps of rigid contacts, as large as their rounding, move u by where they close together by the smallest change in
+/// the norm of M, which leaves alone what sticks:  du = M^-1 G^T W^-1 (g, 0),  W = G M^-1 G^T,  G: rows (n, t).
+Vector Finder::closing() const {
+  Vector most = Vector::Zero(model_.size());
+  const auto close = [&](const std::vector<ContactState>& mode, bool by_impulses) {
+    ClosedRows rows;
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+      const Contact& c = model_.contacts[k];
+      const OwnResponse* own = bench_.own_response(k);
+      const bool touches =
+          !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
+                                                 [&](const RecordedImpulse& p) { return p.contact == k; });
+      if (own == nullptr || !touches) continue;
+      const double gap = rounding::of_elimination * see(c, k, record_.before).place;
+      const double friction = by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * c.friction.kinetic;
+      if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
+      if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
+        rows.add(c.tangent, own->by_t, 0.0);
+    }
+    most = most.cwiseMax(rows.moved(model_.size()));
+  };
+  close(*record_.before.mode, false);
+  close(*record_.after.mode, false);
+  close(*record_.after.mode, true);  // all that touch, whether they stick or not
+  return most;
+}
+
+bool Finder::lets_massless_jump() const {
+  return record_.breakpoint || record_.start || !record_.released.empty();
+}
+
+/// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
+void Finder::friction_continuity(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
+  if (moves_at_once(k) && record_.breakpoint) return;
+  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const double fs = c.friction.static_, fk = c.friction.kinetic, kt = *c.tangential_stiffness;
+  const double off_N =
+      rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
+      of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));
+  if (std::abs(a.N - b.N) > off_N && sign_of_slip(now.state) != 0) return;  // T = -s fk N follows
+  double limit = rounding::of_elimination * (kt * (a.place + std::abs(now.anchor)) + std::abs(b.T)) +
+                 of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement)) +
+                 fs * off_N;
+  if (const RecordedEvent* event = event_of(k); event != nullptr && event->t_uncertainty > 0.0)
+    limit += of_uncertainty * event->t_uncertainty * (std::abs(event->guard_rate) + kt * std::abs(a.dut));
+  const double at_limit = fs * std::min(std::abs(b.N), std::abs(a.N)) - std::abs(b.T);
+  const bool lets_go = kind_of(old.state) == State::stick && fs > fk && at_limit <= limit;
+  const bool above = std::abs(b.T) > fs * std::abs(a.N) + limit;  // N has dropped
+  if (lets_go || above) {                                         // to its limit, on the side that it was on
+    if (sign_of_slip(now.state) * b.T < 0.0 && std::abs(b.T) > limit && !moves_at_once(k))
+      add(static_cast<int>(k), "continuity of friction", std::abs(a.T - b.T), limit, seen::force, false);
+    return;
+  }
+  if (const double off = std::abs(a.T - b.T); off > limit)
+    add(static_cast<int>(k), "continuity of friction", off, limit, seen::force, false);
+}
+
+}  // namespace signorini

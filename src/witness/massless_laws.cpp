@@ -1,0 +1,160 @@
+// Parts without mass: their forces balance, and so do the rates of these.
+//
+//   r   = P - C v - K u - sum ( n N + t T )          = 0    in rows of M that are empty
+//   r'  = P' - C a - K v - sum ( n N' + t T' )       = 0    where N', T' follow from u, v, a
+//   r'' = P'' - K a - sum ( n N'' + t T'' )          = 0    and where nothing damps, too
+//
+// N' and T' are known of springs and of what is open: kn g' + cn g'', kt ut', -s fk N'; reactions that hold
+// accelerations are unknowns, and rows that have one are left out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/rounding.hpp"
+#include "witness/laws.hpp"
+
+namespace signorini {
+namespace {
+
+// Of the terms of rates, which solves and derivatives of solves have made. Chosen: rates that are zero or left out are off
+// by all of them (tests/unit/witness/massless.cpp).
+constexpr double of_rates = 1e-9;
+constexpr const char* names[] = {"massless equilibrium", "massless velocity", "massless acceleration"};
+
+/// N and T of a contact, or their first or second derivative, and the sizes of their terms. known: they follow from the
+/// motion.
+struct Push {
+  double N = 0.0, T = 0.0, size = 0.0;
+  bool known = true;
+};
+
+/// Of order 1 or 2.
+Push push_of(const Contact& c, const ContactState& state, const Sight& m, int order) {
+  Push push;
+  if (is_open(state.state) && !c.is_pressed()) return push;
+  const bool first = order == 1;
+  const double g = first ? m.dg : m.ddg, ut = first ? m.dut : m.ddut, size = first ? m.speed : m.push;
+  push.known =
+      !c.own && !c.shear && !c.friction.varies() && !c.takes_impulses() && (first || c.normal_damping == 0.0);
+  if (!push.known) return push;
+  if (c.is_pressed()) {
+    push.N = first ? -m.dq : -m.ddq;
+    push.size = std::abs(push.N);
+  } else {
+    push.N = c.normal_stiffness * g + (first ? c.normal_damping * m.ddg : 0.0);
+    push.size = c.normal_stiffness * size + (first ? c.normal_damping * m.push : 0.0);
+  }
+  if (const int s = sign_of_slip(state.state); s != 0) {
+    push.T = -s * c.friction.kinetic * push.N;
+  } else if (kind_of(state.state) == State::stick) {
+    push.known = c.tangential_stiffness.has_value();
+    push.T = c.tangential_stiffness.value_or(0.0) * ut;
+    push.size += c.tangential_stiffness.value_or(0.0) * size;
+  }
+  return push;
+}
+
+/// What the roundings of x are relative to, one a degree of freedom.
+Vector reach_of(const Model& model, const Vector& x, const std::array<double, 2>& reached) {
+  Vector reach = x.cwiseAbs();
+  for (int i = 0; i < model.size(); ++i)
+    reach[i] = std::max(reach[i], reached[model.dofs[static_cast<std::size_t>(i)].rotation]);
+  return reach;
+}
+
+/// The sum of one order, row by row.
+class Balance {
+ public:
+  Balance(const Bench& bench, const WitnessedSide& side, int order)
+      : bench_(bench),
+        side_(side),
+        order_(order),
+        sum_(Vector::Zero(bench.model.size())),
+        size_(sum_),
+        off_(sum_),
+        known_(static_cast<std::size_t>(bench.model.size()), true) {}
+
+  [[nodiscard]] std::optional<Unbalanced> worst() {
+    structure();
+    for (const std::size_t k : bench_.on_massless()) contact(k);
+    for (const int i : bench_.massless()) {
+      const double limit =
+          (order_ == 0 ? rounding::of_elimination : of_rates) * size_[i] + of_tolerance * off_[i];
+      if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
+        return Unbalanced{i, names[order_], std::abs(sum_[i]), limit, order_};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  void structure() {
+    const Model& model = bench_.model;
+    const Vector none = Vector::Zero(model.size()), &a = side_.a != nullptr ? *side_.a : none;
+    const Vector &x = order_ == 0 ? *side_.u : order_ == 1 ? *side_.v : a, &dx = order_ == 0 ? *side_.v : a;
+    const std::array<double, 2> nothing = {0.0, 0.0};
+    const Vector of_x = reach_of(model, x,
+                                 order_ == 0   ? side_.u_reach
+                                 : order_ == 1 ? side_.v_reach
+                                               : nothing);
+    const Vector of_dx = reach_of(model, dx, order_ == 0 ? side_.v_reach : nothing);
+    for (const int i : bench_.massless()) {
+      sum_[i] = side_.loads[static_cast<std::size_t>(order_)][i];
+      size_[i] = std::abs(sum_[i]);
+      for (SparseMatrix::InnerIterator it(bench_.stiffness_by_rows(), i); it; ++it) {
+        take(i, it.value(), x[it.row()], of_x[it.row()]);
+        off_[i] += std::abs(it.value()) * tolerance(static_cast<int>(it.row()), of_x[it.row()]);
+      }
+      SparseMatrix::InnerIterator damper(bench_.damping_by_rows(), i);
+      if (!damper) continue;
+      known_[static_cast<std::size_t>(i)] = order_ == 0 || (order_ == 1 && side_.a != nullptr);
+      for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
+    }
+  }
+  void take(int i, double factor, double x, double reach) {
+    sum_[i] -= factor * x;
+    size_[i] += std::abs(factor) * reach;
+  }
+  /// Of a displacement, or a velocity.
+  [[nodiscard]] double tolerance(int dof, double reach) const {
+    const WitnessLimits& tol = bench_.limits;
+    const bool turns = bench_.model.dofs[static_cast<std::size_t>(dof)].rotation;
+    return tol.rtol * reach + (order_ == 0 ? turns ? tol.rotation : tol.displacement
+                               : turns     ? tol.angular_velocity
+                                           : tol.velocity);
+  }
+  void contact(std::size_t k) {
+    const Contact& c = bench_.model.contacts[k];
+    const Sight m = see(c, k, side_);
+    Push push{m.N, m.T, std::abs(m.N) + std::abs(m.T)};
+    if (order_ > 0) push = push_of(c, (*side_.mode)[k], m, order_);
+    if (order_ == 1 && c.normal_damping > 0.0 && side_.a == nullptr) push.known = false;
+    if (order_ == 0) push.size += size_of_normal(c, m) + c.tangential_stiffness.value_or(0.0) * m.place;
+    add(c.normal, push.N, push);
+    add(c.tangent, push.T, push);
+  }
+  void add(const Combination& form, double force, const Push& push) {
+    for (const auto& [dof, factor] : form.terms) {
+      sum_[dof] -= factor * force;
+      size_[dof] += std::abs(factor) * push.size;
+      if (!push.known) known_[static_cast<std::size_t>(dof)] = false;
+    }
+  }
+
+  const Bench& bench_;
+  const WitnessedSide& side_;
+  int order_;
+  Vector sum_, size_, off_;  // off_: tolerances
+  std::vector<bool> known_;
+};
+
+}  // namespace
+
+std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side, int orders) {
+  std::vector<Unbalanced> found;
+  if (side.loads.empty()) return found;
+  for (int order = 0; order < orders; ++order)
+    if (const auto worst = Balance(bench, side, order).worst()) found.push_back(*worst);
+  return found;
+}
+
+}  // namespace signorini

@@ -1,0 +1,154 @@
+// witness/massless_laws.cpp: parts without mass in balance, and with their rates. Numbers by hand.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "witness/witness.hpp"
+
+using namespace signorini;
+
+TEST_SUITE_BEGIN("unit/witness/massless");
+
+namespace {
+
+constexpr double spring = 50.0, normal_stiffness = 150.0, friction = 0.5;
+
+/// A mass of 3, a spring of 50, and at its end a point without mass on a spring of 150 that pushes and rubs:
+/// P - 50 (w - u) - N = 0 along n,  - 20 x - T = 0 along t.
+struct Chain {
+  Model model;
+  Vector u = Vector::Zero(3), v = u, a = u, forces = Vector::Zero(2);
+  std::vector<ContactState> mode = {{State::slip_plus, 0.0}};
+  double load = 7.0, rate = 11.0, bend = 13.0;
+
+  Chain() {
+    model.dofs.resize(3);
+    model.dofs[1].massless = model.dofs[2].massless = true;
+    model.mass.resize(3, 3);
+    model.mass.insert(0, 0) = 3.0;
+    model.damping.resize(3, 3);
+    model.stiffness.resize(3, 3);
+    for (const auto& [i, j, k] :
+         {std::tuple(0, 0, spring), std::tuple(1, 1, spring), std::tuple(0, 1, -spring),
+          std::tuple(1, 0, -spring), std::tuple(2, 2, 20.0)})
+      model.stiffness.insert(i, j) = k;
+    Contact c;
+    c.name = "foot";
+    c.normal.terms = {{1, 1.0}};
+    c.tangent.terms = {{2, 1.0}};
+    c.normal_stiffness = normal_stiffness;
+    c.tangential_stiffness = 90.0;
+    c.friction.static_ = c.friction.kinetic = friction;
+    model.contacts.push_back(c);
+    follow(u, -0.9, load);
+    follow(v, 0.4, rate);
+    follow(a, -1.3, bend);
+    forces = Eigen::Vector2d(normal_stiffness * u[1], -friction * normal_stiffness * u[1]);
+  }
+  /// P = 50 (w - u) + 150 w, and x by friction.
+  static void follow(Vector& x, double of_mass, double P) {
+    x[0] = of_mass;
+    x[1] = (P + spring * of_mass) / (spring + normal_stiffness);
+    x[2] = friction * normal_stiffness * x[1] / 20.0;
+  }
+  [[nodiscard]] std::vector<Violation> between() const {
+    WitnessedSide side = sides();
+    return Witness(model, {}).between(1.0, side);
+  }
+  [[nodiscard]] WitnessedSide sides() const {
+    WitnessedSide side{&u, &v, &a, &mode, &forces, {Driven{}}};
+    for (const double P : {load, rate, bend}) side.loads.emplace_back(Eigen::Vector3d(0.0, P, 0.0));
+    return side;
+  }
+  [[nodiscard]] std::vector<Violation> instant() const {
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    record.before = record.after = sides();
+    return Witness(model, {}).instant(record);
+  }
+};
+
+bool tells_of(const std::vector<Violation>& found, const char* law) {
+  for (const Violation& v : found)
+    if (v.law == law) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("parts without mass in balance, with their velocities and accelerations") {
+  const Chain chain;
+  CHECK(chain.u[1] < 0.0);
+  CHECK(chain.between().empty());
+  CHECK_FALSE(tells_of(chain.instant(), "massless equilibrium"));
+  CHECK_FALSE(tells_of(chain.instant(), "massless velocity"));
+  CHECK_FALSE(tells_of(chain.instant(), "massless acceleration"));
+}
+
+TEST_CASE("each of them a little off") {
+  for (const int dof : {1, 2}) {
+    CAPTURE(dof);
+    Chain chain;
+    chain.u[dof] += 1e-9;
+    CHECK(tells_of(chain.between(), "massless equilibrium"));
+    chain = Chain();
+    chain.v[dof] += 1e-7;
+    CHECK(tells_of(chain.between(), "massless velocity"));
+    chain = Chain();
+    chain.a[dof] += 1e-7;
+    CHECK(tells_of(chain.instant(), "massless acceleration"));
+    CHECK_FALSE(tells_of(chain.instant(), "massless velocity"));
+  }
+}
+
+TEST_CASE("a load that is left out, or its rate") {
+  Chain chain;
+  chain.load = 0.0;
+  CHECK(tells_of(chain.between(), "massless equilibrium"));
+  chain = Chain();
+  chain.rate = 0.0;
+  CHECK(tells_of(chain.between(), "massless velocity"));
+}
+
+TEST_CASE("rows with a damper know accelerations, and no more") {
+  Chain chain;
+  chain.model.damping.insert(1, 1) = 4.0;
+  // P - 4 v - 50 (w - u) - 150 w = 0
+  chain.v[1] = 0.3;
+  chain.u[1] = (chain.load - 4.0 * 0.3 + spring * chain.u[0]) / (spring + normal_stiffness);
+  chain.u[2] = friction * normal_stiffness * chain.u[1] / 20.0;
+  chain.forces = Eigen::Vector2d(normal_stiffness * chain.u[1], -friction * normal_stiffness * chain.u[1]);
+  chain.a[1] = (chain.rate - spring * (chain.v[1] - chain.v[0]) - normal_stiffness * chain.v[1]) / 4.0;
+  chain.v[2] = friction * normal_stiffness * chain.v[1] / 20.0;
+  CHECK(chain.between().empty());
+  chain.a[1] += 1e-6;
+  CHECK(tells_of(chain.between(), "massless velocity"));
+}
+
+TEST_CASE("a contact that parts without mass leave at once was at a limit") {
+  Chain chain;
+  const auto law_broken = [&](bool at_limit) {
+    const State after = State::open;
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    const std::vector<ContactState> stick = {{State::stick, chain.u[2] - (at_limit ? -1.0 : -0.3) * friction *
+                                                                             chain.forces[0] / 90.0}},
+                                    then = {{after, 0.0}};
+    const Vector T = Eigen::Vector2d(chain.forces[0], (at_limit ? -1.0 : -0.3) * friction * chain.forces[0]),
+                 free = Vector::Zero(2);
+    Vector gone = chain.u;
+    gone[1] = 0.1;
+    gone[2] = 0.0;
+    record.before = {&chain.u, &chain.v, nullptr, &stick, &T, {Driven{}}};
+    record.after = {&gone, &chain.v, &chain.a, &then, &free, {Driven{}}};
+    record.released = {0};
+    record.events.push_back({0, "separation", State::stick, after});
+    return tells_of(Witness(chain.model, {}).instant(record), "release");
+  };
+  CHECK_FALSE(law_broken(true));
+  CHECK(law_broken(false));
+}
+
+TEST_SUITE_END();

@@ -153,6 +153,7 @@ class Loop {
       if (observer_)
         observer_->step(
             {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
+      if (observer_ && step.kind == Step::Kind::event) step.end += observer_->moves(step);
       if (meddler_ && step.kind == Step::Kind::event) step.end += meddler_->late(step, decision_);
       pass(step);
       if (step.kind == Step::Kind::event)
@@ -209,17 +210,22 @@ class Loop {
       emit(t, point);
     }
     response_.inside(*engine_, step.begin, step.end);
-    for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
-      engine_->glimpse(t, point_);
-      if (turns) auditor_.observe(forcing_, t, decision_.mode, point_);
-      motion_.add(t, auditor_, forcing_, decision_.mode, point_);
-      if (curves_.needs(t)) add_curves(t, step.end);
+    motion_.step(step.begin, step.end, engine_->turning_points());
+    while (const auto moment = motion_.next()) {
+      engine_->glimpse(moment->t, point_);
+      if (moment->turns) auditor_.observe(forcing_, moment->t, decision_.mode, point_);
+      motion_.add(moment->t, auditor_, forcing_, decision_.mode, point_);
+      if (curves_.needs(moment->t)) add_curves(moment->t, step.end);
+      motion_.adapt(curves_.bend());
     }
     t_ = step.end;
     engine_->evaluate(t_, point_);
     if (step.kind != Step::Kind::event && motion_.needs(t_))
       motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
-    if (step.kind != Step::Kind::event && curves_.needs(t_)) add_curves(t_, t_);
+    if (step.kind != Step::Kind::event && curves_.needs(t_)) {
+      add_curves(t_, t_);
+      motion_.adapt(curves_.bend());
+    }
   }
 
   /// Decides the states at t_, applies and records them.

@@ -5,16 +5,25 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <limits>
 
 namespace signorini {
+namespace {
+
+Eigen::VectorXd values_of(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& solver) {
+  if (solver.info() == Eigen::Success) return solver.eigenvalues();
+  return Eigen::VectorXd::Constant(solver.eigenvalues().size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
 
 EigenPairs symmetric_eigen(const Eigen::MatrixXd& a) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return {values_of(solver), solver.eigenvectors()};
 }
 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
+  return values_of(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly));
 }
 
 namespace {

@@ -15,6 +15,7 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;  ///< columns, orthonormal (in B where there is one)
 };
 
+/// Values are no numbers where the decomposition did not converge.
 [[nodiscard]] EigenPairs symmetric_eigen(const Eigen::MatrixXd& a);
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a);
 

@@ -61,8 +61,10 @@ class Thinned {
   [[nodiscard]] std::vector<Row> take() { return std::move(rows_); }
   /// Of a bin; 0 while there are none.
   [[nodiscard]] double width() const { return width_; }
-  /// Greatest less least of the first quantity so far.
-  [[nodiscard]] double range() const { return rows_.empty() ? 0.0 : greatest_[0] - least_[0]; }
+  /// Greatest less least of the i-th quantity so far.
+  [[nodiscard]] double range(std::size_t i = 0) const {
+    return rows_.empty() ? 0.0 : greatest_[i] - least_[i];
+  }
   /// The greatest magnitude of the i-th quantity.
   [[nodiscard]] double size(std::size_t i) const {
     return rows_.empty() ? 0.0 : std::max(std::abs(least_[i]), std::abs(greatest_[i]));

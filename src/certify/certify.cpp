@@ -15,9 +15,11 @@
 #include "base/machine.hpp"
 #include "certify/bounds.hpp"
 #include "certify/companion.hpp"
+#include "certify/disturb.hpp"
 #include "certify/judge.hpp"
 #include "certify/tracker.hpp"
 #include "certify/truncation.hpp"
+#include "motion/clock.hpp"
 #include "run/choose_engine.hpp"
 #include "run/engines.hpp"
 #include "run/expected.hpp"
@@ -64,21 +66,39 @@ std::optional<Track::Objection> objection_of(const Report& report, const Model& 
   return Track::Objection{first.t, where + sentence_of(first, model)};
 }
 
-/// What a companion leaves open.
-class FirstGraze final : public MotionObserver {
+/// What a companion leaves open, and how it moves its events.
+class CompanionWatch final : public MotionObserver {
  public:
+  CompanionWatch(const CompanionRun& run, Tracker& tracker)
+      : tracker_(tracker), seed_(run.seed), moved_(run.moved) {}
   void begin(const ObservedInstant& /*start*/) override {}
   void step(const ObservedStep& /*step*/) override {}
-  void instant(const ObservedInstant& /*instant*/) override {}
+  /// What it has moved an event by itself is no difference: that is for what comes later.
+  void instant(const ObservedInstant& instant) override {
+    tracker_.moved = instant.fired.empty() ? 0.0 : by_ / instant.t;
+  }
   void graze(const Graze& graze) override { first = graze; }
+  double moves(const Step& step) override {
+    const double length = step.end - step.begin;
+    const double hidden = step.resolution - resolution_at(step.end, length);
+    by_ = 0.0;
+    if (moved_ > 0.0 && hidden > 0.0)
+      by_ = sign_by_chance(seed_, ++events_) * std::min(moved_ * hidden, 0.5 * length);
+    return by_;
+  }
   std::optional<Graze> first;
+
+ private:
+  Tracker& tracker_;
+  std::uint64_t seed_, events_ = 0;
+  double moved_, by_ = 0.0;
 };
 
 /// One companion, from its beginning to its end.
 class CompanionTask {
  public:
   CompanionTask(CompanionRun run, const Leash& leash, double most_steps, bool forces)
-      : run_(std::move(run)), tracker_(run_.model, forces) {
+      : run_(std::move(run)), tracker_(run_.model, forces), watch_(run_, tracker_) {
     tracker_.leash = &leash;
     tracker_.most_steps = most_steps;
   }
@@ -86,7 +106,7 @@ class CompanionTask {
   /// Keeps what goes wrong: a companion never ends its run.
   void compute() {
     try {
-      report_ = simulate(run_.model, run_.run, tracker_, grazes_);
+      report_ = simulate(run_.model, run_.run, tracker_, watch_);
     } catch (const std::exception& error) {
       failure_ = error.what();
     }
@@ -98,7 +118,7 @@ class CompanionTask {
                 report_.outcome.t,
                 "",
                 report_.forgiven_at,
-                grazes_.first,
+                watch_.first,
                 objection_of(report_, run_.model, "in the companion, ")};
     if (!failure_.empty()) {
       track.reached = 0.0;
@@ -117,7 +137,7 @@ class CompanionTask {
  private:
   CompanionRun run_;
   Tracker tracker_;
-  FirstGraze grazes_;
+  CompanionWatch watch_;
   Report report_;
   std::string failure_;
 };

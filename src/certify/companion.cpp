@@ -52,7 +52,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
       plan.factor = by_rounding;
       plan.name = fmt::format("{}, twice, every datum off by about one rounding", engine.name);
       for (const std::uint64_t seed : {1U, 2U})
-        plan.runs.push_back({disturbed(companion.model, seed), companion.run});
+        plan.runs.push_back({disturbed(companion.model, seed), companion.run, seed, 1.0 / by_rounding});
       return plan;
     case Accuracy::tolerance:
       plan.factor = by_tolerance;

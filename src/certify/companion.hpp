@@ -10,12 +10,17 @@
 // guards that graze hide of it; half of it at rtol / 100, since in chatter the companion errs alike. Else all
 // of it, since the companion's own error is as large.
 //
+// In modes an event's time is known to the rounding of a sum over modes only, tau: a bound that two draws seldom come
+// near. What follows begins at that time, so companions of `exact` move each such event by tau / c, along the motion. Its own
+// row has the time without that; what the motion makes of it later is in D, and c D bounds what it makes of tau.
+//
 // What is decided by a tolerance is decided by the run's in all of them: velocities below which
 // rebounds rest, and heights below which ida leaves flights to the series. A finer run that integrated
 // flights which its run takes exactly would be the worse of the two: the errors of thousands of hits add up.
 // Why these c: validation/certified.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +32,10 @@ namespace signorini {
 struct CompanionRun {
   Model model;
   RunSpec run;
+  std::uint64_t seed = 0;
+  /// Of what the rounding of modes hides of an event's time (Step::resolution beyond that of the clock): by so much of it
+  /// its events are moved, either way.
+  double moved = 0.0;
 };
 
 struct CompanionPlan {

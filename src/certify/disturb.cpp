@@ -78,6 +78,10 @@ std::vector<bool> touched(const Model& model) {
 
 }  // namespace
 
+double sign_by_chance(std::uint64_t seed, std::uint64_t number) {
+  return (mixed(mixed(seed) ^ mixed(number)) & 1U) != 0U ? 1.0 : -1.0;
+}
+
 Model disturbed(const Model& model, std::uint64_t seed) {
   Model near = model;
   Disturber disturb(seed);

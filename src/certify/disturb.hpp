@@ -13,6 +13,9 @@
 
 namespace signorini {
 
+/// 1 or -1, by chance, the same for the same numbers.
+[[nodiscard]] double sign_by_chance(std::uint64_t seed, std::uint64_t number);
+
 [[nodiscard]] Model disturbed(const Model& model, std::uint64_t seed);
 
 }  // namespace signorini

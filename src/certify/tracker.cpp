@@ -6,6 +6,7 @@ namespace signorini {
 
 void Tracker::event(const Event& event) {
   events.push_back(timed(event));
+  events.back().t -= moved * events.back().t;
   if (next_ != nullptr) next_->event(event);
 }
 

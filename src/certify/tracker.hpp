@@ -61,6 +61,7 @@ class Tracker : public Recorder {
   const Leash* leash = nullptr;                                 ///< of a companion
   double most_steps = std::numeric_limits<double>::infinity();  ///< of a companion
   bool too_long = false;                                        ///< it was ended by most_steps
+  double moved = 0.0;  ///< of a companion: part of the time of the next events that it has added itself
 
  private:
   const Model& model_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
@@ -42,15 +43,17 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
 /// (linear/shared_rows.hpp).
 void add_shares(const std::vector<SharedForces>& shared, const std::vector<std::size_t>& contacts,
                 Eigen::MatrixXd& W) {
-  const auto place = [&](std::size_t row) {
-    const auto at = std::find(contacts.begin(), contacts.end(), row / 2) - contacts.begin();
-    return row % 2 == 0 ? normal_place(at) : tangent_place(at);
+  const auto place = [&](std::size_t row) -> std::optional<Eigen::Index> {
+    const auto at = std::find(contacts.begin(), contacts.end(), row / 2);
+    if (at == contacts.end()) return std::nullopt;
+    return row % 2 == 0 ? normal_place(at - contacts.begin()) : tangent_place(at - contacts.begin());
   };
   for (const SharedForces& of : shared)
     for (std::size_t i = 0; i < of.rows.size(); ++i)
-      for (std::size_t j = 0; j < of.rows.size(); ++j)
-        W(place(of.rows[i]), place(of.rows[j])) +=
-            of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      for (std::size_t j = 0; j < of.rows.size(); ++j) {
+        const auto a = place(of.rows[i]), b = place(of.rows[j]);
+        if (a && b) W(*a, *b) += of.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
-constexpr double most_intervals = 8000.0;   // of the run: a tenth of a picture's point
+constexpr double most_intervals = 16000.0;  // of the run: no more than twice as close as the rows of contacts
 constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
 // Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
 constexpr double least_rise = 1e-3;
@@ -70,6 +70,7 @@ bool CurveRecord::needs(double t) const { return t - last_ >= t_end_ / most_inte
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
   if (!wanted()) return;
   last_ = t;
+  bend_ = 0.0;
   const bool plain = model_.is_physical();
   const Vector physical = plain ? Vector() : model_.physical(u, t, 0);
   const Vector& shown = plain ? u : physical;
@@ -90,6 +91,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     second = point;
     return;
   }
+  bend_ = std::max(bend_, bend_at(curve, point));
   // The balance is rounding: a parabola through it says nothing.
   const std::optional<CurvePoint> peak =
       curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
@@ -99,6 +101,20 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
   if (higher && peak->t > second.t) curve.points.add(*peak);
   first = second;
   second = point;
+}
+
+/// What is rounding beside other curves of its kind bends nothing; nor does the balance, which is rounding.
+double CurveRecord::bend_at(const Curve& curve, const CurvePoint& point) {
+  const auto& [first, second] = curve.before;
+  double& greatest = greatest_[static_cast<std::size_t>(curve.kind)];
+  greatest = std::max(greatest, std::abs(point.value));
+  if (curve.kind == Kind::balance || !(point.t > second.t && second.t > first.t) || !std::isfinite(first.t))
+    return 0.0;
+  const double floor = std::max(greatest, curve.kind == Kind::angle ? turn : 0.0);
+  const double range = curve.points.range();
+  if (!(range > rounding::of_elimination * floor)) return 0.0;
+  const double part = (second.t - first.t) / (point.t - first.t);
+  return std::abs(second.value - first.value - part * (point.value - first.value)) / range;
 }
 
 void CurveRecord::write(Recorder& recorder) {

@@ -3,6 +3,9 @@
 //   rows of a contact: both sides of every instant that reaches it, turning points, and ends and insides of
 //   steps as many as a line needs; thinned (base/thinned.hpp) by N, T, gap and ut
 //
+// Rows are closer where three of them bend: y_1 is far off the line from y_0 to y_2, beside its range. A contact that swings by
+// A, N rows a period, bends by A (1 - cos(2 pi / N)), and lines between its rows miss its peak by A (1 - cos(pi / N)) at most.
+//
 // So a short run is drawn in full, and of a long one what a picture can show of its rows; of contacts that
 // no picture is drawn of by itself, what a number of rows can show. An
 // instant reaches the contacts that M, C, K or contacts couple with one that has changed; a jump of the
@@ -29,9 +32,12 @@ class MotionRecord {
     double t = 0.0;
     bool turns = false;  ///< a turning point
   };
-  /// The turning points of a step and as many times between as a line needs; ascending.
-  [[nodiscard]] const std::vector<Moment>& moments(double begin, double end,
-                                                   const std::vector<double>& turning_points);
+  /// A step: its turning points, ascending, and as many times between as a line needs are its moments.
+  void step(double begin, double end, const std::vector<double>& turning_points);
+  /// They ascend; nothing: there is no other.
+  [[nodiscard]] std::optional<Moment> next();
+  /// How far the last rows of curves bend beside their range; with those of the contacts it tells how close rows must be.
+  void adapt(double bend);
   /// Does a line need a row at t, the end of a step?
   [[nodiscard]] bool needs(double t) const;
   /// A row of every contact; times ascend, and may repeat.
@@ -56,15 +62,23 @@ class MotionRecord {
   };
   struct Track {
     Thinned<MotionRow, 5, Drawn, 4> rows;
+    bool drawn = true;     // a picture of its own
     std::size_t part = 0;  // contacts of other parts do not reach this one
     MotionRow before = {};
+    std::array<MotionRow, 2> last = {};  // rows since the last instant
+    int lasts = 0;
   };
   void keep(Track& track, const MotionRow& row);
+  [[nodiscard]] double bend_at(Track& track, const MotionRow& row) const;
 
   double t_end_;
-  double spacing_;  // of rows that nothing but a line needs, at least
-  double last_ = 0.0;
-  std::vector<Moment> moments_;
+  double spacing_;  // of rows that nothing but a line needs
+  bool wanted_;
+  double last_ = 0.0, bend_ = 0.0;
+  double force_ = 0.0, length_ = 0.0;  // greatest of all contacts that are drawn
+  double at_ = 0.0, end_ = 0.0;        // of the step
+  std::vector<double> turns_;
+  std::size_t turn_ = 0;  // the next of them
   std::vector<Track> tracks_;
   std::vector<bool> reached_;  // parts
 };

@@ -38,6 +38,8 @@ class MotionObserver {
   virtual void begin(const ObservedInstant& start) = 0;
   virtual void step(const ObservedStep& step) = 0;
   virtual void instant(const ObservedInstant& instant) = 0;
+  /// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.
+  virtual double moves(const Step& /*step*/) { return 0.0; }
   /// The run ends here, between events.
   virtual void end(double /*t*/) {}
   /// After the end: the first of them, its time in the units of the scene.

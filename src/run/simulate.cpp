@@ -154,6 +154,7 @@ class Loop {
       if (observer_)
         observer_->step(
             {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
+      if (observer_ && step.kind == Step::Kind::event) step.end += observer_->moves(step);
       if (meddler_ && step.kind == Step::Kind::event) step.end += meddler_->late(step, decision_);
       pass(step);
       if (step.kind == Step::Kind::event)
@@ -211,19 +212,24 @@ class Loop {
       witness_.passes(t, forcing_, point);
     }
     response_.inside(*engine_, step.begin, step.end);
-    for (const auto& [t, turns] : motion_.moments(step.begin, step.end, engine_->turning_points())) {
-      engine_->glimpse(t, point_);
-      if (turns && !(meddler_ && meddler_->forgets_peaks_inside()))
-        auditor_.observe(forcing_, t, decision_.mode, point_);
-      if (turns) witness_.passes(t, forcing_, point_);
-      motion_.add(t, auditor_, forcing_, decision_.mode, point_);
-      if (curves_.needs(t)) add_curves(t, step.end);
+    motion_.step(step.begin, step.end, engine_->turning_points());
+    while (const auto moment = motion_.next()) {
+      engine_->glimpse(moment->t, point_);
+      if (moment->turns && !(meddler_ && meddler_->forgets_peaks_inside()))
+        auditor_.observe(forcing_, moment->t, decision_.mode, point_);
+      if (moment->turns) witness_.passes(moment->t, forcing_, point_);
+      motion_.add(moment->t, auditor_, forcing_, decision_.mode, point_);
+      if (curves_.needs(moment->t)) add_curves(moment->t, step.end);
+      motion_.adapt(curves_.bend());
     }
     t_ = step.end;
     engine_->evaluate(t_, point_);
     if (step.kind != Step::Kind::event && motion_.needs(t_))
       motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
-    if (step.kind != Step::Kind::event && curves_.needs(t_)) add_curves(t_, t_);
+    if (step.kind != Step::Kind::event && curves_.needs(t_)) {
+      add_curves(t_, t_);
+      motion_.adapt(curves_.bend());
+    }
   }
 
   /// Decides the states at t_, applies and records them.
@@ -275,7 +281,8 @@ class Loop {
     log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps, std::move(unseen)}, *engine_);
     zero_since_.decided(t_, decision_, all);
     witness_.instant({t_, resolution_, &point_, &old_mode, before ? &*before : &forcing_, &forcing_,
-                      &decision_, &log_.latest(), false, all, load_jumps, adopted.has_value(), engine_->dependence()});
+                      &decision_, &log_.latest(), false, all, load_jumps, adopted.has_value(),
+                      engine_->dependence()});
     for (std::size_t k = 0; k < old_mode.size(); ++k)
       if (decision_.mode[k].state != old_mode[k].state) changed.push_back(k);
     take_decision(all ? std::nullopt : std::optional(std::move(changed)));

@@ -47,7 +47,9 @@ Stepper& FollowedMotion::engine(bool in_modes) {
 }
 
 SeriesPoint FollowedMotion::at(double t) {
-  Stepper& engine = this->engine(false);
+  // An engine of its own: where the other one goes later, nothing may be known of extremes on the way.
+  if (!ahead_) ahead_ = std::make_unique<ExactEngine>(model_, structure_, systems_, t_end_);
+  Stepper& engine = *ahead_;
   engine.start({t, &stretch_, &*forcing_});
   for (;;) {
     const Step step = engine.advance();

@@ -61,6 +61,7 @@ class FollowedMotion {
   Decider decider_;
   std::unique_ptr<ModalEngine> modal_;
   std::unique_ptr<ExactEngine> series_;
+  std::unique_ptr<ExactEngine> ahead_;  // looks for the time of an event
   LastTouch touches_;
   Decision now_, stretch_;
   Mode mode_before_;

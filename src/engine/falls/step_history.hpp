@@ -45,6 +45,11 @@ class StepHistory {
   /// The same of a power.
   [[nodiscard]] Bernstein power(std::size_t i) const { return through(of_powers_, i); }
   [[nodiscard]] double last(std::size_t i) const { return value(0, i); }
+  /// The same, and bend(), of all scalars.
+  [[nodiscard]] const double* lasts() const {
+    return values_.data() + static_cast<std::size_t>(slot_[0]) * scalars_;
+  }
+  [[nodiscard]] const double* bends() const { return bent_.data(); }
   [[nodiscard]] double begin() const { return times_[1]; }
   [[nodiscard]] double end() const { return times_[0]; }
 

@@ -48,6 +48,7 @@ void TurningPoints::open() {
 }
 
 void TurningPoints::close() {
+  if (turns_.empty()) return;
   for (const Turn& turn : turns_) times_.push_back(turn.time);
   std::sort(times_.begin(), times_.end());
 }
@@ -68,6 +69,16 @@ void TurningPoints::find(std::size_t contact, ContactSeries::Field field, const 
   find_of({a, degree, begin, scale}, place_of(contact, field), samples_to(x_end), Ends::observed);
 }
 
+std::optional<TurningPoints::Turn> TurningPoints::begins(std::size_t contact, ContactSeries::Field field,
+                                                         double value, double rate, double time) {
+  const std::size_t place = place_of(contact, field);
+  Range& range = ranges_[place];
+  const bool above = value > range.greatest, below = value < range.least;
+  if (!(above && rate <= 0.0) && !(below && rate >= 0.0)) return std::nullopt;
+  range.see(value);
+  return Turn{2 * place + (above ? 1 : 0), time};
+}
+
 TurningPoints::Samples TurningPoints::samples_to(double x_end) {
   Samples x{};
   for (std::size_t i = 0; i <= turn_samples; ++i)
@@ -78,6 +89,7 @@ TurningPoints::Samples TurningPoints::samples_to(double x_end) {
 void TurningPoints::record(const Path& path, std::size_t place, double at) {
   Range& range = ranges_[place];
   const double turn = value_at(path.a, path.degree, at);
+  if (turn >= range.least && turn <= range.greatest) return;
   turns_.push_back({2 * place + (turn > range.greatest ? 1 : 0), path.begin + at * path.scale});
   range.see(turn);
 }
@@ -94,15 +106,14 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
   if (inward == 0.0 && slope == 0.0) return;
   if (inward * slope > 0.0 && std::abs(slope) >= 0.5 * std::abs(inward)) {
     // Nobody has looked at where a part begins; what came before it may have risen up to here.
-    const bool hidden = first && ends != Ends::observed;
+    const bool hidden = first && ends == Ends::part;
     if (hidden && (inward < 0.0 ? value[end] > range.greatest : value[end] < range.least))
       record(path, place, x[end]);
     return;
   }
   const double at =
       turn_from(path.a, path.degree, x[end], std::min(x[end], x[next]), std::max(x[end], x[next]));
-  const double turn = value_at(path.a, path.degree, at);
-  if (turn < range.least || turn > range.greatest) record(path, place, at);
+  record(path, place, at);
 }
 
 void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {
@@ -111,10 +122,8 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
   value.fill(path.a[path.degree]);
   for (std::size_t k = path.degree; k-- > 0;)
     for (std::size_t i = 0; i <= turn_samples; ++i) value[i] = value[i] * x[i] + path.a[k];
-  if (ends == Ends::observed) {
-    range.see(value.front());
-    range.see(value.back());
-  }
+  if (ends != Ends::part) range.see(value.front());
+  if (ends == Ends::observed) range.see(value.back());
   find_beside(0, path, place, x, value, ends);
   for (std::size_t i = 1; i < turn_samples; ++i) {
     const double left = value[i] - value[i - 1], right = value[i + 1] - value[i];
@@ -124,10 +133,12 @@ void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& 
     const double turn = value[i] + 1.1 * rise;
     if (turn >= range.least && turn <= range.greatest) continue;
     const double guess = x[i] - 0.5 * (x[i + 1] - x[i]) * (right + left) / (right - left);
-    record(path, place, turn_from(path.a, path.degree, guess, x[i - 1], x[i + 1]));
+    const double at = turn_from(path.a, path.degree, guess, x[i - 1], x[i + 1]);
+    const double there = value_at(path.a, path.degree, at);
+    // Those steps may have led away from the turn.
+    record(path, place, (left > right ? there >= value[i] : there <= value[i]) ? at : x[i]);
   }
   find_beside(turn_samples, path, place, x, value, ends);
-  if (ends == Ends::last_part) range.see(value.back());
 }
 
 }  // namespace signorini

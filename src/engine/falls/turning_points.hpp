@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "decide/decision.hpp"
 #include "motion/contact_series.hpp"
@@ -19,9 +21,9 @@ class TurningPoints {
 
   /// After an instant, where the values may have jumped.
   void start(const Decision& decision);
-  /// observed: somebody looks at the values at the ends of a step. Of parts of a step nobody does; of the last part at its
-  /// end.
-  enum class Ends : unsigned char { observed, part, last_part };
+  /// observed: somebody looks at the values at the ends of a step. At those of its parts nobody does, but where the first
+  /// one begins.
+  enum class Ends : unsigned char { observed, first_part, part };
   /// On [0, x_end] of a series.
   void find(const std::vector<ContactSeries>& contacts, const Series& series, double x_end,
             Ends ends = Ends::observed);
@@ -38,6 +40,8 @@ class TurningPoints {
   [[nodiscard]] const Range& range(std::size_t contact, ContactSeries::Field field) const {
     return ranges_[place_of(contact, field)];
   }
+  /// Of all contacts, field by field as they are watched.
+  [[nodiscard]] const Range* ranges() const { return ranges_.data(); }
   /// Its value at the end of a step, on which it does not turn.
   void see(std::size_t contact, ContactSeries::Field field, double value) {
     ranges_[place_of(contact, field)].see(value);
@@ -53,6 +57,9 @@ class TurningPoints {
   [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
   /// Ascending, of the last step.
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
+  /// Where a part of a step begins with this value and rate: a turn, if it exceeds all before and goes back.
+  std::optional<Turn> begins(std::size_t contact, ContactSeries::Field field, double value, double rate,
+                             double time);
 
  private:
   static constexpr std::size_t turn_samples = 8;  // a step turns by less than 4 rad of any mode that matters
@@ -72,6 +79,7 @@ class TurningPoints {
   void find_of(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,
                    const Samples& value, Ends ends);
+  /// A turn, if it exceeds all before.
   void record(const Path& path, std::size_t place, double at);
 
   std::vector<Range> ranges_;  // so far

@@ -30,27 +30,26 @@ bool goes_one_way(const Bernstein& p) {
 
 void HistoryTurns::find(const StepHistory& history, double x_end) {
   turns_.open();
-  std::size_t scalar = first_;
-  for (std::size_t c = 0; c < contacts_; ++c)
-    for (const ContactSeries::Field field : TurningPoints::watched) {
-      const std::size_t i = scalar++;
-      const double last = history.last(i), bend = history.bend(i);
-      const TurningPoints::Range& seen = turns_.range(c, field);
-      if (last + bend <= seen.greatest && last - bend >= seen.least) continue;
-      if (x_end == 1.0 && history.clearly_goes_one_way(i)) {
-        turns_.see(c, field, last);
-        continue;
-      }
-      const Bernstein p = history.polynomial(i);
-      if (goes_one_way(p)) {
-        turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
-        continue;
-      }
-      const std::array<double, max_degree + 1> a = powers_of(p);
-      turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
-                  history.end() - history.begin());
-    }
+  // Nearly always all stay within what was seen.
+  const double *last = history.lasts() + first_, *bend = history.bends() + first_;
+  const TurningPoints::Range* seen = turns_.ranges();
+  const std::size_t shown = count();
+  for (std::size_t i = 0; i < shown; ++i)
+    if (!(last[i] + bend[i] <= seen[i].greatest) || !(last[i] - bend[i] >= seen[i].least))
+      look_at(i, history, x_end);
   turns_.close();
+}
+
+void HistoryTurns::look_at(std::size_t shown, const StepHistory& history, double x_end) {
+  const std::size_t i = first_ + shown, c = shown / TurningPoints::watched.size();
+  const ContactSeries::Field field = TurningPoints::watched[shown % TurningPoints::watched.size()];
+  const double last = history.last(i);
+  if (x_end == 1.0 && history.clearly_goes_one_way(i)) return turns_.see(c, field, last);
+  const Bernstein p = history.polynomial(i);
+  if (goes_one_way(p)) return turns_.see(c, field, x_end == 1.0 ? last : p.value(x_end));
+  const std::array<double, max_degree + 1> a = powers_of(p);
+  turns_.find(c, field, a.data(), static_cast<std::size_t>(p.degree), x_end, history.begin(),
+              history.end() - history.begin());
 }
 
 }  // namespace signorini

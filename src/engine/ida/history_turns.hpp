@@ -26,6 +26,8 @@ class HistoryTurns {
   [[nodiscard]] const std::vector<double>& times() const { return turns_.times(); }
 
  private:
+  void look_at(std::size_t shown, const StepHistory& history, double x_end);
+
   std::size_t contacts_, first_;
   TurningPoints turns_;
 };

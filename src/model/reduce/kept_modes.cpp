@@ -63,9 +63,10 @@ struct ElasticModes {
 };
 
 ElasticModes all_elastic(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
-                         Eigen::Index free) {
+                         Eigen::Index free, Eigen::Index heavies) {
   const EigenPairs all = all_modes(mass, stiffness);
-  if (all.values.size() < free || !all.values.allFinite())
+  // A decomposition that failed has none, or values that are no numbers.
+  if (all.values.size() != heavies || !all.values.allFinite())
     throw NotReducible("the modes of the structure cannot be computed");
   const Eigen::Index rest = all.values.size() - free;  // the lowest are free, whatever roundoff made of them
   ElasticModes found;
@@ -97,7 +98,7 @@ ElasticModes lowest_elastic(double cutoff, int count, const SparseMatrix& mass, 
 ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const SparseMatrix& stiffness,
                            const Eigen::MatrixXd& rigid, int heavies) {
   const auto free = static_cast<int>(rigid.cols());
-  if (heavies <= dense_up_to) return all_elastic(cutoff, mass, stiffness, free);
+  if (heavies <= dense_up_to) return all_elastic(cutoff, mass, stiffness, free, heavies);
   const int counted = modes_below(mass, stiffness, cutoff * cutoff);
   if (counted < 0) throw NotReducible("the modes below the cutoff cannot be counted; move the cutoff");
   const int count = std::max(counted, free);
@@ -107,7 +108,7 @@ ElasticModes elastic_modes(double cutoff, const SparseMatrix& mass, const Sparse
         "{} of {} modes lie below the cutoff; at most {} can be kept, and where they are a third or "
         "more of all at most {} in all; lower the cutoff, or leave [reduction] out",
         count, heavies, most_modes, dense_at_most));
-  return most ? all_elastic(cutoff, mass, stiffness, free)
+  return most ? all_elastic(cutoff, mass, stiffness, free, heavies)
               : lowest_elastic(cutoff, count, mass, stiffness, rigid);
 }
 

@@ -20,7 +20,9 @@ constexpr double radians_a_sample = 0.15;
 constexpr double most_growth = 4.0;   // of the cutoff from one trial to the next
 constexpr double least_growth = 2.0;  // so that what the next one adds is most of what is missing
 constexpr double most_radians = 1.0;  // in half a step, where few instants are compared: a factor of 1.85
-constexpr double usual_order = 2.0;   // of what is missed, in the cutoff, until two trials tell
+constexpr double nothing_known =
+    1.0;  // error of a trial beside one that misses no less: all of the displacement
+constexpr double usual_order = 2.0;              // of what is missed, in the cutoff, until two trials tell
 constexpr Eigen::Index fewest_compared = 2048;   // instants at which trials are compared; chosen
 constexpr Eigen::Index most_compared = 1 << 22;  // displacements that a trial keeps for that: 32 MB
 
@@ -156,14 +158,18 @@ double apart(const Trial& a, const Trial& b, double t_end) {
 
 /// By how much what is missed turned out to be too little. 1: it was not.
 double feedback(const Trial& trial) {
-  return trial.missed > 0.0 ? std::max(1.0, trial.told.moved / trial.missed) : 1.0;
+  return trial.missed > 0.0 ? std::max(1.0, trial.told.error / trial.missed) : 1.0;
 }
 
-/// What a trial is off by, beside one with more modes.
+/// What a trial is off by, beside one with more modes: error = moved + missed_finer max(1, error / missed), solved.
 void judge(Trial& trial, const Trial& finer, double t_end) {
   if (!(finer.greatest > 0.0)) return;
-  trial.told.moved = apart(trial, finer, t_end) / finer.greatest;
-  trial.told.error = trial.told.moved + finer.missed * feedback(trial);
+  const double moved = apart(trial, finer, t_end) / finer.greatest;
+  trial.told.moved = moved;
+  trial.told.error = moved + finer.missed;
+  if (finer.missed == 0.0 || trial.missed == 0.0) return;
+  const double left = finer.missed / trial.missed;
+  trial.told.error = std::max(trial.told.error, left < 1.0 ? moved / (1.0 - left) : nothing_known);
 }
 
 /// Trials with more and more modes, and the first of them that is sharp enough.

@@ -106,10 +106,7 @@ void check_pictures(const std::string& model) {
       line.y.push_back(point.value);
     }
     CAPTURE(name);
-    // Known defect: piping's vertical displacements are drawn up to 5 % off.
-    const double drawn_off = off(line, motion(value));
-    WARN(drawn_off <= 0.01);
-    CHECK(drawn_off <= (name.find('P') == 0 ? 0.06 : 0.01));
+    CHECK(off(line, motion(value)) <= 0.01);
   };
   for (const Column& column : built.columns)
     if (!column.velocity && column.dof >= 0)

@@ -35,9 +35,9 @@ class DampedFlow final : public ModalFlow {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const override {
     return proof_.magnitude(slot, at);
   }
-  void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+  void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
                   LastTurns& turns) override {
-    proof_.find_turns(from, begin, length, turning, turns);
+    proof_.find_turns(from, begin, length, observed, turning, turns);
   }
   void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
     works_.add(from, to, works);

@@ -229,8 +229,24 @@ double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& kno
   return h_;
 }
 
-void DampedProof::find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
-                             LastTurns& turns) {
+/// What rose up to the end of the passage before and falls from there on has its peak between them.
+void DampedProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
+                            LastTurns& turns) const {
+  for (std::size_t c = 0; c < series_.size(); ++c)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const ModalQuantity& quantity = *shown(c)[f];
+      const double value = motion_.value(quantity, at);
+      const TurningPoints::Range& range = turning.range(c, TurningPoints::watched[f]);
+      if (value >= range.least && value <= range.greatest) continue;
+      const double rate = motion_.value(motion_.derivative(quantity), at);
+      if (const auto turn = turning.begins(c, TurningPoints::watched[f], value, rate, time))
+        turns[turn->kind] = turn->time;
+    }
+}
+
+void DampedProof::find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                             TurningPoints& turning, LastTurns& turns) {
+  if (!observed) see_begin(from, begin, turning, turns);
   const double x_end = length / h_, x = within(from, turning, x_end);
   if (x >= x_end) return;
   double done = x * h_;
@@ -242,7 +258,7 @@ void DampedProof::find_turns(const ModalPoint& from, double begin, double length
     Series clock;
     clock.t = begin + done;
     clock.scale = h_;
-    const auto ends = done + step < length ? TurningPoints::Ends::part : TurningPoints::Ends::last_part;
+    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
     turning.find(series_, clock, step / h_, ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     motion_.advance(point, step, next);

@@ -21,7 +21,7 @@ class DampedProof {
   void rearm(const ModalPoint& at);
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
-  void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
+  void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
                   LastTurns& turns);
 
  private:
@@ -51,6 +51,7 @@ class DampedProof {
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
   [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
+  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
   [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
 

@@ -149,7 +149,7 @@ Step ModalEngine::advance() {
     parts_.push_back({t_, end - t_, now_});
     ModalPoint next;
     flow_->advance(now_, last ? remaining : passage.length, next);
-    flow_->find_turns(now_, t_, passage.length, turning_, last_turns_);
+    flow_->find_turns(now_, t_, passage.length, parts_.size() == 1, turning_, last_turns_);
     now_ = std::move(next);
     t_ = end;
     if (passage.fired) {
@@ -163,7 +163,8 @@ Step ModalEngine::advance() {
     flow_->rearm(now_);
     if (parts_.size() >= most_parts) break;
   }
-  for (const auto& [kind, time] : last_turns_) turns_.push_back(time);
+  for (const auto& [kind, time] : last_turns_)
+    if (time < t_) turns_.push_back(time);  // the event was moved since
   std::sort(turns_.begin(), turns_.end());
   step.end = t_;
   step.resolution = std::max(step.resolution, resolution_at(t_, parts_.back().length));
@@ -172,11 +173,15 @@ Step ModalEngine::advance() {
 }
 
 ModalPoint ModalEngine::at(double t) const {
-  if (t >= t_) return now_;
+  if (t == t_) return now_;
+  ModalPoint point;
+  if (t > t_) {  // an event that was moved
+    flow_->advance(now_, t - t_, point);
+    return point;
+  }
   auto part = std::upper_bound(parts_.begin(), parts_.end(), t,
                                [](double time, const Part& p) { return time < p.begin; });
   if (part != parts_.begin()) --part;
-  ModalPoint point;
   flow_->advance(part->at, t - part->begin, point);
   return point;
 }

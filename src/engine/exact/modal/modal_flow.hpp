@@ -47,9 +47,10 @@ class ModalFlow {
                                      double t) const = 0;
   /// Sum of the magnitudes of a guard's terms.
   [[nodiscard]] virtual double magnitude(std::size_t slot, const ModalPoint& at) const = 0;
-  /// Where N, T, g and ut turn beyond all before, in a part of the last passage that begins at time `begin`.
-  virtual void find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
-                          LastTurns& turns) = 0;
+  /// Where N, T, g and ut turn beyond all before, in the last passage, which begins at time `begin`. observed: somebody
+  /// looks there, for a step begins.
+  virtual void find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                          TurningPoints& turning, LastTurns& turns) = 0;
   virtual void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const = 0;
   /// The uncoupled modes of contact states; null: they are others.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }

@@ -44,6 +44,8 @@ class ModalProof {
   /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact turn beyond what they
   /// ranged over: they stay within it, or go one way; x_end: in all of it.
   [[nodiscard]] double within(const TurningPoints& known, double x_end) const;
+  /// Peaks between two passages of a step.
+  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
   /// The contacts' slow parts from a point on, with ripples that are small beside those ranges; returns for
   /// how long.
   [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);

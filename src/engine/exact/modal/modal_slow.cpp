@@ -100,6 +100,20 @@ double ModalProof::within(const TurningPoints& known, double x_end) const {
   return safe * x_end;
 }
 
+/// What rose up to the end of the passage before and falls from there on has its peak between them.
+void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& turning,
+                           LastTurns& turns) const {
+  for (std::size_t c = 0; c < laws_.size(); ++c) {
+    const Shown now = shown(c, at);
+    const ForceLaw& law = laws_[c];
+    const Watch4 value{law.N(now.gap), law.T(now.gap, now.ut), now.gap, now.ut};
+    const Watch4 rate{law.N_rate(now.vn), law.T_rate(now.vn, now.vt), now.vn, now.vt};
+    for (std::size_t f = 0; f < value.size(); ++f)
+      if (const auto peak = turning.begins(c, TurningPoints::watched[f], value[f], rate[f], time))
+        turns[peak->kind] = peak->time;
+  }
+}
+
 double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
   measure_amplitudes(at);
   const std::size_t n = amplitude_.size();

@@ -37,8 +37,9 @@ std::string ProportionalFlow::start(const Segment& segment, const Vector& q, con
 }
 
 /// Peaks are looked for only where one may exceed all before.
-void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, TurningPoints& turning,
-                                  LastTurns& turns) {
+void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                                  TurningPoints& turning, LastTurns& turns) {
+  if (!observed) proof_.see_begin(from, begin, turning, turns);
   const double x_end = length / proof_.unit(), x = proof_.within(turning, x_end);
   if (x >= x_end) return;
   double done = x * proof_.unit();
@@ -50,7 +51,7 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
     Series clock;
     clock.t = begin + done;
     clock.scale = proof_.unit();
-    const auto ends = done + step < length ? TurningPoints::Ends::part : TurningPoints::Ends::last_part;
+    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
     turning.find(proof_.slow(), clock, step / proof_.unit(), ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
     oscillators_.advance(point, forces_, step, next);

@@ -90,4 +90,39 @@ TEST_CASE("a part of a step that begins at a peak has it, for nobody looks there
   }
 }
 
+TEST_CASE("what only seems to exceed all before is no turn: it would stand for the last one of its kind") {
+  // Through the samples about its vertex the parabola rises to 0.98; a tenth more of that is more than the 1 of before.
+  OneForce high({1.0 - 3.0 * 0.41 * 0.41, 6.0 * 0.41, -3.0});
+  REQUIRE(high.times().size() == 1);
+  for (const double level : {0.9999, 0.999, 0.99, 0.98})
+    for (const double sharp : {3.0, 30.0, 300.0}) {
+      CAPTURE(level);
+      CAPTURE(sharp);
+      OneForce lower({1.0 - 3.0 * 0.41 * 0.41, 6.0 * 0.41, -3.0});
+      REQUIRE(lower.times().size() == 1);
+      const double at = 0.4375;  // between two samples
+      for (int k = 0; k < 3; ++k)
+        lower.series.forces(0, k) = std::vector<double>{level - sharp * at * at, 2.0 * sharp * at, -sharp}[k];
+      lower.turns.begins(0, ContactSeries::N, -1e9, 0.0, 0.0);  // lower than all that comes
+      lower.contacts[0].fill(Contact{}, 0, lower.series, 2);
+      CHECK(lower.times().empty());
+    }
+}
+
+TEST_CASE("a peak between two parts of a step is the beginning of the second, and one there alone") {
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    OneForce rising({0.0, sign});
+    rising.turns.find(rising.contacts, rising.series, 1.0, TurningPoints::Ends::first_part);
+    CHECK(rising.turns.times().empty());
+    TurningPoints& turns = rising.turns;
+    CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, 0.5 * sign, 3.0));  // it rises on
+    const auto peak = turns.begins(0, ContactSeries::N, sign, -0.5 * sign, 3.0);
+    REQUIRE(peak);
+    CHECK(peak->time == 3.0);
+    CHECK_FALSE(turns.begins(0, ContactSeries::N, sign, -0.5 * sign, 5.0));        // as high as before
+    CHECK_FALSE(turns.begins(0, ContactSeries::N, 0.5 * sign, -0.5 * sign, 5.0));  // lower
+  }
+}
+
 TEST_SUITE_END();

@@ -53,6 +53,13 @@ TEST_CASE("modes of a chain up to a cutoff, and what the others answer, in close
   CHECK((ResidualFlexibility(mass, stiffness, modes).answer(f) - expected).norm() < 1e-13 * expected.norm());
 }
 
+TEST_CASE("a decomposition that fails is no structure without modes") {
+  Eigen::MatrixXd same = Eigen::MatrixXd::Identity(5, 5);
+  same(0, 1) = same(1, 0) = 1.0;  // two masses that only move as one
+  CHECK_THROWS_WITH_AS(modes_up_to(1.0, sparse(same), chain(5, 1.0), Eigen::MatrixXd(5, 0)),
+                       "the modes of the structure cannot be computed", NotReducible);
+}
+
 TEST_CASE("modes that cannot be computed are refused as that") {
   SparseMatrix stiffness = chain(5, 1.0);
   const SparseMatrix mass = sparse(Eigen::MatrixXd::Identity(5, 5));

@@ -83,7 +83,7 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
   const ModeSystemPtr system = systems.of(free);
   if (!system) return true;
   Eigen::MatrixXd W = delassus(model, *system, contacts).W;
-  if (const ModeSystemPtr held = systems.of(mode)) add_shares(held->shared, contacts, W);
+  if (const ModeSystemPtr held = systems.of(mode)) add_shares(held->factorised().shared, contacts, W);
   Eigen::MatrixXd a = held_part(model, mode, contacts, W);
   const Eigen::VectorXd size = a.diagonal().cwiseAbs().cwiseSqrt();
   if (!(size.minCoeff() > 0.0)) return true;  // Painleve's: another matter

@@ -42,7 +42,7 @@ void add_columns(const fs::path& path, const Certificate& certificate) {
 }
 
 void write_errors(const fs::path& path, const Model& model, const HistoryErrors& errors) {
-  Table<std::size_t> table = {{"t", [&](std::size_t row) { return errors.t[row]; }}};
+  CsvTable<std::size_t> table = {{"t", [&](std::size_t row) { return errors.t[row]; }}};
   for (std::size_t j = 0; j < model.columns.size(); ++j)
     table.add(model.columns[j].name, [&errors, j](std::size_t row) { return errors.at(row, j); });
   TableFile<std::size_t> file(path, std::move(table));

@@ -52,10 +52,10 @@ std::string colour_functions() {
 std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
   const RunFacts::Contact& contact = run.facts.contacts[k];
   const std::string data = contact_rows(run, k);
-  const Table<ContactRow>& rows = contact_table();
+  const CsvTable<ContactRow>& rows = contact_table();
   const std::string inside = fmt::format("({0} >= from && {0} <= to ? -{1} : NaN):{2}", rows.value("t"),
                                          rows.value("N"), rows.number("T"));
-  const Table<Mark>& marks = mark_table();
+  const CsvTable<Mark>& marks = mark_table();
   std::vector<std::string> elements;
   const std::string red = " with lines linecolor '#c0182b' linewidth 1.2";
   const auto cone = [&](double f, const std::string& dash) {

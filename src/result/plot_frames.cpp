@@ -27,13 +27,13 @@ struct ShapePoint {
 };
 
 /// Undeformed, and deformed as it is drawn.
-const Table<ShapePoint>& shape_table() {
+const CsvTable<ShapePoint>& shape_table() {
   using P = ShapePoint;
-  static const Table<P> table = {{"kind", &P::kind},
-                                 {"x", [](const P& p) { return p.at.x; }},
-                                 {"y", [](const P& p) { return p.at.y; }},
-                                 {"X", [](const P& p) { return p.at.x + p.magnification * p.at.ux; }},
-                                 {"Y", [](const P& p) { return p.at.y + p.magnification * p.at.uy; }}};
+  static const CsvTable<P> table = {{"kind", &P::kind},
+                                    {"x", [](const P& p) { return p.at.x; }},
+                                    {"y", [](const P& p) { return p.at.y; }},
+                                    {"X", [](const P& p) { return p.at.x + p.magnification * p.at.ux; }},
+                                    {"Y", [](const P& p) { return p.at.y + p.magnification * p.at.uy; }}};
   return table;
 }
 
@@ -60,7 +60,7 @@ std::string shape_text(const Frame& frame, double magnification) {
 }
 
 /// The arrow of a contact's force: its tip, and what leads there.
-Table<Frame::Force> force_table(const FrameScales& scales) {
+CsvTable<Frame::Force> force_table(const FrameScales& scales) {
   using F = Frame::Force;
   const double m = scales.magnification, s = scales.force_scale;
   return {{"contact", &F::contact},
@@ -153,7 +153,7 @@ std::vector<std::string> shape_elements(const Frame& frame, const std::string& n
                        [&](const auto& e) { return e.kind == kind; });
   };
   const auto only = [](const std::string& kind, const char* x, const char* y) {
-    const Table<ShapePoint>& table = shape_table();
+    const CsvTable<ShapePoint>& table = shape_table();
     return fmt::format("({} eq '{}' ? {} : NaN):{}", table.word("kind"), kind, table.value(x),
                        table.number(y));
   };
@@ -191,7 +191,7 @@ std::vector<std::string> force_elements(const Frame& frame, const std::string& n
   std::vector<std::string> elements;
   if (frame.forces.empty()) return elements;
   const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
-  const Table<Frame::Force> table = force_table({});
+  const CsvTable<Frame::Force> table = force_table({});
   elements.push_back(
       forces +
       fmt::format("({}-{}):({}-{}):{}:{} with vectors head filled size screen 0.009,18 linewidth 1.8 "

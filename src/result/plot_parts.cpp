@@ -221,9 +221,9 @@ const std::vector<std::string>& state_names() {
   return names;
 }
 
-const Table<PlottedRun::Band>& band_table() {
+const CsvTable<PlottedRun::Band>& band_table() {
   using Band = PlottedRun::Band;
-  static const Table<Band> table = {{"from", &Band::from}, {"to", &Band::to}, {"state", &Band::state}};
+  static const CsvTable<Band> table = {{"from", &Band::from}, {"to", &Band::to}, {"state", &Band::state}};
   return table;
 }
 

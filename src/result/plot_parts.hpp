@@ -124,7 +124,7 @@ struct Picture {
 /// Fill colour of a state, "#rrggbb".
 [[nodiscard]] std::string state_colour(const std::string& state);
 /// states-CONTACT.csv.
-[[nodiscard]] const Table<PlottedRun::Band>& band_table();
+[[nodiscard]] const CsvTable<PlottedRun::Band>& band_table();
 /// For gnuplot: where a band of this state begins, and nothing for the other bands.
 [[nodiscard]] std::string band_at(const std::string& state);
 /// States in the order of legends.
@@ -161,7 +161,7 @@ struct Mark {
   std::string event;
   double N = 0.0, T = 0.0;
 };
-[[nodiscard]] const Table<Mark>& mark_table();
+[[nodiscard]] const CsvTable<Mark>& mark_table();
 [[nodiscard]] std::vector<Mark> marks_of(const std::filesystem::path& directory, const PlottedRun& run);
 /// The states of all contacts over time, a row a contact.
 [[nodiscard]] std::string states_script(const PlottedRun& run);

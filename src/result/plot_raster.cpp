@@ -28,8 +28,8 @@ std::vector<EventLook> lanes_of(const PlottedRun& run) {
 
 }  // namespace
 
-const Table<Mark>& mark_table() {
-  static const Table<Mark> table = {
+const CsvTable<Mark>& mark_table() {
+  static const CsvTable<Mark> table = {
       {"row", &Mark::row}, {"t", &Mark::t}, {"event", &Mark::event}, {"N", &Mark::N}, {"T", &Mark::T}};
   return table;
 }

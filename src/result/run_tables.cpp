@@ -22,8 +22,8 @@ struct EventCell {
 
 }  // namespace
 
-Table<Event> event_table(const Model& model) {
-  Table<Event> table;
+CsvTable<Event> event_table(const Model& model) {
+  CsvTable<Event> table;
   for (const EventColumn& column : event_columns)
     table.add_put(column.name, [&model, &column](CsvBlock& block, const Event& event) {
       if (event.contact < 0 && column.of_contact)
@@ -34,9 +34,9 @@ Table<Event> event_table(const Model& model) {
   return table;
 }
 
-const Table<ContactRow>& contact_table() {
+const CsvTable<ContactRow>& contact_table() {
   using R = ContactRow;
-  static const Table<R> table = {
+  static const CsvTable<R> table = {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
       {"state", [](const R& r) { return to_string(r.sample.state); }},
@@ -50,24 +50,24 @@ const Table<ContactRow>& contact_table() {
   return table;
 }
 
-Table<Sample> history_table(const Model& model) {
-  Table<Sample> table = {{"t", &Sample::t}};
+CsvTable<Sample> history_table(const Model& model) {
+  CsvTable<Sample> table = {{"t", &Sample::t}};
   for (const Column& column : model.columns)
     table.add(column.name,
               [&column](const Sample& s) { return at(column.velocity ? *s.v : *s.u, column.dof); });
   return table;
 }
 
-Table<ResponseRow> response_table(const Model& model) {
-  Table<ResponseRow> table = {{"t", &ResponseRow::t}};
+CsvTable<ResponseRow> response_table(const Model& model) {
+  CsvTable<ResponseRow> table = {{"t", &ResponseRow::t}};
   for (std::size_t i = 0; i < model.outputs.size(); ++i)
     table.add(model.outputs[i].name, [i](const ResponseRow& r) { return r.values[i]; });
   return table;
 }
 
-const Table<Sample>& energy_table() {
-  static const Table<Sample> table = [] {
-    Table<Sample> t = {{"t", &Sample::t}};
+const CsvTable<Sample>& energy_table() {
+  static const CsvTable<Sample> table = [] {
+    CsvTable<Sample> t = {{"t", &Sample::t}};
     for (const EnergyColumn& column : energy_columns)
       t.add(column.name, [&column](const Sample& s) { return s.energy.*column.value; });
     t.add(balance_column, [](const Sample& s) { return s.energy.balance(); });
@@ -76,17 +76,17 @@ const Table<Sample>& energy_table() {
   return table;
 }
 
-const Table<CurveRow>& curve_table() {
+const CsvTable<CurveRow>& curve_table() {
   using R = CurveRow;
-  static const Table<R> table = {{"curve", [](const R& r) { return std::string_view(r.curve); }},
-                                 {"t", [](const R& r) { return r.point.t; }},
-                                 {"value", [](const R& r) { return r.point.value; }}};
+  static const CsvTable<R> table = {{"curve", [](const R& r) { return std::string_view(r.curve); }},
+                                    {"t", [](const R& r) { return r.point.t; }},
+                                    {"value", [](const R& r) { return r.point.value; }}};
   return table;
 }
 
-const Table<FrameRow>& frame_table() {
+const CsvTable<FrameRow>& frame_table() {
   using R = FrameRow;
-  static const Table<R> table = {
+  static const CsvTable<R> table = {
       {"t", &R::t},
       {"kind", &R::kind},
       {"element", [](const R& r) { return r.element; }},
@@ -100,9 +100,9 @@ const Table<FrameRow>& frame_table() {
   return table;
 }
 
-const Table<FrameContactRow>& frame_contact_table() {
+const CsvTable<FrameContactRow>& frame_contact_table() {
   using R = FrameContactRow;
-  static const Table<R> table = {
+  static const CsvTable<R> table = {
       {"t", &R::t},
       {"contact", [](const R& r) { return std::string_view(r.contact.name); }},
       {"state", [](const R& r) { return to_string(r.sample.state); }},

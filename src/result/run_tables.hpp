@@ -19,7 +19,7 @@
 
 namespace signorini {
 
-[[nodiscard]] Table<Event> event_table(const Model& model);
+[[nodiscard]] CsvTable<Event> event_table(const Model& model);
 
 /// Units: length, length/time, force.
 struct ContactRow {
@@ -28,23 +28,23 @@ struct ContactRow {
   const ContactSample& sample;
 };
 /// contacts.csv and motion.csv.
-[[nodiscard]] const Table<ContactRow>& contact_table();
+[[nodiscard]] const CsvTable<ContactRow>& contact_table();
 
-[[nodiscard]] Table<Sample> history_table(const Model& model);
+[[nodiscard]] CsvTable<Sample> history_table(const Model& model);
 
 struct ResponseRow {
   double t;
   const std::vector<double>& values;  ///< one an output
 };
-[[nodiscard]] Table<ResponseRow> response_table(const Model& model);
+[[nodiscard]] CsvTable<ResponseRow> response_table(const Model& model);
 
-[[nodiscard]] const Table<Sample>& energy_table();
+[[nodiscard]] const CsvTable<Sample>& energy_table();
 
 struct CurveRow {
   const std::string& curve;
   const CurvePoint& point;
 };
-[[nodiscard]] const Table<CurveRow>& curve_table();
+[[nodiscard]] const CsvTable<CurveRow>& curve_table();
 
 /// One of an element's nodes (`element` from 1), or a node by itself.
 struct FrameRow {
@@ -54,7 +54,7 @@ struct FrameRow {
   const DrawnNode& node;
   const Vector& u;
 };
-[[nodiscard]] const Table<FrameRow>& frame_table();
+[[nodiscard]] const CsvTable<FrameRow>& frame_table();
 
 /// A contact at its node; x, y: where it is drawn, undeformed.
 struct FrameContactRow {
@@ -65,6 +65,6 @@ struct FrameContactRow {
   const ContactSample& sample;
   const Vector& u;
 };
-[[nodiscard]] const Table<FrameContactRow>& frame_contact_table();
+[[nodiscard]] const CsvTable<FrameContactRow>& frame_contact_table();
 
 }  // namespace signorini

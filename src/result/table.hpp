@@ -1,6 +1,6 @@
 // table.hpp: a table of results: its columns as rows, one writer, numbers of columns by name.
 //
-//   const Table<Wave> waves = {{"t", &Wave::t}, {"height", [](const Wave& w) { return w.top - w.bottom; }}};
+//   const CsvTable<Wave> waves = {{"t", &Wave::t}, {"height", [](const Wave& w) { return w.top - w.bottom; }}};
 //   waves.text(list)              header and rows
 //   waves.number("height")        2: the column of that name for gnuplot, which counts from 1
 //
@@ -42,7 +42,7 @@ void put_cell(CsvBlock& block, const std::optional<Value>& value) {
 }
 
 template <class Row>
-class Table {
+class CsvTable {
  public:
   struct Column {
     /// cell: a member of Row, or a function of it.
@@ -57,8 +57,8 @@ class Table {
     std::function<void(CsvBlock&, const Row&)> put;
   };
 
-  Table() = default;
-  Table(std::initializer_list<Column> columns) : columns_(columns) {}
+  CsvTable() = default;
+  CsvTable(std::initializer_list<Column> columns) : columns_(columns) {}
   template <class Cell>
   void add(std::string name, Cell cell) {
     columns_.emplace_back(std::move(name), std::move(cell));
@@ -108,7 +108,7 @@ template <class Row>
 class TableFile {
  public:
   /// Writes the header.
-  TableFile(const std::filesystem::path& path, Table<Row> table) : table_(std::move(table)), file_(path) {
+  TableFile(const std::filesystem::path& path, CsvTable<Row> table) : table_(std::move(table)), file_(path) {
     table_.put_header(block_);
     flush();
   }
@@ -123,7 +123,7 @@ class TableFile {
  private:
   static constexpr std::size_t much = 1 << 16;  // bytes
 
-  Table<Row> table_;
+  CsvTable<Row> table_;
   CsvBlock block_;
   CsvFile file_;
 };

@@ -63,7 +63,7 @@ std::vector<CommonColumn> common_columns(const CsvReader& a, const CsvReader& b,
 /// Where a table of differences over time is wanted.
 template <class Row>
 std::optional<TableFile<Row>> series_of(const ComparisonSettings& settings, const char* kind,
-                                        const Table<Row>& table) {
+                                        const CsvTable<Row>& table) {
   if (settings.folder.empty()) return std::nullopt;
   return std::optional<TableFile<Row>>(std::in_place, settings.folder / (kind + settings.slug + ".csv"),
                                        table);

@@ -15,22 +15,22 @@ namespace {
 using Audit = std::map<std::string, double>;
 
 /// Of runs; audits have the columns of the reference.
-Table<RunFigures> run_table(const Audit& audit) {
+CsvTable<RunFigures> run_table(const Audit& audit) {
   using R = RunFigures;
-  Table<R> table = {{"run", &R::name},
-                    {"engine", &R::engine},
-                    {"directory", [](const R& r) { return r.directory.string(); }},
-                    {"outcome", [](const R& r) { return r.facts.outcome; }},
-                    {"t", &R::t},
-                    {"reason", &R::reason},
-                    {"events", [](const R& r) { return changes_in(r.events_by_type); }},
-                    {"wall_time", &R::wall_time},
-                    {"steps", &R::steps},
-                    {"factorisations", &R::factorisations},
-                    {"solves", &R::solves},
-                    {"restarts", &R::restarts},
-                    {"friction", &R::friction},
-                    {"damping", &R::damping}};
+  CsvTable<R> table = {{"run", &R::name},
+                       {"engine", &R::engine},
+                       {"directory", [](const R& r) { return r.directory.string(); }},
+                       {"outcome", [](const R& r) { return r.facts.outcome; }},
+                       {"t", &R::t},
+                       {"reason", &R::reason},
+                       {"events", [](const R& r) { return changes_in(r.events_by_type); }},
+                       {"wall_time", &R::wall_time},
+                       {"steps", &R::steps},
+                       {"factorisations", &R::factorisations},
+                       {"solves", &R::solves},
+                       {"restarts", &R::restarts},
+                       {"friction", &R::friction},
+                       {"damping", &R::damping}};
   for (const auto& [name, value] : audit)
     table.add("audit_" + name, [name = name](const R& r) {
       const auto found = r.audit.find(name);
@@ -40,7 +40,7 @@ Table<RunFigures> run_table(const Audit& audit) {
 }
 
 std::string runs_csv(const ComparisonReport& report) {
-  const Table<RunFigures> table = run_table(report.runs.front().figures.audit);
+  const CsvTable<RunFigures> table = run_table(report.runs.front().figures.audit);
   CsvBlock block;
   table.put_header(block);
   for (const ComparedRun& run : report.runs) table.put_row(block, run.figures);
@@ -67,15 +67,15 @@ struct Difference {
 
 std::string differences_csv(const ComparisonReport& report) {
   using D = Difference;
-  const Table<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
-                          {"quantity", [](const D& d) { return d.quantity.name; }},
-                          {"unit", [](const D& d) { return d.quantity.unit; }},
-                          {"value", [](const D& d) { return d.whole().value; }},
-                          {"t", [](const D& d) { return d.whole().t; }},
-                          {"where", [](const D& d) { return d.whole().where; }},
-                          {"value_until_split", [](const D& d) { return d.until_split().value; }},
-                          {"t_until_split", [](const D& d) { return d.until_split().t; }},
-                          {"where_until_split", [](const D& d) { return d.until_split().where; }}};
+  const CsvTable<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
+                             {"quantity", [](const D& d) { return d.quantity.name; }},
+                             {"unit", [](const D& d) { return d.quantity.unit; }},
+                             {"value", [](const D& d) { return d.whole().value; }},
+                             {"t", [](const D& d) { return d.whole().t; }},
+                             {"where", [](const D& d) { return d.whole().where; }},
+                             {"value_until_split", [](const D& d) { return d.until_split().value; }},
+                             {"t_until_split", [](const D& d) { return d.until_split().t; }},
+                             {"where_until_split", [](const D& d) { return d.until_split().where; }}};
   std::vector<D> rows;
   for (const Comparison& c : report.comparisons)
     for (const Quantity& q : quantities(c, report.runs.front().figures.facts.units))
@@ -91,12 +91,12 @@ struct ColumnDifference {
 
 std::string columns_csv(const ComparisonReport& report) {
   using D = ColumnDifference;
-  const Table<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
-                          {"column", [](const D& d) { return std::string_view(d.column); }},
-                          {"value", [](const D& d) { return d.deviation.whole.value; }},
-                          {"t", [](const D& d) { return d.deviation.whole.t; }},
-                          {"value_until_split", [](const D& d) { return d.deviation.until_split.value; }},
-                          {"t_until_split", [](const D& d) { return d.deviation.until_split.t; }}};
+  const CsvTable<D> table = {{"run", [](const D& d) { return std::string_view(d.run); }},
+                             {"column", [](const D& d) { return std::string_view(d.column); }},
+                             {"value", [](const D& d) { return d.deviation.whole.value; }},
+                             {"t", [](const D& d) { return d.deviation.whole.t; }},
+                             {"value_until_split", [](const D& d) { return d.deviation.until_split.value; }},
+                             {"t_until_split", [](const D& d) { return d.deviation.until_split.t; }}};
   std::vector<D> rows;
   for (const Comparison& c : report.comparisons)
     for (const auto& [name, deviation] : c.columns) rows.push_back({c.name, name, deviation});

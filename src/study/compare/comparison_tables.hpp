@@ -16,9 +16,9 @@ namespace signorini {
 struct MotionDifference {
   double t, displacement, velocity;
 };
-[[nodiscard]] inline const Table<MotionDifference>& motion_difference_table() {
+[[nodiscard]] inline const CsvTable<MotionDifference>& motion_difference_table() {
   using D = MotionDifference;
-  static const Table<D> table = {
+  static const CsvTable<D> table = {
       {"t", &D::t}, {"displacement", &D::displacement}, {"velocity", &D::velocity}};
   return table;
 }
@@ -27,9 +27,9 @@ struct MotionDifference {
 struct ForceDifference {
   double t, N, T;
 };
-[[nodiscard]] inline const Table<ForceDifference>& force_difference_table() {
+[[nodiscard]] inline const CsvTable<ForceDifference>& force_difference_table() {
   using D = ForceDifference;
-  static const Table<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
+  static const CsvTable<D> table = {{"t", &D::t}, {"N", &D::N}, {"T", &D::T}};
   return table;
 }
 
@@ -40,17 +40,17 @@ struct EventPair {
   double t;  ///< in the other run
   bool swapped;
 };
-[[nodiscard]] inline const Table<EventPair>& event_pair_table() {
+[[nodiscard]] inline const CsvTable<EventPair>& event_pair_table() {
   using P = EventPair;
-  static const Table<P> table = {{"run", [](const P& p) { return std::string_view(p.run); }},
-                                 {"t_reference", [](const P& p) { return p.reference.t; }},
-                                 {"t", &P::t},
-                                 {"difference", [](const P& p) { return p.t - p.reference.t; }},
-                                 {"contact", [](const P& p) { return p.reference.contact; }},
-                                 {"event", [](const P& p) { return p.reference.type; }},
-                                 {"from", [](const P& p) { return p.reference.from; }},
-                                 {"to", [](const P& p) { return p.reference.to; }},
-                                 {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
+  static const CsvTable<P> table = {{"run", [](const P& p) { return std::string_view(p.run); }},
+                                    {"t_reference", [](const P& p) { return p.reference.t; }},
+                                    {"t", &P::t},
+                                    {"difference", [](const P& p) { return p.t - p.reference.t; }},
+                                    {"contact", [](const P& p) { return p.reference.contact; }},
+                                    {"event", [](const P& p) { return p.reference.type; }},
+                                    {"from", [](const P& p) { return p.reference.from; }},
+                                    {"to", [](const P& p) { return p.reference.to; }},
+                                    {"swapped", [](const P& p) { return p.swapped ? "true" : "false"; }}};
   return table;
 }
 

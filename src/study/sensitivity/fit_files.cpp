@@ -42,7 +42,7 @@ void write_fit(const std::filesystem::path& directory, const Fit& fit, const Mea
   const auto given = [&](std::size_t i, double value) {
     return of_event(i) ? std::nullopt : std::optional(value);
   };
-  const Table<std::size_t> table = {
+  const CsvTable<std::size_t> table = {
       {"row", [](std::size_t i) { return std::to_string(i + 1); }},
       {"event_index",
        [&](std::size_t i) { return of_event(i) ? std::to_string(measured.rows[i].event) : std::string(); }},

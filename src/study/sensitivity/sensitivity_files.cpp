@@ -35,11 +35,11 @@ std::vector<KeyRow<Figure>> rows_of(const std::vector<Figure>& figures, const Se
 /// sensitivities.csv
 std::string event_text(const Sensitivities& s) {
   using R = KeyRow<Event>;
-  Table<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
-                    {"t", [](const R& r) { return r.figure.t; }},
-                    {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
-                    {"event", [](const R& r) { return to_string(r.figure.type); }},
-                    {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }}};
+  CsvTable<R> table = {{"event_index", [](const R& r) { return std::to_string(r.index + 1); }},
+                       {"t", [](const R& r) { return r.figure.t; }},
+                       {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
+                       {"event", [](const R& r) { return to_string(r.figure.type); }},
+                       {"parameter", [&s](const R& r) { return s.parameters[r.key].path; }}};
   for (const EventRateColumn& column : event_rate_columns)
     table.add(column.name,
               [&s, &column](const R& r) { return known(s.event_rates[r.index][r.key].*column.value); });
@@ -52,7 +52,7 @@ std::string event_text(const Sensitivities& s) {
 /// figures.csv
 std::string figure_text(const Sensitivities& s) {
   using R = KeyRow<Response>;
-  const Table<R> table = {
+  const CsvTable<R> table = {
       {"figure", [](const R& r) { return r.figure.name; }},
       {"contact", [&s](const R& r) { return contact_of(s, r.figure); }},
       {"value", [](const R& r) { return r.figure.value; }},
@@ -72,7 +72,7 @@ std::string landing_text(const Sensitivities& s) {
   std::vector<int> numbers;  // of a landing among those of its contact, from 1
   for (std::size_t i = 0; i < s.landings.size(); ++i)
     numbers.push_back(i > 0 && s.landings[i - 1].contact == s.landings[i].contact ? numbers.back() + 1 : 1);
-  const Table<R> table = {
+  const CsvTable<R> table = {
       {"contact", [&s](const R& r) { return s.contacts[static_cast<std::size_t>(r.figure.contact)]; }},
       {"landing", [&numbers](const R& r) { return numbers[r.index]; }},
       {"start", [](const R& r) { return r.figure.value.start; }},
@@ -91,19 +91,19 @@ const char* kind_of(const Swap& swap) { return swap.vanish ? "vanish" : "swap"; 
 
 /// sequence.csv
 std::string sequence_text(const Sensitivities& s) {
-  const Table<Swap> table = {{"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
-                             {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
-                             {"change", &Swap::change},
-                             {"kind", kind_of},
-                             {"first", [](const Swap& w) { return w.first + 1; }},
-                             {"second", [](const Swap& w) { return w.second + 1; }},
-                             {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
+  const CsvTable<Swap> table = {{"parameter", [&s](const Swap& w) { return s.parameters[w.parameter].path; }},
+                                {"value", [&s](const Swap& w) { return s.parameters[w.parameter].value; }},
+                                {"change", &Swap::change},
+                                {"kind", kind_of},
+                                {"first", [](const Swap& w) { return w.first + 1; }},
+                                {"second", [](const Swap& w) { return w.second + 1; }},
+                                {"t", [&s](const Swap& w) { return s.events[w.first].t; }}};
   return table.text(least_swaps(s));
 }
 
 /// The derivatives of history's columns by the p-th key.
 std::string column_text(const Sensitivities& s, std::size_t p) {
-  Table<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
+  CsvTable<std::size_t> table = {{"t", [&s](std::size_t i) { return s.times[i]; }}};
   for (std::size_t j = 0; j < s.columns.size(); ++j)
     table.add(s.columns[j], [&s, p, j](std::size_t i) { return known(s.value_rates[p][i][j]); });
   std::vector<std::size_t> rows(s.times.size());
@@ -119,10 +119,10 @@ struct SpreadRow {
 
 /// spread.csv
 std::string spread_text(const Sensitivities& s, const Spread& spread) {
-  const Table<SpreadRow> table = {{"what", &SpreadRow::what},
-                                  {"contact", &SpreadRow::contact},
-                                  {"value", &SpreadRow::value},
-                                  {"sigma", [](const SpreadRow& r) { return known(r.sigma); }}};
+  const CsvTable<SpreadRow> table = {{"what", &SpreadRow::what},
+                                     {"contact", &SpreadRow::contact},
+                                     {"value", &SpreadRow::value},
+                                     {"sigma", [](const SpreadRow& r) { return known(r.sigma); }}};
   std::vector<SpreadRow> rows;
   for (std::size_t i = 0; i < s.events.size(); ++i)
     rows.push_back(

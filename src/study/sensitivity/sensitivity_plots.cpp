@@ -63,7 +63,7 @@ struct PlacedBar {
 };
 
 /// `length`: the name of its column.
-Table<PlacedBar> bar_table(const char* length) {
+CsvTable<PlacedBar> bar_table(const char* length) {
   return {{"place", &PlacedBar::place},
           {length, [](const PlacedBar& b) { return b.bar.length; }},
           {"parameter", [](const PlacedBar& b) { return std::string_view(b.bar.name); }}};
@@ -109,7 +109,7 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
 std::string wide_margin() { return "set lmargin at screen 0.3\n"; }
 
 std::string bars_plot(const std::string& file) {
-  const Table<PlacedBar> table = bar_table("length");
+  const CsvTable<PlacedBar> table = bar_table("length");
   return plot_command(
       {fmt::format("'{0}' skip 1 using (0.5*{3}):{4}:(0.5*abs({3})):(0.36):({3} < 0 ? {1} : {2}) with "
                    "boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable notitle",
@@ -171,12 +171,12 @@ struct Tangent {
   int contact;  ///< from 1; 0: a load
 };
 
-const Table<Tangent>& tangent_table() {
-  static const Table<Tangent> table = {{"p", &Tangent::p},
-                                       {"t", &Tangent::t},
-                                       {"dp", &Tangent::dp},
-                                       {"dt", &Tangent::dt},
-                                       {"contact", &Tangent::contact}};
+const CsvTable<Tangent>& tangent_table() {
+  static const CsvTable<Tangent> table = {{"p", &Tangent::p},
+                                          {"t", &Tangent::t},
+                                          {"dp", &Tangent::dp},
+                                          {"dt", &Tangent::dt},
+                                          {"contact", &Tangent::contact}};
   return table;
 }
 
@@ -220,7 +220,7 @@ std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder,
                       arrow++, shortest(parameter.value + swap.change), falling);
   std::vector<std::string> elements;
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
-  const Table<Tangent>& table = tangent_table();
+  const CsvTable<Tangent>& table = tangent_table();
   for (std::size_t c = 0; c <= count; ++c) {
     const std::string title = c == 0 ? "" : s.contacts[c - 1];
     elements.push_back(
@@ -247,7 +247,7 @@ std::string sequence(const Sensitivities& s, const fs::path& folder, const Pictu
   if (bars.empty()) return {};
   sort_bars(bars);
   std::reverse(bars.begin(), bars.end());  // the least change on top
-  const Table<PlacedBar> table = bar_table("per_cent");
+  const CsvTable<PlacedBar> table = bar_table("per_cent");
   write_file(folder / "sequence.csv", table.text(placed(bars)));
   const PlottedRun run = facts_of(s, look);
   const Canvas canvas = canvas_of(

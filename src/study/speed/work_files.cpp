@@ -77,20 +77,20 @@ std::string study_csv(const WorkReport& report) {
       return error ? std::optional(error->*value) : std::nullopt;
     };
   };
-  Table<R> table = {{"run", [](const R& r) { return r.point.name(); }},
-                    {"engine", [](const R& r) { return r.point.engine; }},
-                    {"setting", [](const R& r) { return r.point.setting(); }},
-                    {"line", [](const R& r) { return r.point.line(); }},
-                    {"reference", [](const R& r) { return r.reference ? "true" : "false"; }},
-                    {"outcome", &R::outcome},
-                    {"reason", &R::reason},
-                    {"t", &R::t},
-                    {"events", &R::events},
-                    {"events_of_reference", &R::events_of_reference},
-                    {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
-                    {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
-                    {"t_split", &R::t_split},
-                    {"split", &R::split}};
+  CsvTable<R> table = {{"run", [](const R& r) { return r.point.name(); }},
+                       {"engine", [](const R& r) { return r.point.engine; }},
+                       {"setting", [](const R& r) { return r.point.setting(); }},
+                       {"line", [](const R& r) { return r.point.line(); }},
+                       {"reference", [](const R& r) { return r.reference ? "true" : "false"; }},
+                       {"outcome", &R::outcome},
+                       {"reason", &R::reason},
+                       {"t", &R::t},
+                       {"events", &R::events},
+                       {"events_of_reference", &R::events_of_reference},
+                       {"alike", [](const R& r) { return r.t ? std::optional(r.alike) : std::nullopt; }},
+                       {"complete", [](const R& r) { return r.complete() ? "true" : "false"; }},
+                       {"t_split", &R::t_split},
+                       {"split", &R::split}};
   std::vector<std::string> names = quantity_names();
   for (std::string& name : response_names(report)) names.push_back(std::move(name));
   for (const std::string& name : names) table.add(name, error_of(name, &WorkError::value));

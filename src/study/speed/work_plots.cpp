@@ -43,12 +43,12 @@ std::vector<Line> lines_of(const WorkReport& report) {
 }
 
 /// line-N.csv.
-const Table<const WorkRow*>& line_table() {
+const CsvTable<const WorkRow*>& line_table() {
   using R = const WorkRow*;
-  static const Table<R> table = [] {
-    Table<R> t = {{"setting", [](R row) { return row->point.setting(); }},
-                  {"complete", [](R row) { return row->complete() ? 1.0 : 0.0; }},
-                  {"wall_time", [](R row) { return row->wall_time(); }}};
+  static const CsvTable<R> table = [] {
+    CsvTable<R> t = {{"setting", [](R row) { return row->point.setting(); }},
+                     {"complete", [](R row) { return row->complete() ? 1.0 : 0.0; }},
+                     {"wall_time", [](R row) { return row->wall_time(); }}};
     for (const char* name : drawn)
       t.add(name, [name](R row) {
         const WorkError* error = row->error(name);
@@ -106,7 +106,7 @@ std::string script(const WorkReport& report, const std::vector<Line>& lines,
     s += "set yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
     std::vector<std::string> elements;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const Table<const WorkRow*>& table = line_table();
+      const CsvTable<const WorkRow*>& table = line_table();
       const std::string data = fmt::format("'line-{}.csv' skip 1 using (", k + 1);
       const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
                                         table.number(drawn[quantity]), shortest(axis.floor));

@@ -70,10 +70,10 @@ struct AnswerRow {
 
 /// Quantity, its unit and the keys that are not sampled.
 template <class Figures>
-Table<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
+CsvTable<AnswerRow<Figures>> answer_table(const SweepSpec& spec) {
   using R = AnswerRow<Figures>;
-  Table<R> table = {{"quantity", [&spec](const R& r) { return spec.responses[r.of.query]; }},
-                    {"unit", [&spec](const R& r) { return spec.response_units[r.of.query]; }}};
+  CsvTable<R> table = {{"quantity", [&spec](const R& r) { return spec.responses[r.of.query]; }},
+                       {"unit", [&spec](const R& r) { return spec.response_units[r.of.query]; }}};
   std::size_t key = 0;
   for (const Vary& vary : spec.vary)
     if (!vary.sampled) {
@@ -143,7 +143,7 @@ std::vector<Sampled> sampled_answers(const SweepSpec& spec, const SweepRows& row
 
 std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
   using R = AnswerRow<Quantile>;
-  Table<R> table = answer_table<Quantile>(spec);
+  CsvTable<R> table = answer_table<Quantile>(spec);
   table.add("n", [](const R& r) { return r.of.sorted.size(); });
   table.add("missing", [](const R& r) { return r.of.missing; });
   table.add("probability", [](const R& r) { return r.figures.probability; });
@@ -157,16 +157,16 @@ std::string quantile_table(const SweepSpec& spec, const std::vector<Sampled>& an
   return table.text(rows);
 }
 
-const Table<Exceedance>& exceedance_columns() {
+const CsvTable<Exceedance>& exceedance_columns() {
   using E = Exceedance;
-  static const Table<E> table = {
+  static const CsvTable<E> table = {
       {"value", &E::value}, {"probability", &E::probability}, {"low", &E::low}, {"high", &E::high}};
   return table;
 }
 
 std::string exceedance_table(const SweepSpec& spec, const std::vector<Sampled>& answers) {
   using R = AnswerRow<Exceedance>;
-  Table<R> table = answer_table<Exceedance>(spec);
+  CsvTable<R> table = answer_table<Exceedance>(spec);
   for (const auto& column : exceedance_columns().columns())
     table.add_put(column.name, [&column](CsvBlock& block, const R& r) { column.put(block, r.figures); });
   std::vector<R> rows;

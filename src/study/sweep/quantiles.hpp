@@ -35,7 +35,7 @@ struct Exceedance {
   std::optional<double> low, high;
 };
 /// Its columns in tables.
-[[nodiscard]] const Table<Exceedance>& exceedance_columns();
+[[nodiscard]] const CsvTable<Exceedance>& exceedance_columns();
 /// At no more than 200 of the values.
 [[nodiscard]] std::vector<Exceedance> exceedance(const std::vector<double>& sorted, bool independent);
 

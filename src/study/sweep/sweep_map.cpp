@@ -74,9 +74,9 @@ std::optional<MapAxes> map_axes(const SweepSpec& spec) {
   return MapAxes{several[0], several[1]};
 }
 
-Table<MapCell> map_table(const SweepSpec& spec) {
+CsvTable<MapCell> map_table(const SweepSpec& spec) {
   using C = MapCell;
-  Table<C> table = {
+  CsvTable<C> table = {
       {"x0", &C::x0}, {"x1", &C::x1}, {"y0", &C::y0}, {"y1", &C::y1}, {"events", [](const C& c) {
                                                                          return c.row.changes();
                                                                        }}};
@@ -103,8 +103,8 @@ std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes, const
   return cells;
 }
 
-const Table<Border>& border_table() {
-  static const Table<Border> table = {
+const CsvTable<Border>& border_table() {
+  static const CsvTable<Border> table = {
       {"x0", &Border::x0}, {"y0", &Border::y0}, {"x1", &Border::x1}, {"y1", &Border::y1}};
   return table;
 }
@@ -140,8 +140,8 @@ std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::st
   run.facts.title = spec.title;
   run.facts.outcome = "done";
   run.facts.units = spec.units;
-  const Table<MapCell> cells = map_table(spec);
-  const Table<Border>& sides = border_table();
+  const CsvTable<MapCell> cells = map_table(spec);
+  const CsvTable<Border>& sides = border_table();
   const std::size_t count = panels.size();
   const Canvas canvas = canvas_of(run.look, 148.0 + 380.0 * static_cast<double>(count), false);
   std::string s = begin_script(run, {name, subtitle, canvas, false});

@@ -32,7 +32,7 @@ struct MapCell {
   const SweepRow& row;
   SweepRow::Contact greatest;  ///< of all contacts
 };
-[[nodiscard]] Table<MapCell> map_table(const SweepSpec& spec);
+[[nodiscard]] CsvTable<MapCell> map_table(const SweepSpec& spec);
 [[nodiscard]] std::vector<MapCell> map_cells(const SweepSpec& spec, const MapAxes& axes,
                                              const SweepRows& rows);
 
@@ -45,7 +45,7 @@ struct Borders {
   std::size_t neighbours = 0;  ///< sides between cells that ran
 };
 /// borders.csv.
-[[nodiscard]] const Table<Border>& border_table();
+[[nodiscard]] const CsvTable<Border>& border_table();
 [[nodiscard]] Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows);
 
 /// A figure and its column in map.csv.

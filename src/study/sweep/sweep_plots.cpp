@@ -94,10 +94,10 @@ std::string other_keys(const SweepSpec& spec, const Axis& axis) {
 }
 
 /// curve-N.csv: a row of the sweep, its x, and figures of contacts.
-Table<const SweepRow*> curve_table(const SweepSpec& spec, const Axis& axis,
-                                   const std::vector<std::string>& contacts) {
-  Table<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
-                                  {"events", [](const SweepRow* row) { return row->changes(); }}};
+CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const Axis& axis,
+                                      const std::vector<std::string>& contacts) {
+  CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
+                                     {"events", [](const SweepRow* row) { return row->changes(); }}};
   for (const std::string& name : contacts)
     for (const SweepFigure& figure : sweep_figures)
       table.add(name + "." + figure.name, [name, &figure](const SweepRow* row) {
@@ -206,7 +206,7 @@ class Script {
   const Axis& axis_;
   const std::vector<Curve>& curves_;
   const std::vector<std::string>& contacts_;
-  Table<const SweepRow*> table_;
+  CsvTable<const SweepRow*> table_;
   PlottedRun run_;
 };
 
@@ -247,7 +247,7 @@ std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepS
     std::vector<std::string> elements;
     for (std::size_t k = 0; k < answers.size() && elements.size() < most_curves; ++k) {
       if (answers[k].query != i || !drawn(answers[k])) continue;
-      const Table<Exceedance>& table = exceedance_columns();
+      const CsvTable<Exceedance>& table = exceedance_columns();
       const std::string name = fmt::format("exceedance-{}.csv", k + 1);
       write_file(folder / name, table.text(exceedance(answers[k].sorted, independent(spec))));
       std::string title;
@@ -269,6 +269,38 @@ std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepS
   return {script};
 }
 
+struct SweepPicture {
+  std::string name, subtitle;
+  std::vector<Panel> panels;
+};
+
+std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<std::string>& contacts) {
+  const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
+  const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
+  std::vector<SweepPicture> list;
+  if (!spec.responses.empty()) {
+    std::vector<Panel> panels;
+    for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
+      panels.push_back({labelled(spec, i), Panel::Kind::answer, spec.responses[i]});
+    list.push_back({"responses", "What was asked for", panels});
+  }
+  if (!contacts.empty()) {
+    constexpr Panel::Kind of_contacts = Panel::Kind::contacts;
+    list.push_back({"motion",
+                    "Greatest motion of the contacts from the start",
+                    {{"along the tangent" + length, of_contacts, "peak_t"},
+                     {"along the normal" + length, of_contacts, "peak_n"}}});
+    list.push_back({"forces",
+                    "Greatest forces of the contacts",
+                    {{"|N|" + force, of_contacts, "peak_N"}, {"|T|" + force, of_contacts, "peak_T"}}});
+    list.push_back(
+        {"losses",
+         "Work lost by friction, and events",
+         {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Panel::Kind::events}}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
@@ -280,7 +312,7 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
   if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return {};
   const fs::path folder = directory / "plots";
   begin_plot_folder(folder, is_picture_of_sweep);
-  const Table<const SweepRow*> table = curve_table(spec, axis, contacts);
+  const CsvTable<const SweepRow*> table = curve_table(spec, axis, contacts);
   for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
     write_file(folder / fmt::format("curve-{}.csv", i + 1), table.text(from_left(list[i], axis)));
 
@@ -294,8 +326,6 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
         differ && 2 * found.sides.size() <= found.neighbours;  // around most cells they would say nothing
     if (borders) write_file(folder / "borders.csv", border_table().text(found.sides));
   }
-  const std::string length = " [" + spec.units.length + "]", force = " [" + spec.units.force + "]";
-  const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   const Script script(spec, axis, list, contacts, look);
   std::vector<fs::path> scripts;
   const std::string others = other_keys(spec, axis);
@@ -315,22 +345,8 @@ std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSp
         contacts.size() > 1 && panels.front().kind != Panel::Kind::answer ? ", greatest of all contacts" : "";
     write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders, look));
   };
-  if (!spec.responses.empty()) {
-    std::vector<Panel> panels;
-    for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
-      panels.push_back({labelled(spec, i), Panel::Kind::answer, spec.responses[i]});
-    add("responses", "What was asked for", panels);
-  }
-  if (!contacts.empty()) {
-    constexpr Panel::Kind of_contacts = Panel::Kind::contacts;
-    add("motion", "Greatest motion of the contacts from the start",
-        {{"along the tangent" + length, of_contacts, "peak_t"},
-         {"along the normal" + length, of_contacts, "peak_n"}});
-    add("forces", "Greatest forces of the contacts",
-        {{"|N|" + force, of_contacts, "peak_N"}, {"|T|" + force, of_contacts, "peak_T"}});
-    add("losses", "Work lost by friction, and events",
-        {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Panel::Kind::events}});
-  }
+  for (const SweepPicture& picture : pictures_of(spec, contacts))
+    add(picture.name, picture.subtitle, picture.panels);
   return scripts;
 }
 

@@ -13,14 +13,14 @@ namespace signorini {
 namespace {
 
 /// sweep.csv; figures of a row without a run are empty.
-Table<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
+CsvTable<SweepRow> sweep_table(const SweepSpec& spec, const std::vector<std::string>& contacts) {
   using R = SweepRow;
   const auto if_ran = [](auto figure) {
     return [figure](const R& row) {
       return row.ran() ? std::optional(static_cast<double>(std::invoke(figure, row))) : std::nullopt;
     };
   };
-  Table<R> table = {{"row", [](const R& row) { return row.index + 1; }}};
+  CsvTable<R> table = {{"row", [](const R& row) { return row.index + 1; }}};
   for (std::size_t i = 0; i < spec.vary.size(); ++i)
     table.add(spec.vary[i].path, [i](const R& row) { return std::string_view(row.values[i]); });
   table.add("outcome", &R::outcome);
@@ -65,7 +65,7 @@ const SweepRow::Contact* contact_of(const SweepRow& row, const std::string& name
 }
 
 std::string sweep_csv(const SweepSpec& spec, const SweepRows& rows) {
-  const Table<SweepRow> table = sweep_table(spec, contact_names(rows));
+  const CsvTable<SweepRow> table = sweep_table(spec, contact_names(rows));
   CsvBlock block;
   table.put_header(block);
   for (const auto& [index, row] : rows) table.put_row(block, row);

@@ -47,9 +47,9 @@ const std::string& contact_of(const Model& model, const VerifiedEvent& event) {
 double shown(double difference) { return std::max(difference, 1e-18); }
 
 /// What the picture shows of an event's time.
-const Table<VerifiedEvent>& plot_table() {
+const CsvTable<VerifiedEvent>& plot_table() {
   using E = VerifiedEvent;
-  static const Table<E> table = {
+  static const CsvTable<E> table = {
       {"t", [](const E& e) { return e.time.t; }},
       {"difference", [](const E& e) { return shown(e.time.difference()); }},
       {"allowed", [](const E& e) { return shown(e.time.allowed()); }},
@@ -61,7 +61,7 @@ const Table<VerifiedEvent>& plot_table() {
 }
 
 /// events.csv.
-Table<VerifiedEvent> verified_table(const Model& model) {
+CsvTable<VerifiedEvent> verified_table(const Model& model) {
   using E = VerifiedEvent;
   return {{"contact", [&model](const E& e) { return std::string_view(contact_of(model, e)); }},
           {"event", [](const E& e) { return to_string(e.type); }},

@@ -170,7 +170,7 @@ TEST_CASE("tables: columns by name, cells of every kind, numbers for gnuplot") {
     std::optional<long> count;
     double x;
   };
-  Table<Row> table = {{"name", &Row::name}, {"count", &Row::count}};
+  CsvTable<Row> table = {{"name", &Row::name}, {"count", &Row::count}};
   table.add("twice", [](const Row& row) { return 2.0 * row.x; });
   table.add_put("both", [](CsvBlock& block, const Row& row) { block.text(row.name + "!"); });
   CHECK(table.text(std::vector<Row>{{"a, b", 3, 0.25}, {"c", std::nullopt, -1.0}}) ==

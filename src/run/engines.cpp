@@ -89,6 +89,7 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
 Method closed_flow(const Model& model, const RunSpec& run) {
   FlowChoice flow = choose_flow(model, run);
   return {run.engine,
+          false,
           "",
           0.0,
           most_levels,
@@ -100,14 +101,14 @@ Method closed_flow(const Model& model, const RunSpec& run) {
 
 Method bdf(const Model& model, const RunSpec& run) {
   const Order order = choose_order(model, run);
-  return {run.engine, "", run.rtol, order.greatest, order.reason};
+  return {run.engine, false, "", run.rtol, order.greatest, order.reason};
 }
 
 Method fixed_steps(const Model& /*model*/, const RunSpec& run) {
   if (!run.dt)
     throw SceneError(run.place, "run.dt",
                      fmt::format("engine \"{}\" needs it: its step", to_string(run.engine)));
-  return {run.engine, "", *run.dt, 2, "average acceleration"};
+  return {run.engine, false, "", *run.dt, 2, "average acceleration"};
 }
 
 std::unique_ptr<Stepper> make_exact(const EngineParts& p) {

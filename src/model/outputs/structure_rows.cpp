@@ -31,11 +31,8 @@ std::array<double, 2> unit_vector(const std::array<double, 2>& v) {
 
 StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha, double beta)
     : scene_(scene), map_(map), alpha_(alpha), beta_(beta), uniform_(map.mesh.elements.size()) {
-  for (const std::size_t number : map.supports) {
-    const Support& support = scene.supports[number];
-    History s = make_history(*support.motion, fmt::format("supports.{}.motion", number + 1));
-    moving_.push_back(support.motion_is_acceleration ? s.integrated().integrated() : std::move(s));
-  }
+  for (std::size_t i = 0; i < map.supports.size(); ++i)
+    moving_.push_back(motion_of_support(scene, map, static_cast<int>(i)));
   for (const BaseMotionSpec& motion : scene.base_motion)
     base_.push_back(make_history(motion.acceleration, "base_motion.acceleration"));
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {

@@ -39,12 +39,14 @@ MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& rec
 
 void MotionRecord::step(double begin, double end, const std::vector<double>& turning_points) {
   at_ = begin;
-  end_ = end;
+  end_ = std::min(end, t_end_);  // that of a motion that overflows may be anywhere
   turn_ = 0;
   turns_.clear();
-  // Bodies that move alike turn at one time but for its rounding: a thousand of them are one moment.
+  // Bodies that move alike turn at one time but for its rounding: a thousand of them are one moment. A motion that
+  // overflows may turn at no number.
   for (const double t : turning_points)
-    if (turns_.empty() || t - turns_.back() > rounding::of_time * std::abs(t)) turns_.push_back(t);
+    if (std::isfinite(t) && (turns_.empty() || t - turns_.back() > rounding::of_time * std::abs(t)))
+      turns_.push_back(t);
 }
 
 std::optional<MotionRecord::Moment> MotionRecord::next() {

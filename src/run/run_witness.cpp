@@ -160,10 +160,10 @@ void RunWitness::peaks(double t, const std::vector<Peak>& told) {
   for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const PassedPeak& p = passed_[k];
-    // Of the same sums, but each at its own points.
+    // Of the same sums, but each at its own points. What is held moves by the rounding of the scene's displacements.
     const WitnessLimits& tol = engine_.limits;
-    const double length =
-        rounding::of_elimination * p.place + of_tolerance * (tol.rtol * p.place + tol.displacement);
+    const double length = rounding::of_elimination * (p.place + model_.scales.displacement) +
+                          of_tolerance * (tol.rtol * p.place + tol.displacement);
     const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
                          (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
                          (c.has_spring() ? 0.0 : rounding::of_elimination * held_forces_) +

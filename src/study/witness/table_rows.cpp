@@ -176,7 +176,7 @@ void TableRows::check_peaks(const std::vector<std::optional<Peak>>& told, const 
     if (!told[k]) continue;
     const Contact& c = model_.contacts[k];
     const double length =
-        rounding::of_elimination * sizes_[k].place +
+        rounding::of_elimination * (sizes_[k].place + model_.scales.displacement) +
         of_tolerance * (engine_.limits.rtol * sizes_[k].place + engine_.limits.displacement);
     const auto check = [&](double seen_one, double told_one, double limit, const Unit& unit) {
       if (const double off = seen_one - told_one; off > limit)

@@ -85,9 +85,9 @@ class Thinned {
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
   static constexpr std::size_t most_of_bins = 2 * drawn * static_cast<std::size_t>(pixels) + 2;
 
-  /// Rows held before they are thinned to so many: each is then looked at five times, and a record is no longer than
-  /// what it keeps and a quarter more.
-  static std::size_t room(std::size_t kept) { return kept + kept / 4; }
+  /// Rows held before they are thinned to so many: each is then looked at nine times, and a record is no longer than
+  /// what it keeps and an eighth more.
+  static std::size_t room(std::size_t kept) { return kept + kept / 8; }
 
   void thin() {
     const std::size_t enough = wanted_.most;

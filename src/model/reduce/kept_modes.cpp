@@ -42,6 +42,7 @@ EigenPairs all_modes(const SparseMatrix& mass, const SparseMatrix& stiffness) {
     condensed += coupling.transpose() * follow;
   }
   const EigenPairs pairs = generalized_eigen(0.5 * (condensed + condensed.transpose()), Eigen::MatrixXd(m));
+  if (pairs.vectors.rows() != h.cols()) return {};  // it failed: whoever asked looks at the values
   Eigen::MatrixXd shapes = h * pairs.vectors;
   if (l.cols() > 0) shapes += l * (follow * pairs.vectors).eval();
   return {pairs.values, shapes};

@@ -24,6 +24,8 @@ enum class ExitCode : int {
 
 /// A place in a text file; line and column count from 1, 0 means unknown.
 struct SourcePlace {
+  static constexpr int command_line = -1;  ///< as a line: no file, `file` is what was said (Override::told)
+
   std::string file;
   int line = 0;
   int column = 0;

@@ -440,6 +440,7 @@ struct Scene {
 /// One `--set path=value`.
 struct Override {
   std::string path, value;
+  std::string told = {};  ///< what messages call it, as the user said it; empty: --set path=value
 };
 
 /// Reads, checks and completes a scene. Errors: SceneError (with place and key), FileError,

@@ -49,7 +49,8 @@ Variant variant_of(const std::string& text) {
     const std::size_t equals = parts[i].find('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--engines " + text + ": expected NAME:KEY=VALUE, such as newmark:dt=1e-4");
-    variant.keys.push_back({"run." + parts[i].substr(0, equals), parts[i].substr(equals + 1)});
+    variant.keys.push_back(
+        {"run." + parts[i].substr(0, equals), parts[i].substr(equals + 1), "--engines " + text});
   }
   return variant;
 }
@@ -63,15 +64,10 @@ std::vector<std::string> engines_of(const CompareOptions& options) {
 
 Scene scene_for(const CompareOptions& options, const std::string& text) {
   const Variant variant = variant_of(text);
-  const std::string& engine = variant.engine;
-  try {
-    std::vector<Override> changes = overrides_for(options.settings, engines_of(options), engine);
-    changes.insert(changes.begin(), {"run.engine", engine});
-    changes.insert(changes.end(), variant.keys.begin(), variant.keys.end());
-    return read_scene(options.sources.front(), changes);
-  } catch (const UsageError& error) {
-    throw UsageError(engine_as_given(error.what(), engine));
-  }
+  std::vector<Override> changes = overrides_for(options.settings, engines_of(options), variant.engine);
+  changes.insert(changes.begin(), engine_override(variant.engine));
+  changes.insert(changes.end(), variant.keys.begin(), variant.keys.end());
+  return read_scene(options.sources.front(), changes);
 }
 
 const OwnedFolder& compare_folder() {

@@ -18,7 +18,7 @@
 #include "run/choose_engine.hpp"
 #include "run/trial.hpp"
 #include "signorini/certify.hpp"
-#include "study/reduction/find_cutoff.hpp"
+#include "study/prepared_run.hpp"
 
 namespace signorini::cli {
 
@@ -104,13 +104,15 @@ std::string what_is_quicker(const Scene& scene, const Model& model, double secon
 
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
-  if (!options.engine.empty()) changes.push_back({"run.engine", options.engine});
-  if (options.certify) changes.push_back({"run.certify", "true"});
+  if (!options.engine.empty())
+    changes.push_back({"run.engine", options.engine, "--engine " + options.engine});
+  if (options.certify) changes.push_back({"run.certify", "true", "--certify"});
   const TableStyle style = table_style_of(options.table, options);
   const bool plain = style == TableStyle::plain;
   const fs::path path = directory_of(options);
-  const Scene scene = find_cutoff(read_scene(options.scene, changes), [] { return !Interrupt::asked(); });
-  const Model model = build_model(scene);
+  const PreparedRun prepared = prepare_run(options.scene, changes, [] { return !Interrupt::asked(); });
+  const Scene& scene = prepared.scene;
+  const Model& model = prepared.model;
   if (!options.quiet) print_patterns(options.scene, options.settings);
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;

@@ -13,8 +13,6 @@ namespace signorini::cli {
 
 namespace {
 
-const std::string set = "--set ";
-
 std::optional<std::string> engine_of(const Override& change, const std::vector<std::string>& engines) {
   const std::size_t colon = change.path.find(':');
   if (colon == std::string::npos || colon > change.path.find('.')) return std::nullopt;
@@ -97,23 +95,12 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
   for (const Override& change : overrides_of(settings)) {
     const std::optional<std::string> only = engine_of(change, engines);
     const std::string path = only ? change.path.substr(only->size() + 1) : change.path;
-    if (path == "run.engine")
-      throw UsageError(set + change.path + "=" + change.value + ": --engines says which engines run");
+    if (path == "run.engine") throw UsageError(text_of(change) + ": --engines says which engines run");
     if (!only || *only == engine) changes.push_back({path, change.value});
   }
   return changes;
 }
 
-std::string engine_as_given(const std::string& message, const std::string& engine) {
-  const std::string told = set + "run.engine=" + engine;
-  return message.starts_with(told) ? "--engines " + engine + message.substr(told.size()) : message;
-}
-
-std::string vary_as_given(const std::string& message, const std::vector<Vary>& varied) {
-  for (const Vary& vary : varied)
-    if (message.starts_with(set + vary.path + "="))
-      return fmt::format("--{} {}", option_of(vary), message.substr(set.size()));
-  return message;
-}
+Override engine_override(const std::string& engine) { return {"run.engine", engine, "--engines " + engine}; }
 
 }  // namespace signorini::cli

@@ -46,10 +46,7 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
                                                   const std::vector<std::string>& engines,
                                                   const std::string& engine);
 
-// The scene reader names what it was told as --set; users said it with other options.
-/// "--set run.engine=idea: ..." as "--engines idea: ...".
-[[nodiscard]] std::string engine_as_given(const std::string& message, const std::string& engine);
-/// "--set run.dt=0: ..." as "--vary run.dt=0: ..." where run.dt is varied.
-[[nodiscard]] std::string vary_as_given(const std::string& message, const std::vector<Vary>& varied);
+/// The engine that --engines chose.
+[[nodiscard]] Override engine_override(const std::string& engine);
 
 }  // namespace signorini::cli

@@ -105,14 +105,12 @@ void check_settings(const StudyOptions& options) {
 void try_engines(const StudyOptions& options, const std::vector<Vary>& varied) {
   for (const std::string& engine : options.engines) {
     std::vector<Override> changes = settings_for(options, engine);
-    changes.insert(changes.begin(), {"run.engine", engine});
+    changes.insert(changes.begin(), engine_override(engine));
     if (const std::string key = accuracy_key(engine); key == accuracy_key(Accuracy::step))
       changes.insert(changes.begin(), {key, "1e-3"});
-    for (const Vary& vary : varied) changes.push_back({vary.path, vary.values.front()});
+    for (const Vary& vary : varied) changes.push_back(override_of(vary, vary.values.front()));
     try {
       (void)read_scene(options.scene, changes);
-    } catch (const UsageError& error) {
-      throw UsageError(vary_as_given(engine_as_given(error.what(), engine), varied));
     } catch (const SceneError&) {  // of one engine, or one value: a row
     }
   }

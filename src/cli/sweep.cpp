@@ -136,7 +136,7 @@ SweepSpec specify(const SweepOptions& options) {
       if (!first) first = error;
     }
   }
-  throw Error(first->code(), vary_as_given(first->what(), spec.vary));
+  throw *first;
 }
 
 std::size_t jobs_of(const SweepOptions& options) {

@@ -13,7 +13,7 @@
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
 #include "signorini/error.hpp"
-#include "study/reduction/find_cutoff.hpp"
+#include "study/prepared_run.hpp"
 #include "study/verify/verify_files.hpp"
 
 namespace signorini::cli {
@@ -82,8 +82,7 @@ ExitCode run(const VerifyOptions& options) {
   changes.push_back({"run.engine", "ida"});
   const fs::path path = directory_of(options);
   check_folder(path, verify_folder(), options.force, options.scene);
-  const Scene scene = find_cutoff(read_scene(options.scene, changes));
-  const Model model = build_model(scene);
+  const auto [scene, model] = prepare_run(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
   VerifyRequest request;
   request.run = scene.run;

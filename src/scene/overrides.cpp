@@ -115,7 +115,7 @@ class Change {
 
   /// `value = VALUE`
   toml::table parsed() const {
-    const std::string file = text_of(given_);
+    const std::string file = override_mark + text_of(given_);
     const auto parse = [&](const std::string& value) {
       return toml::parse("value = " + value, std::string_view(file));
     };
@@ -155,7 +155,7 @@ class Change {
       return;
     }
     if (!table.contains(rest[0])) {
-      toml::table nested = toml::parse("value = " + left_out(rest), text_of(given_));
+      toml::table nested = toml::parse("value = " + left_out(rest), override_mark + text_of(given_));
       table.insert_or_assign(key, std::move(*nested.get("value")));
     }
     toml::node* next = table.get(rest[0]);
@@ -166,9 +166,9 @@ class Change {
   /// friction = 0.3 is short for { static = 0.3, kinetic = 0.3 }.
   static toml::node& split_friction(toml::table& table) {
     const double value = *table.get("friction")->value<double>();
-    const SourcePlace place = place_of(*table.get("friction"));
+    const toml::source_path_ptr& file = table.get("friction")->source().path;
     toml::table both = toml::parse(fmt::format("value = {{ static = {0}, kinetic = {0} }}", shortest(value)),
-                                   std::string_view(place.file));
+                                   file ? std::string_view(*file) : std::string_view());
     return table.insert_or_assign("friction", std::move(*both.get("value"))).first->second;
   }
 
@@ -249,7 +249,7 @@ std::vector<std::string> places_of_one(const toml::table& root, const std::strin
 }  // namespace
 
 std::string text_of(const Override& change) {
-  return std::string(override_prefix) + change.path + "=" + change.value;
+  return change.told.empty() ? "--set " + change.path + "=" + change.value : change.told;
 }
 
 std::vector<std::string> paths_meant(const toml::table& root, const std::string& path) {

@@ -35,7 +35,7 @@ void apply_overrides(toml::table& root, const std::vector<Override>& overrides);
 /// Whether what stands at a stands inside of what stands at b, or is it.
 [[nodiscard]] bool lies_in(const std::string& a, const std::string& b);
 
-/// "--set run.rtol=1e-10"
+/// "--set run.rtol=1e-10", or as it was told.
 [[nodiscard]] std::string text_of(const Override& change);
 
 }  // namespace signorini

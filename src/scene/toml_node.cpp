@@ -12,14 +12,15 @@ namespace signorini {
 
 namespace {
 
-bool is_override(const SourcePlace& place) { return place.file.starts_with(override_prefix); }
+bool is_override(const toml::source_region& region) {
+  return region.path && region.path->starts_with(override_mark);
+}
 
-/// Where it stands among its neighbours; those of `--set`, which have no lines, last.
+/// Where it stands among its neighbours; those of overrides, which have no lines, last.
 std::tuple<bool, toml::source_index, toml::source_index> position(const Entry& entry) {
   const toml::source_region& region = entry.key->source();
-  const bool changed = region.path && region.path->starts_with(override_prefix);
-  return changed ? std::tuple(true, toml::source_index{}, toml::source_index{})
-                 : std::tuple(false, region.begin.line, region.begin.column);
+  return is_override(region) ? std::tuple(true, toml::source_index{}, toml::source_index{})
+                             : std::tuple(false, region.begin.line, region.begin.column);
 }
 
 /// A message stays on its line, whatever stands in the names and strings of a file.
@@ -39,9 +40,9 @@ std::string in_quotes(std::string_view text) {
 }  // namespace
 
 SourcePlace place_of(const toml::source_region& region) {
+  if (is_override(region)) return {region.path->substr(1), SourcePlace::command_line, 0};
   SourcePlace place;
   if (region.path) place.file = *region.path;
-  if (is_override(place)) return place;  // has no lines
   place.line = static_cast<int>(region.begin.line);
   place.column = static_cast<int>(region.begin.column);
   return place;
@@ -62,7 +63,8 @@ std::string describe(const toml::node& node) {
 }
 
 void refuse(const SourcePlace& place, const std::string& key, const std::string& message) {
-  if (is_override(place)) throw UsageError(on_one_line(place.file + ": " + key + ": " + message));
+  if (place.line == SourcePlace::command_line)
+    throw UsageError(on_one_line(place.file + ": " + key + ": " + message));
   throw SceneError(place, on_one_line(key), on_one_line(message));
 }
 

@@ -13,8 +13,8 @@
 
 namespace signorini {
 
-/// Values that come from `--set` carry this prefix and their text as the name of their file.
-inline constexpr std::string_view override_prefix = "--set ";
+/// Values that come from an Override carry this, which begins no name of a file, and its text as the name of their file.
+inline constexpr char override_mark = '\x1a';
 
 [[nodiscard]] SourcePlace place_of(const toml::source_region& region);
 [[nodiscard]] SourcePlace place_of(const toml::node& node);
@@ -25,7 +25,7 @@ inline constexpr std::string_view override_prefix = "--set ";
 /// "the number -0.3", "the number 4.0" of a float, "the string \"abc\"", "an array of 3 values".
 [[nodiscard]] std::string describe(const toml::node& node);
 
-/// A SceneError, or a UsageError where the place is a `--set`.
+/// A SceneError, or a UsageError where the place is an Override.
 [[noreturn]] void refuse(const SourcePlace& place, const std::string& key, const std::string& message);
 
 /// An entry of a table.
@@ -36,7 +36,7 @@ struct Entry {
   [[nodiscard]] SourcePlace place() const { return place_of(key->source()); }
 };
 
-/// The entries in the order of the file (toml++ sorts by name); those of `--set` follow.
+/// The entries in the order of the file (toml++ sorts by name); those of overrides follow.
 [[nodiscard]] std::vector<Entry> entries_of(const toml::table& table);
 
 }  // namespace signorini

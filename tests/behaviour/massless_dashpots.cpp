@@ -55,6 +55,40 @@ mass = 1.0
   return text;
 }
 
+/// A node p without mass on springs of 100 N/m in both directions, which a load throws along the x axis at 0.1 s at a plane
+/// that is `angle` from square to the load and 0.05 m away.
+std::string thrown_node(double angle, double t_end, const char* run, double load, const char* plane) {
+  std::string text = fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+[run]
+t_end = {}
+{}[nodes]
+m = [0.0, 1.0]
+p = [0.0, 0.0]
+[[masses]]
+node = "m"
+mass = 1.0
+[[contacts]]
+name = "plane"
+node = "p"
+law = "compliant"
+normal = {}
+gap = 0.05
+normal_stiffness = 900.0
+{}[[loads]]
+node = "p"
+direction = [1.0, 0.0]
+amplitude = {}
+history = {{ type = "step", start = 0.1 }}
+)",
+                                 t_end, run, Turned(angle)(-1.0, 0.0), plane, load);
+  for (const auto& [node, stiffness] : {std::pair{"m", 10.0}, std::pair{"p", 100.0}})
+    for (const char* direction : {"[1.0, 0.0]", "[0.0, 1.0]"})
+      text += fmt::format("[[springs]]\nnode = \"{}\"\ndirection = {}\nstiffness = {}\n", node, direction,
+                          stiffness);
+  return text;
+}
+
 Result run_of(const std::string& text, const std::string& engine) {
   const std::vector<Override> changes{
       {"run.engine", engine}, {"run.rtol", "1e-10"}, {"run.dt", "2e-4"}, {"run.certify", "false"}};
@@ -98,50 +132,8 @@ TEST_CASE("massless dashpots: the approach of a node to an inclined plane, in cl
     for (const std::string engine : {"exact", "ida", "newmark"}) {
       CAPTURE(angle);
       CAPTURE(engine);
-      const Turned turned(angle);
-      const std::string text = fmt::format(R"(schema = 1
-units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
-[run]
-t_end = 0.3
-output_dt = 0.01
-[nodes]
-m = [0.0, 1.0]
-p = [0.0, 0.0]
-[[masses]]
-node = "m"
-mass = 1.0
-[[springs]]
-node = "m"
-direction = [1.0, 0.0]
-stiffness = 10.0
-[[springs]]
-node = "m"
-direction = [0.0, 1.0]
-stiffness = 10.0
-[[springs]]
-node = "p"
-direction = [1.0, 0.0]
-stiffness = 100.0
-[[springs]]
-node = "p"
-direction = [0.0, 1.0]
-stiffness = 100.0
-[[contacts]]
-name = "plane"
-node = "p"
-law = "compliant"
-normal = {}
-gap = 0.05
-normal_stiffness = 900.0
-normal_damping = 25.0
-[[loads]]
-node = "p"
-direction = [1.0, 0.0]
-amplitude = {}
-history = {{ type = "step", start = 0.1 }}
-)",
-                                           turned(-1.0, 0.0), load);
-      const Result r = run_of(text, engine);
+      const Result r =
+          run_of(thrown_node(angle, 0.3, "output_dt = 0.01\n", load, "normal_damping = 25.0\n"), engine);
       INFO(r.report.outcome.reason);
       REQUIRE(r.report.outcome.kind == Outcome::Kind::done);
       const double along = load * std::cos(angle), across = -load * std::sin(angle) / k;
@@ -168,49 +160,8 @@ TEST_CASE("massless: a node that a load throws at a rough plane sticks from wher
     for (const std::string engine : {"exact", "ida", "newmark"}) {
       CAPTURE(angle);
       CAPTURE(engine);
-      const std::string text = fmt::format(R"(schema = 1
-units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
-[run]
-t_end = 0.2
-[nodes]
-m = [0.0, 1.0]
-p = [0.0, 0.0]
-[[masses]]
-node = "m"
-mass = 1.0
-[[springs]]
-node = "m"
-direction = [1.0, 0.0]
-stiffness = 10.0
-[[springs]]
-node = "m"
-direction = [0.0, 1.0]
-stiffness = 10.0
-[[springs]]
-node = "p"
-direction = [1.0, 0.0]
-stiffness = 100.0
-[[springs]]
-node = "p"
-direction = [0.0, 1.0]
-stiffness = 100.0
-[[contacts]]
-name = "plane"
-node = "p"
-law = "compliant"
-normal = {}
-gap = 0.05
-normal_stiffness = 900.0
-tangential_stiffness = 400.0
-friction = 5.0
-[[loads]]
-node = "p"
-direction = [1.0, 0.0]
-amplitude = {}
-history = {{ type = "step", start = 0.1 }}
-)",
-                                           Turned(angle)(-1.0, 0.0), load);
-      const Result r = run_of(text, engine);
+      const Result r =
+          run_of(thrown_node(angle, 0.2, "", load, "tangential_stiffness = 400.0\nfriction = 5.0\n"), engine);
       REQUIRE(r.report.outcome.kind == Outcome::Kind::done);
       const double x = (load * std::cos(angle) + kn * g0) / (k + kn);
       const double y = (-load * std::sin(angle) - kt * g0 * std::tan(angle)) / (k + kt);

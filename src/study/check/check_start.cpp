@@ -10,6 +10,7 @@
 #include "model/assembly/springs.hpp"
 #include "signorini/simulate.hpp"
 #include "study/check/check_parts.hpp"
+#include "study/prepared_run.hpp"
 
 namespace signorini::checks {
 namespace {
@@ -86,12 +87,8 @@ std::optional<Ambiguity> ambiguous_contacts(const Model& model) {
 }
 
 Start start(const Scene& scene, const Model& model) {
-  RunSpec run = scene.run;
-  run.output_dt.reset();
-  run.output_times = std::vector<double>{0.0, run.t_end};
-  run.frames.clear();
   FirstStep recorder;
-  Report report = simulate(model, run, recorder);
+  Report report = simulate(model, without_rows(scene.run), recorder);
   if (report.outcome.kind == Outcome::Kind::stopped) {
     const std::string reason =
         fmt::format("the run cannot start, t = {:g}: {}", report.outcome.t, report.outcome.reason);

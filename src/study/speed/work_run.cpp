@@ -39,7 +39,7 @@ class Deadline : public Recorder {
   int calls_ = 0;
 };
 
-WorkOutcome run(const Model& model, const RunSpec& settings, const WorkLimits& limits, Recorder* next) {
+WorkOutcome simulated(const Model& model, const RunSpec& settings, const WorkLimits& limits, Recorder* next) {
   Deadline deadline(limits, next);
   WorkOutcome outcome{simulate(model, settings, deadline)};
   outcome.too_slow = deadline.too_slow;
@@ -49,20 +49,16 @@ WorkOutcome run(const Model& model, const RunSpec& settings, const WorkLimits& l
 
 }  // namespace
 
-WorkOutcome record_run(const Scene& scene, const Model& model, const std::filesystem::path& directory,
+WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
                        const WorkLimits& limits) {
-  RunDirectory recorder(directory, scene, model, {false, limits.command_line});
-  WorkOutcome outcome = run(model, scene.run, limits, &recorder);
+  RunDirectory recorder(directory, run.scene, run.model, {false, limits.command_line});
+  WorkOutcome outcome = simulated(run.model, run.scene.run, limits, &recorder);
   recorder.finish(outcome.report);
   return outcome;
 }
 
-WorkOutcome time_run(const Scene& scene, const Model& model, const WorkLimits& limits) {
-  RunSpec settings = scene.run;
-  settings.output_dt.reset();
-  settings.output_times = {settings.t_end};
-  settings.frames.clear();
-  return run(model, settings, limits, nullptr);
+WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits) {
+  return simulated(run.model, without_rows(run.scene.run), limits, nullptr);
 }
 
 }  // namespace signorini

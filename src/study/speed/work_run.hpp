@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "signorini/simulate.hpp"
+#include "study/prepared_run.hpp"
 
 namespace signorini {
 
@@ -23,10 +24,10 @@ struct WorkOutcome {
 };
 
 /// Runs into a directory of its own. Errors: SceneError for what an engine refuses; FileError.
-[[nodiscard]] WorkOutcome record_run(const Scene& scene, const Model& model,
-                                     const std::filesystem::path& directory, const WorkLimits& limits);
+[[nodiscard]] WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
+                                     const WorkLimits& limits);
 
-/// The same without output: only the state at t_end is asked for, and nothing is kept.
-[[nodiscard]] WorkOutcome time_run(const Scene& scene, const Model& model, const WorkLimits& limits);
+/// The same without output: there are rows at both ends only, and nothing is kept.
+[[nodiscard]] WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits);
 
 }  // namespace signorini

@@ -15,7 +15,6 @@
 #include "result/csv_read.hpp"
 #include "run/choose_flow.hpp"
 #include "run/expected.hpp"
-#include "study/reduction/find_cutoff.hpp"
 #include "study/speed/decades.hpp"
 
 namespace signorini {
@@ -97,18 +96,11 @@ long changes_until(const std::vector<LoggedEvent>& events, double t) {
                        [&](const LoggedEvent& event) { return event.is_change() && event.t <= t; });
 }
 
-/// The reader names what it was told as --set; in a row the setting speaks for itself.
-std::string without_option(const std::string& message) {
-  const std::string option = "--set ";
-  return message.starts_with(option) ? message.substr(option.size()) : message;
-}
-
 }  // namespace
 
 WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
-  const Scene scene = find_cutoff(read_scene(request_.scene, request_.settings("")));
+  const auto [scene, model] = prepare_run(request_.scene, request_.settings(""));
   reduction_ = scene.reduction;
-  const Model model = build_model(scene);
   fingerprint_ = fingerprint_of(scene.resolved);
   held_ = capture_velocities(scene, model);
   report_.scene = request_.scene;
@@ -124,21 +116,20 @@ WorkStudy::WorkStudy(WorkRequest request) : request_(std::move(request)) {
                                         held_.front().value, scene.units.length, scene.units.time));
 }
 
-WorkStudy::Prepared WorkStudy::prepare(const WorkPoint& point) const {
+PreparedRun WorkStudy::prepare(const WorkPoint& point) const {
   if (fingerprint_of(read_scene(request_.scene, request_.settings("")).resolved) != fingerprint_)
     throw FileError(request_.scene, "has changed while the study ran; its runs cannot be compared");
   std::vector<Override> changes = held_;
   for (const auto& more : {request_.settings(point.engine), point.changes()})
     changes.insert(changes.end(), more.begin(), more.end());
-  Scene scene = find_cutoff(read_scene(request_.scene, changes), reduction_);
-  Model model = build_model(scene);
-  return {std::move(scene), std::move(model)};
+  for (Override& change : changes) change.told = change.path + "=" + change.value;  // a row has no options
+  return prepare_run(read_scene(request_.scene, changes), reduction_);
 }
 
 /// Expected; nothing for what has run.
 double WorkStudy::seconds_of(const WorkPoint& point) const {
   if (recorded_.contains(point.name())) return 0.0;
-  const Prepared run = prepare(point);
+  const PreparedRun run = prepare(point);
   return expected(run.model, run.scene.run).effort.seconds;
 }
 
@@ -146,13 +137,13 @@ double WorkStudy::seconds_of(const WorkPoint& point) const {
 const WorkStudy::Recorded& WorkStudy::record(const WorkPoint& point, const WorkLimits& limits) {
   const auto found = recorded_.find(point.name());
   if (found != recorded_.end()) return found->second;
-  const Prepared run = prepare(point);
+  const PreparedRun run = prepare(point);
   Recorded recorded;
   std::size_t number = recorded_.size();
   do  // a folder that holds what is not ours has been left
     recorded.directory = request_.directory / "runs" / folder_name(++number, point.name());
   while (fs::exists(recorded.directory));
-  const WorkOutcome outcome = record_run(run.scene, run.model, recorded.directory, limits);
+  const WorkOutcome outcome = record_run(run, recorded.directory, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
   recorded.too_slow = outcome.too_slow;
   return recorded_.emplace(point.name(), std::move(recorded)).first->second;
@@ -184,11 +175,11 @@ bool WorkStudy::try_reference(const WorkPoint& point, std::string& why_not) {
 /// How far `exact` itself can be trusted: the same run with all masses changed in their last digits.
 void WorkStudy::doubt_reference(const WorkPoint& point) {
   const fs::path folder = request_.directory / "runs" / "again";
-  Prepared run = prepare(point);
+  PreparedRun run = prepare(point);
   run.model.mass *= 1.0 + last_digits;
   WorkLimits limits = request_.limits;
   limits.seconds *= patience;
-  const WorkOutcome outcome = record_run(run.scene, run.model, folder, limits);
+  const WorkOutcome outcome = record_run(run, folder, limits);
   report_.interrupted = report_.interrupted || outcome.interrupted;
   again_ = read_compared_run(folder, point.name() + " again");
   doubted_ = true;
@@ -221,7 +212,7 @@ std::optional<WorkPoint> WorkStudy::series_of_exact() {
       std::any_of(request_.ranges.varied.begin(), request_.ranges.varied.end(), says_flow))
     return std::nullopt;
   try {
-    const Prepared run = prepare(series);
+    const PreparedRun run = prepare(series);
     if (!choose_flow(run.model, run.scene.run).modal) return std::nullopt;
     series.varied = {{flow_key, "taylor"}};
     const double seconds = expected(run.model, run.scene.run).effort.by_series;
@@ -340,7 +331,7 @@ const WorkRow& WorkStudy::add(const WorkPoint& point) {
     throw;
   } catch (const Error& error) {
     row.outcome = "refused";
-    row.reason = without_option(error.what());
+    row.reason = error.what();
   }
   report_.rows.push_back(std::move(row));
   return report_.rows.back();
@@ -356,10 +347,10 @@ void WorkStudy::time_all(const std::function<void(const WorkRow&, std::size_t ro
       if (row.outcome != "done" && row.outcome != "stopped") continue;
       if (std::accumulate(row.wall_times.begin(), row.wall_times.end(), 0.0) > enough) continue;
       before(row, round);
-      const Prepared run = prepare(row.point);
+      const PreparedRun run = prepare(row.point);
       double least = std::numeric_limits<double>::infinity(), sum = 0.0;
       for (int i = 0; i < most && sum < brief; ++i) {
-        const WorkOutcome outcome = time_run(run.scene, run.model, request_.limits);
+        const WorkOutcome outcome = time_run(run, request_.limits);
         report_.interrupted = outcome.interrupted;
         if (outcome.interrupted || outcome.too_slow) break;  // the machine was busy: no time of this run
         least = std::min(least, outcome.report.wall_time);

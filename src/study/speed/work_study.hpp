@@ -73,16 +73,12 @@ class WorkStudy {
   [[nodiscard]] const WorkReport& report() const { return report_; }
 
  private:
-  struct Prepared {
-    Scene scene;
-    Model model;
-  };
   /// A run that is on disk.
   struct Recorded {
     std::filesystem::path directory;
     bool too_slow = false;
   };
-  [[nodiscard]] Prepared prepare(const WorkPoint& point) const;
+  [[nodiscard]] PreparedRun prepare(const WorkPoint& point) const;
   [[nodiscard]] double seconds_of(const WorkPoint& point) const;
   const Recorded& record(const WorkPoint& point, const WorkLimits& limits);
   bool choose_reference();

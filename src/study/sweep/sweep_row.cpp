@@ -4,13 +4,13 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include "base/json.hpp"
 
 #include "base/fingerprint.hpp"
 #include "base/input_file.hpp"
+#include "base/json.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
-#include "study/reduction/find_cutoff.hpp"
+#include "study/prepared_run.hpp"
 #include "study/sweep/response_query.hpp"
 
 namespace signorini {
@@ -48,11 +48,7 @@ Report run(const RowTask& task, const Scene& scene, const Model& model, Answers&
     RunDirectory directory(task.keep, scene, model, {false, task.command_line});
     directory.finish(simulate(model, scene.run, directory));
   }
-  RunSpec brief = scene.run;
-  brief.output_dt.reset();
-  brief.output_times = std::vector<double>{0.0};
-  brief.frames.clear();
-  return simulate(model, brief, answers);
+  return simulate(model, without_rows(scene.run), answers);
 }
 
 /// Outputs that no query asks for cost and tell nothing; a kept run has them all the same.
@@ -84,8 +80,7 @@ SweepRow compute_row(const RowTask& task) {
   row.index = task.index;
   row.values = task.values;
   try {
-    const Scene scene = find_cutoff(read_scene(task.scene, task.changes));
-    Model model = build_model(scene);
+    auto [scene, model] = prepare_run(task.scene, task.changes);
     std::vector<ResponseQuery> queries;
     for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));
     drop_outputs(task, queries, model);

@@ -134,6 +134,10 @@ std::vector<std::size_t> in_step(const std::vector<Vary>& varied, std::size_t i)
 
 const char* option_of(const Vary& vary) { return vary.sampled ? "sample" : "vary"; }
 
+Override override_of(const Vary& vary, const std::string& value) {
+  return {vary.path, value, fmt::format("--{} {}={}", option_of(vary), vary.path, value)};
+}
+
 void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,
                     const std::vector<Override>& settings) {
   std::vector<std::vector<std::string>> places;
@@ -185,7 +189,7 @@ std::vector<std::vector<Override>> points(const std::vector<Vary>& varied) {
     for (const auto& point : list) {
       for (std::size_t k = 0; k < varied[i].values.size(); ++k) {
         longer.push_back(point);
-        for (const std::size_t j : members) longer.back()[j] = {varied[j].path, varied[j].values[k]};
+        for (const std::size_t j : members) longer.back()[j] = override_of(varied[j], varied[j].values[k]);
       }
     }
     list = std::move(longer);

@@ -27,6 +27,8 @@ struct Vary {
 
 /// "vary" or "sample", whichever says it.
 [[nodiscard]] const char* option_of(const Vary& vary);
+/// One of its values.
+[[nodiscard]] Override override_of(const Vary& vary, const std::string& value);
 /// Refuses what another one would overwrite: two that mean one key under different names (contacts.*.friction and
 /// contacts.first.friction), and a setting all of whose keys are varied. Errors: UsageError; those of the file.
 void check_overlaps(const std::string& scene, const std::vector<Vary>& varied,

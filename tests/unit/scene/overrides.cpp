@@ -176,6 +176,14 @@ TEST_CASE("wrong overrides name themselves") {
   check_refused({"contacts", "3"}, "contacts: found the number 3, expected tables");
 }
 
+TEST_CASE("an override is called what the user called it") {
+  check_refused({"run.rtol", "-1", "--vary run.rtol=-1:0:1"},
+                "--vary run.rtol=-1:0:1: run.rtol: found the number -1");
+  check_refused({"runn.rtol", "1e-3", "--fast"}, "--fast: unknown key; did you mean \"run\"?");
+  check_refused({"run.engine", "exat", "--engines exat"}, "--engines exat: run.engine: found the string");
+  check_refused({"contacts.first.friction.static", "0.2", "--sample x"}, "--sample x: ");
+}
+
 TEST_CASE("an override that breaks another line of the file is a wrong command line, too") {
   check_refused({"contacts.first.friction.static", "0.2"}, "--set contacts.first.friction.static=0.2: ");
   check_refused({"nodes.B", "[0.0, 0.0]"}, "--set nodes.B=[0.0, 0.0]: ");

@@ -21,6 +21,19 @@ int find_section(const Scene& scene, const Member& member, const std::string& ke
   return static_cast<int>(it - scene.sections.begin());
 }
 
+/// At a part s of the way from a to b: on the straight line, or on the arc, which lies to the right where it turns left.
+std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const Member& member, double s) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  if (!member.bend) return {a.x + s * dx, a.y + s * dy};
+  const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
+  const double half = std::asin(std::min(1.0, 0.5 * length / radius)), turn = (2.0 * s - 1.0) * half;
+  const double along = 0.5 + radius * std::sin(turn) / length;
+  // cos turn - cos half
+  const double rise = 2.0 * std::sin(0.5 * (half + turn)) * std::sin(0.5 * (half - turn));
+  const double out = (member.bend->radius > 0.0 ? radius : -radius) * rise / length;
+  return {a.x + along * dx + out * dy, a.y + along * dy - out * dx};
+}
+
 void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t piece, int section,
                const std::string& key) {
   const Member& member = scene.members[number];
@@ -50,13 +63,13 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
   for (int i = 1; i <= count; ++i) {
     int next = b;
     if (i < count) {
-      const double s = static_cast<double>(i) / count;
+      const auto [x, y] = place_on_piece(from, to, member, static_cast<double>(i) / count);
       next = static_cast<int>(mesh.nodes.size());
-      mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), from.x + s * (to.x - from.x),
-                            from.y + s * (to.y - from.y)});
+      mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), x, y});
     }
     mesh.elements.push_back({previous, next, section, member.type, member.mass, hinged_a && i == 1,
-                             hinged_b && i == count, static_cast<int>(number)});
+                             hinged_b && i == count, static_cast<int>(number),
+                             member.bend ? member.bend->flexibility : 1.0});
     previous = next;
   }
 }

@@ -120,8 +120,7 @@ void read_sections(Table& top, Scene& scene, RecordedScene& record) {
     if (!shape.empty()) {
       read_shape(table, shape, section);
     } else {
-      for (const char* key : {"EA", "mass_per_length"})
-        table.require(key, " (beside none of the shapes pipe, box, i, round)");
+      for (const char* key : {"EA", "mass_per_length"}) table.require(key, "");
       section.EA = table.number("EA");
       section.EI = table.optional_number("EI").value_or(0.0);
       section.mass_per_length = table.number("mass_per_length");

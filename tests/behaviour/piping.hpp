@@ -24,7 +24,7 @@ loads = ["temperature"]
 inline std::string line(const std::string& rest = "", const std::string& start = "\"frictional\"") {
   return "schema = 1\nunits = { force = \"kN\", mass = \"t\", length = \"m\", time = \"s\" }\ngravity = "
          "[0.0, -9.81]\n"
-         "[run]\nt_end = 0.4\noutput_dt = 0.01\ncertify = false\ninitial = " +
+         "[run]\nt_end = 0.25\noutput_dt = 0.01\ncertify = false\ninitial = " +
          start + "\n" + (start == "\"frictional\"" ? stages : "") + R"([damping]
 alpha = 0.5
 beta = 2e-5

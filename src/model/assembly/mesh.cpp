@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -26,7 +29,10 @@ std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const
   const double dx = b.x - a.x, dy = b.y - a.y;
   if (!member.bend) return {a.x + s * dx, a.y + s * dy};
   const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
-  const double half = std::asin(std::min(1.0, 0.5 * length / radius)), turn = (2.0 * s - 1.0) * half;
+  // Of half a circle rounding of the nodes would move the angle by the root of it.
+  const double sine = 0.5 * length / radius;
+  const double half = sine < 1.0 - rounding::of_many ? std::asin(sine) : 0.5 * std::numbers::pi;
+  const double turn = (2.0 * s - 1.0) * half;
   const double along = 0.5 + radius * std::sin(turn) / length;
   // cos turn - cos half
   const double rise = 2.0 * std::sin(0.5 * (half + turn)) * std::sin(0.5 * (half - turn));

@@ -103,7 +103,7 @@ TEST_CASE("what is wrong with a section is said") {
   has(refused("mass_per_length = 1.0\n" + pipe), "sections.s.mass_per_length: stands beside pipe");
   has(refused(pipe + "\nround = { diameter = 1.0, E = 1.0, density = 1.0 }"),
       "stands beside pipe, expected one shape");
-  has(refused("EI = 1.0"), "sections.s.EA: missing (beside none of the shapes pipe, box, i, round)");
+  has(refused("EI = 1.0"), "sections.s.EA: missing, expected a number > 0");
   has(refused("EA = 1.0"), "sections.s.mass_per_length: missing");
   has(refused("pipe = { diameter = 0.3, wall = 0.15, E = 1.0, density = 1.0 }"),
       "sections.s.pipe.wall: found 0.15, expected less than half the diameter 0.3");

@@ -38,7 +38,7 @@ struct Column {
   bool velocity = false;
 };
 
-/// What a load comes from. temperature, initial_strain: of a member; support: where one that moves is;
+/// What a load comes from. temperature, initial_strain: of a member; preload: of a spring; support: where one that moves is;
 /// support_rate: what its velocity and acceleration add, through dampers and mass.
 enum class LoadKind : unsigned char {
   force,
@@ -48,6 +48,7 @@ enum class LoadKind : unsigned char {
   base,
   temperature,
   initial_strain,
+  preload,
   support,
   support_rate
 };
@@ -92,6 +93,13 @@ struct StaticStart {
   std::vector<StageEvent> events;   ///< frictional
   std::vector<StageEnd> stages;     ///< frictional
   std::vector<std::string> doubts;  ///< frictional: what the data leave open, one sentence each
+};
+
+/// A spring with a preload: what it bears before anything has moved, and at t = 0; force.
+struct HangerLoad {
+  std::size_t spring = 0;  ///< its number in the file, from 1 on
+  double cold = 0.0, at_start = 0.0;
+  std::optional<double> hot = {};  ///< as it was designed
 };
 
 // What deformed shapes are drawn from; empty in matrix scenes. dofs (ux, uy, rz): -1 where fixed or absent.
@@ -195,6 +203,7 @@ struct Model {
   Vector u0, v0;                             ///< initial state (static equilibrium where asked)
   bool static_start = false;
   StaticStart statics;
+  std::vector<HangerLoad> hangers;
   /// Where the run left its contacts that this one goes on from, one a contact; empty: it goes on from none of the same
   /// structure, or that says nothing of them.
   std::vector<SavedState::Left> continues;

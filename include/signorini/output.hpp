@@ -1,6 +1,8 @@
-// output.hpp: a response quantity as a linear functional of the motion.
+// output.hpp: a response quantity as a linear functional of the motion, or the greatest of many.
 //
 //   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
+//
+// Envelopes and extremes of stresses are the greatest |r| along stretches of members, at points of which r is known.
 //
 // u, v, a are forms on the model's degrees of freedom. What is given (loads within a member, supports that
 // move, the base) stands in the histories h_i, weight in the constant. All in the unit of the output. What is
@@ -34,7 +36,27 @@ struct Output {
   std::vector<Given> given = {};
   double constant = 0.0;
   std::optional<std::size_t> loss = {};  ///< of this contact; nothing else counts then
+  /// Linear outputs at the points (base/along.hpp) of a finite element, r a polynomial through them; or at one place.
+  struct Stretch {
+    std::vector<Output> at;
+    std::string from, to;           ///< nodes of the piece
+    double begin = 0.0, end = 0.0;  ///< stations on it
+    Fibre fibre = Fibre::both;      ///< of a stress
+  };
+  std::vector<Stretch> stretches = {};     ///< nothing else counts where there are any
+  std::vector<std::string> contains = {};  ///< of a spring's force: "preload", "stiffness", "damper"
 };
+
+/// Calls `use` with the linear outputs that it is made of, in order: itself where it has no stretches.
+template <class AnOutput, class Use>
+void for_each_linear(AnOutput& output, const Use& use) {
+  if (output.stretches.empty()) return use(output);
+  for (auto& stretch : output.stretches)
+    for (auto& at : stretch.at) use(at);
+}
+
+/// Whether it is no sum of motions and forces: no part of combinations.
+[[nodiscard]] inline bool is_greatest(const Output& output) { return !output.stretches.empty(); }
 
 /// "kN m", from the names of the scene's units.
 [[nodiscard]] std::string unit_text(const Unit& unit, const Units& names);

@@ -200,10 +200,18 @@ struct Landing {
   double peak_force = 0.0;  ///< greatest -N
 };
 
-/// Extremes of one output over the whole motion, not only its rows, and its last value.
+/// On a stretch of an output (Output::stretches): the station on its piece.
+struct OutputPlace {
+  int stretch = -1;  ///< -1: the output has none
+  double station = 0.0;
+};
+
+/// Extremes of one output over the whole motion, not only its rows, and its last value. Where it has stretches: over all
+/// places, with their signs; its values are magnitudes.
 struct OutputExtremes {
   double maximum = 0.0, minimum = 0.0, last = 0.0;  ///< in the unit of the output
   double t_maximum = 0.0, t_minimum = 0.0;          ///< the first time, where several are equal to rounding
+  OutputPlace at_maximum = {}, at_minimum = {};
 };
 
 /// Which engine computes, and how.

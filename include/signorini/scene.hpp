@@ -204,6 +204,8 @@ struct ReductionSpec {
 struct Section {
   std::string name;
   double EA = 0.0, EI = 0.0, mass_per_length = 0.0;  ///< EI 0: for bars only
+  double area = 0.0, modulus = 0.0;                  ///< stresses are N / area, M / modulus; 0: not known
+  double pipe_radius = 0.0, pipe_wall = 0.0;         ///< mean radius of a pipe; 0: it is none
 };
 
 struct Node {
@@ -215,7 +217,14 @@ struct Node {
 enum class MassKind { consistent, lumped };
 enum class MemberType { beam, bar };
 
-/// A chain of straight pieces between named nodes; elements[i] beams on piece i, one bar a piece.
+/// The pieces of a member are arcs.
+struct Bend {
+  double radius = 0.0;           ///< > 0: the course from node to node turns left
+  double flexibility = 1.0;      ///< EI is divided by it
+  double intensification = 1.0;  ///< of stresses of bending
+};
+
+/// A chain of pieces between named nodes; elements[i] beams on piece i, one bar a piece.
 struct Member {
   std::vector<std::string> nodes = {};
   std::string section = {};
@@ -227,6 +236,7 @@ struct Member {
   double thermal_expansion = 0.0;                    ///< strain per temperature
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
+  std::optional<Bend> bend = {};                     ///< absent: straight pieces
 };
 
 struct PointMass {
@@ -252,6 +262,8 @@ struct Spring {
   double stiffness = 0.0, damping = 0.0;
   SourcePlace place = {};
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
+  double preload = 0.0;                                     ///< force where nothing has moved
+  std::optional<double> hot_load = {};                      ///< of a spring hanger, as it was designed
 };
 
 struct Support {
@@ -354,13 +366,17 @@ enum class OutputKind : unsigned char {
   acceleration,
   relative,
   member_force,
+  stress,
+  envelope,
   reaction,
   spring,
   contact,
   combination
 };
-/// Of a member N, V, M; of a contact the others, and N.
-enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss };
+/// Of a member N, V, M, stress; of a contact the others, and N.
+enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress };
+/// Of a section: where y is greatest to the left of the course from node to node, to the right, or both.
+enum class Fibre : unsigned char { both, left, right };
 
 struct OutputKindName {
   OutputKind kind;
@@ -376,25 +392,39 @@ inline constexpr std::array all_output_kinds = {
                    "displacement of the first node less that of the second, along a direction"},
     OutputKindName{OutputKind::member_force, "member_force",
                    "N, V or M of the piece of a member between two nodes, at a station"},
+    OutputKindName{OutputKind::stress, "stress",
+                   "N / area +- M / modulus of the piece of a member between two nodes, at a station"},
+    OutputKindName{OutputKind::envelope, "envelope",
+                   "greatest magnitude of N, V, M or stress along pieces of members"},
     OutputKindName{OutputKind::reaction, "reaction",
                    "force (or moment) of the supports of a node on the structure"},
-    OutputKindName{OutputKind::spring, "spring", "force (or moment) in a spring and the damper beside it"},
+    OutputKindName{OutputKind::spring, "spring",
+                   "force (or moment) in a spring, preload and the damper beside it included"},
     OutputKindName{OutputKind::contact, "contact", "N, T, gap, slip or loss of a contact"},
     OutputKindName{OutputKind::combination, "combination", "sum of other outputs times factors"},
+};
+
+/// A part of a combination.
+struct OutputTerm {
+  std::string name;  ///< of an output that stands before it
+  double factor = 1.0;
+  Unit unit = {};  ///< of the factor
 };
 
 /// A response quantity: a column of response.csv.
 struct OutputSpec {
   std::string name;
   OutputKind kind = OutputKind::displacement;
-  std::vector<std::string> at;  ///< nodes, or a contact
+  std::vector<std::string> at;  ///< nodes, or a contact; envelope: from each node to the next a piece
   Direction direction;          ///< unit vector, or degrees of freedom as given
   bool rotation = false;        ///< instead of a direction
   OutputQuantity quantity = OutputQuantity::none;
-  double station = 0.0;                               ///< member_force: from at[0], 0, to at[1], 1
-  std::size_t spring = 0;                             ///< index into Scene::springs
-  std::vector<std::pair<std::string, double>> terms;  ///< combination: outputs that stand before it
+  double station = 0.0;           ///< member_force, stress: from at[0], 0, to at[1], 1
+  std::size_t spring = 0;         ///< index into Scene::springs
+  std::vector<OutputTerm> terms;  ///< combination
   SourcePlace place;
+  Fibre fibre = Fibre::both;                   ///< of stresses
+  std::optional<double> intensification = {};  ///< of stresses of bending; absent: that of the bend, or 1
 };
 
 /// Triplets (row, column, value), symmetric ones written out in full.

@@ -9,6 +9,7 @@
 #include "cli/table.hpp"
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
+#include "model/outputs/hangers.hpp"
 #include "run/expected.hpp"
 
 namespace signorini::cli {
@@ -101,6 +102,18 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
                                                  : model.static_start     ? "in static equilibrium"
                                                                           : "in the given initial state") +
          table.str() + more(report.contacts.size()) + "\n";
+}
+
+/// A line a spring with a preload.
+std::string hanger_rows(const Model& model) {
+  if (model.hangers.empty()) return "";
+  const std::string force = unit(model.units.force);
+  Table table({"spring", "preload" + force, "at t = 0" + force, "designed hot" + force, "variability"},
+              {false, true, true, true, true});
+  for (const HangerLoad& h : model.hangers)
+    table.row({fmt::format("{}", h.spring), number(h.cold), number(h.at_start), h.hot ? number(*h.hot) : "",
+               h.at_start == 0.0 ? "-" : fmt::format("{:.3g} %", 100.0 * variability(h))});
+  return "springs with a preload:\n" + table.str() + "\n";
 }
 
 std::string warning_lines(const CheckReport& report) {
@@ -296,9 +309,9 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 
 std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
   return head(scene, model, report) + body_lines(scene) + "\n" + contact_rows(model, report) +
-         warning_lines(report) + free_motion_lines(report) + frequency_rows(model, report) +
-         stiffness_rows(model, report) + load_rows(model, report) + reduction_lines(model) +
-         cost_lines(scene, model, report);
+         hanger_rows(model) + warning_lines(report) + free_motion_lines(report) +
+         frequency_rows(model, report) + stiffness_rows(model, report) + load_rows(model, report) +
+         reduction_lines(model) + cost_lines(scene, model, report);
 }
 
 std::string column_text(const Model& model) {

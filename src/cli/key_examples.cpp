@@ -141,7 +141,22 @@ EA = 9.0e6
 EI = 2.0e6
 mass_per_length = 0.4
 ```)"},
-    {"sections.*", "### `[sections.NAME]`", ""},
+    {"sections.*", "### `[sections.NAME]`",
+     R"(Or from a shape: EA = E A, EI = E I, the mass of the material and of what is in it and around it; with it stresses are
+known.
+
+```toml
+[sections.line]
+pipe = { diameter = 0.3239, wall = 0.0095, E = 2.0e8, density = 7.85, content = 1.0, insulation = { thickness = 0.08, density = 0.14 } }
+
+[sections.rack]
+i = { height = 0.3, width = 0.3, web = 0.011, flange = 0.019, E = 2.1e8, density = 7.85 }
+```)"},
+    {"sections.*.pipe", "### `sections.NAME.pipe`", ""},
+    {"sections.*.pipe.insulation", "### `sections.NAME.pipe.insulation`", ""},
+    {"sections.*.box", "### `sections.NAME.box`", ""},
+    {"sections.*.i", "### `sections.NAME.i`", ""},
+    {"sections.*.round", "### `sections.NAME.round`", ""},
     {"nodes", "## `[nodes]`",
      R"(```toml
 [nodes]
@@ -177,7 +192,15 @@ section = "pipe"
 release = ["P20"]           # a hinge at its end
 thermal_expansion = 1.2e-5
 temperature = { type = "table", times = [0.0, 60.0], values = [0.0, 80.0], hold = true }
-```)"},
+
+[[members]]
+nodes = ["D", "E"]          # an elbow, from where one straight pipe ends to where the next begins
+section = "pipe"
+bend = { radius = 0.457 }   # turns left from D to E
+```
+
+The elements of an arc are chords: displacements and forces come to those of the arc with the square of their length.)"},
+    {"members[].bend", "### `members.bend`", ""},
     {"masses[]", "## `[[masses]]`",
      R"(```toml
 [[masses]]
@@ -238,7 +261,29 @@ damping = 1.5
 [[springs]]
 node = "B"
 rotation_stiffness = 350.0  # a soft footing
-```)"},
+
+[[springs]]                 # a spring hanger: 12 in operation, where the pipe has risen by 0.02; 14 when cold
+node = "B"
+direction = [0.0, -1.0]     # away from where it hangs
+hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }
+
+[[springs]]                 # a constant hanger: no stiffness
+node = "D"
+direction = [0.0, -1.0]
+preload = 12.0
+
+[[springs]]                 # a snubber: it acts against motions alone
+node = "D"
+direction = [1.0, 0.0]
+damping = 40.0
+```
+
+The force in a spring is preload + stiffness d + damping d', d: the motion of its node along `direction` less that of the
+other end. It pulls the node against `direction`. A preload is a static load, called "preload of spring 2", "preload" in
+stages; its work counts with that of the loads. `check` and `model.hangers` in summary.json say what springs with a
+preload bear at t = 0, and how far off that is; more than 25 % in equilibrium is warned of. A snubber is linear here: a
+damper, which statics do not see.)"},
+    {"springs[].hanger", "### `springs.hanger`", ""},
     {"matrices", "## `[matrices]`",
      R"(Whatever another program assembled, instead of gravity, nodes, members, masses, springs, supports and damping.
 A matrix is a file in the Matrix Market format (`coordinate` or `array`, `real` or `integer`, `general` or
@@ -429,6 +474,23 @@ quantity = "slip"
 name = "half_thrust"
 kind = "combination"
 terms = { thrust = 0.5 }
+
+[[output]]
+name = "stress_foot"         # both fibres: N/A - M/W and N/A + M/W
+kind = "stress"
+at = ["A", "B"]
+station = 0.0
+
+[[output]]
+name = "M_column"            # greatest |M| anywhere between A and B
+kind = "envelope"
+nodes = ["A", "B"]
+quantity = "M"
+
+[[output]]
+name = "sigma"               # factors with units: kN/m^2
+kind = "combination"
+terms = { M_foot = { factor = 820.0, unit = "1/m^3" }, thrust = { factor = 95.0, unit = "1/m^2" } }
 ```
 
 | kind | what it is |
@@ -437,10 +499,12 @@ terms = { thrust = 0.5 }
 | `acceleration` | the same, absolute: that of the base is added |
 | `relative` | displacement of the first node of `at` less that of the second |
 | `member_force` | `quantity` N, V or M of the piece of a member between the two nodes of `at`, at `station` |
+| `stress` | N / area and M / modulus there, positive where they stretch: at the `fibre` to the left or right of the course, or of `both` the greatest magnitude |
+| `envelope` | greatest magnitude of `quantity` N, V, M or stress along all pieces from node to node of `nodes` |
 | `reaction` | force of the supports of the node `at` on the structure along `direction`, or their moment (`rotation`) |
-| `spring` | force in the spring of that number and the damper beside it, or their moment (`rotation`) |
+| `spring` | force in the spring of that number, its preload and the damper beside it included, or their moment (`rotation`) |
 | `contact` | `quantity` N, T, gap, slip (as in contacts.csv) or loss (work of its friction since the start) of the contact `at` |
-| `combination` | sum of other outputs, `terms` = their factors |
+| `combination` | sum of other outputs, `terms` = their factors, which may have units |
 
 With `[matrices]` there are displacements, velocities and accelerations along a `direction` of degrees of freedom, contacts
 and combinations.)"},

@@ -112,6 +112,16 @@ std::string method_of(const Method& method) {
   return name;
 }
 
+/// "0.31", of an envelope "0.31, A-B 0.625 left".
+std::string when_and_where(const Output& output, double t, const OutputPlace& place) {
+  if (place.stretch < 0) return number(t);
+  const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
+  return fmt::format("{}, {}-{} {}{}", number(t), stretch.from, stretch.to, number(place.station),
+                     stretch.fibre == Fibre::left    ? " left"
+                     : stretch.fibre == Fibre::right ? " right"
+                                                     : "");
+}
+
 }  // namespace
 
 std::string start_table(const Model& model, TableStyle style) {
@@ -184,8 +194,10 @@ std::string response_table(const Model& model, const Report& report, TableStyle 
               {false, false, true, true, true, true, true});
   for (std::size_t i = 0; i < model.outputs.size() && i < most; ++i) {
     const OutputExtremes& e = report.response[i];
-    table.row({model.outputs[i].name, unit_text(model.outputs[i].unit, model.units), number(e.maximum),
-               number(e.t_maximum), number(e.minimum), number(e.t_minimum), number(e.last)});
+    const Output& output = model.outputs[i];
+    table.row({output.name, unit_text(output.unit, model.units), number(e.maximum),
+               when_and_where(output, e.t_maximum, e.at_maximum), number(e.minimum),
+               when_and_where(output, e.t_minimum, e.at_minimum), number(e.last)});
   }
   if (model.outputs.size() > most)
     table.line(fmt::format("... {} more; all are in summary.json", model.outputs.size() - most));

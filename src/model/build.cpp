@@ -22,6 +22,7 @@
 #include "model/machine_units.hpp"
 #include "model/massless.hpp"
 #include "model/modes/modes.hpp"
+#include "model/outputs/hangers.hpp"
 #include "model/outputs/make_outputs.hpp"
 #include "model/reduce/reduction.hpp"
 #include "model/rescale.hpp"
@@ -153,6 +154,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
                  {place, scene.matrices ? scene.matrices->stiffness.place : place,
                   scene.matrices ? "matrices.stiffness" : ""});
   set_initial_state(scene, map, model);
+  if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   set_damping(scene, assembly.dampers, model);

@@ -14,6 +14,7 @@
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/initial_state.hpp"
+#include "model/outputs/hangers.hpp"
 #include "model/slip_growth.hpp"
 #include "model/statics/null_motions.hpp"
 #include "model/statics/static_system.hpp"
@@ -50,6 +51,7 @@ class Doubts {
     pulses();
     sudden_supports();
     growth();
+    for (std::string& doubt : hanger_doubts(model_)) found_.push_back(std::move(doubt));
     for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
     return std::move(found_);
   }

@@ -19,6 +19,8 @@ std::string word_of(LoadKind kind) {
       return "temperature";
     case LoadKind::initial_strain:
       return "initial strain";
+    case LoadKind::preload:
+      return "preload";
     case LoadKind::support:
       return "supports";
     case LoadKind::force:

@@ -65,6 +65,7 @@ class Rescaling {
     for (auto& [i, factor] : form.terms) factor *= value / of_dof(i);
   }
   void operator()(Output& o) const {
+    if (is_greatest(o)) return for_each_linear(o, [this](Output& linear) { (*this)(linear); });
     const Unit& of = o.unit;
     value_of(o.u, of);
     value_of(o.v, {of.force, of.length, of.time + 1});
@@ -199,6 +200,11 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.u0, unit::plain);
   rescale(model.v0, unit::rate);
   for (double& reaction : model.statics.reactions) rescale(reaction, unit::force);
+  for (HangerLoad& hanger : model.hangers) {
+    rescale(hanger.cold, unit::force);
+    rescale(hanger.at_start, unit::force);
+    rescale(hanger.hot, unit::force);
+  }
   for (StageEnd& end : model.statics.stages)
     for (std::vector<double>* forces : {&end.N, &end.T})
       for (double& force : *forces) rescale(force, unit::force);

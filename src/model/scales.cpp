@@ -133,6 +133,7 @@ double force_of(const Model& model, const DofMap& map, double t_end) {
         break;
       case LoadKind::temperature:
       case LoadKind::initial_strain:
+      case LoadKind::preload:
       case LoadKind::support:
       case LoadKind::support_rate:
         held = std::max(held, greatest_force(direction, map) * most);

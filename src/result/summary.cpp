@@ -12,6 +12,7 @@
 #include "engine/tolerance.hpp"
 #include "model/modes/rounding_floor.hpp"
 #include "result/certificate_json.hpp"
+#include "result/hangers_json.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
 #include "result/witness_json.hpp"
@@ -90,6 +91,7 @@ Json model_json(const Model& model) {
                {"omega_max", model.omega_max},
                {"static_start", model.static_start}};
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
+  if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
                     {"rotation", model.scales.rotation},
@@ -206,6 +208,16 @@ Json extreme_json(const Model& model, const Extreme& extreme, double scale) {
   return json;
 }
 
+Json output_extreme_json(const Output& output, double value, double t, const OutputPlace& place) {
+  Json json = {{"value", value}, {"t", t}};
+  if (place.stretch < 0) return json;
+  const Output::Stretch& stretch = output.stretches[static_cast<std::size_t>(place.stretch)];
+  json["at"] = {stretch.from, stretch.to};
+  json["station"] = place.station;
+  if (stretch.fibre != Fibre::both) json["fibre"] = stretch.fibre == Fibre::left ? "left" : "right";
+  return json;
+}
+
 Json response_json(const Model& model, const Report& report) {
   Json list = Json::array();
   for (std::size_t i = 0; i < report.response.size() && i < model.outputs.size(); ++i) {
@@ -214,9 +226,10 @@ Json response_json(const Model& model, const Report& report) {
     list.push_back({{"name", output.name},
                     {"kind", all_output_kinds[static_cast<std::size_t>(output.kind)].name},
                     {"unit", unit_text(output.unit, model.units)},
-                    {"maximum", {{"value", e.maximum}, {"t", e.t_maximum}}},
-                    {"minimum", {{"value", e.minimum}, {"t", e.t_minimum}}},
+                    {"maximum", output_extreme_json(output, e.maximum, e.t_maximum, e.at_maximum)},
+                    {"minimum", output_extreme_json(output, e.minimum, e.t_minimum, e.at_minimum)},
                     {"last", e.last}});
+    if (!output.contains.empty()) list.back()["contains"] = output.contains;
   }
   return list;
 }

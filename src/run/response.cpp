@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "run/stretch_peaks.hpp"
 
 namespace signorini {
 namespace {
@@ -23,48 +24,8 @@ double resolved(std::size_t stride) {
   return stride == 1 ? of[0] : stride == 2 ? of[1] : of[2];
 }
 
-struct Bounds {
-  double least = 0.0, greatest = 0.0;
-};
-
-Bounds at_points(const Chebyshev::Values& values, std::size_t stride) {
-  Bounds b{values[0], values[0]};
-  for (std::size_t j = stride; j < Chebyshev::count; j += stride) {
-    b.least = std::min(b.least, values[j]);
-    b.greatest = std::max(b.greatest, values[j]);
-  }
-  return b;
-}
-
-/// With what lies between the points: where p rises from one and falls to the next, it stays below both tangents.
-Bounds between_points(const Chebyshev::Values& values, std::size_t stride) {
-  const Chebyshev::Values& x = Chebyshev::nodes();
-  const Chebyshev::Values slope = Chebyshev::slopes(values, stride);
-  Bounds b = at_points(values, stride);
-  for (std::size_t j = 0; j + stride < Chebyshev::count; j += stride) {
-    const double sa = slope[j], sb = slope[j + stride], width = x[j + stride] - x[j];
-    if ((sa > 0.0) == (sb > 0.0)) continue;
-    const double to = (values[j + stride] - values[j] - sb * width) / (sa - sb);
-    const double peak = values[j] + sa * std::clamp(to, 0.0, width);
-    b.least = std::min(b.least, peak);
-    b.greatest = std::max(b.greatest, peak);
-  }
-  return b;
-}
-
-/// Sum of the magnitudes of its terms: what rounding is relative to.
-double magnitude_of(const Output& output, double t, Side side, const Point& point) {
-  double sum = std::abs(output.constant) + output.u.magnitude(point.u) + output.v.magnitude(point.v);
-  if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.magnitude(point.a);
-  for (const Output::ContactForces& f : output.forces)
-    sum += std::abs(f.N * point.N(f.contact)) + std::abs(f.T * point.T(f.contact));
-  for (const Output::Given& g : output.given)
-    sum += std::abs((side == Side::after ? g.history.piece(t) : g.history.piece_before(t)).value(t));
-  return sum;
-}
-
 /// Of displacements and velocities alone.
-bool is_of_motion(const Output& output) { return output.a.terms.empty() && output.forces.empty(); }
+bool is_of_motion(const Output& linear) { return linear.a.terms.empty() && linear.forces.empty(); }
 
 double fastest_of(const History& history) {
   double omega = 0.0;
@@ -80,67 +41,68 @@ double fastest_of(const Model& model) {
   for (const Contact& contact : model.contacts)
     omega = std::max({omega, fastest_of(contact.normal_force), fastest_of(contact.surface_motion)});
   for (const Output& output : model.outputs)
-    for (const Output::Given& given : output.given) omega = std::max(omega, fastest_of(given.history));
+    for_each_linear(output, [&](const Output& o) {
+      for (const Output::Given& given : o.given) omega = std::max(omega, fastest_of(given.history));
+    });
   return omega;
 }
 
 }  // namespace
 
-double value_of(const Output& output, double t, Side side, const Point& point,
-                const std::vector<double>& losses) {
-  if (output.loss) return *output.loss < losses.size() ? losses[*output.loss] : 0.0;
-  double sum = output.constant + output.u.dot(point.u) + output.v.dot(point.v);
-  if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.dot(point.a);
-  for (const Output::ContactForces& f : output.forces)
-    sum += f.N * point.N(f.contact) + f.T * point.T(f.contact);
-  for (const Output::Given& g : output.given)
-    sum += (side == Side::after ? g.history.piece(t) : g.history.piece_before(t)).value(t);
-  return sum;
-}
-
 ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense)
-    : model_(model),
-      recorder_(recorder),
-      t_end_(t_end),
-      dense_(dense),
-      extremes_(model.outputs.size()),
-      magnitudes_(model.outputs.size()),
-      samples_(model.outputs.size()) {
+    : model_(model), recorder_(recorder), t_end_(t_end), dense_(dense), extremes_(model.outputs.size()) {
+  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
+    const Output& output = model.outputs[i];
+    if (output.stretches.empty()) watched_.push_back({i, -1, forms_.size(), 1});
+    for (std::size_t j = 0; j < output.stretches.size(); ++j) {
+      const std::size_t points = output.stretches[j].at.size();
+      watched_.push_back({i, static_cast<int>(j), forms_.size() + j * points, points});
+    }
+    for_each_linear(output, [&](const Output& o) { forms_.push_back(&o); });
+  }
+  magnitudes_.resize(forms_.size());
+  samples_.resize(forms_.size());
   loads_changed();
 }
 
 void ResponseWatch::loads_changed() { radian_ = 1.0 / std::max(fastest_of(model_), 1.0 / t_end_); }
 
 void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
-                             std::vector<double>& values) const {
-  values.clear();
-  for (const Output& output : model_.outputs) values.push_back(value_of(output, t, side, point, losses));
+                             std::vector<OutputReading>& readings) const {
+  readings.clear();
+  for (const Output& output : model_.outputs) readings.push_back(reading_of(output, t, side, point, losses));
 }
 
-void ResponseWatch::see(std::size_t i, double t, double value) {
+void ResponseWatch::see(std::size_t i, double t, const OutputReading& r) {
   OutputExtremes& e = extremes_[i];
   const double equal_to_most = tie * std::abs(e.maximum), equal_to_least = tie * std::abs(e.minimum);
-  if (value > e.maximum + equal_to_most || (t < e.t_maximum && value >= e.maximum - equal_to_most)) {
-    e.maximum = std::max(value, e.maximum);
+  if (r.greatest > e.maximum + equal_to_most ||
+      (t < e.t_maximum && r.greatest >= e.maximum - equal_to_most)) {
+    e.maximum = std::max(r.greatest, e.maximum);
     e.t_maximum = t;
+    e.at_maximum = r.at_greatest;
   }
-  if (value < e.minimum - equal_to_least || (t < e.t_minimum && value <= e.minimum + equal_to_least)) {
-    e.minimum = std::min(value, e.minimum);
+  if (r.least < e.minimum - equal_to_least || (t < e.t_minimum && r.least <= e.minimum + equal_to_least)) {
+    e.minimum = std::min(r.least, e.minimum);
     e.t_minimum = t;
+    e.at_minimum = r.at_least;
   }
 }
 
-void ResponseWatch::write(double t, const std::vector<double>& values) {
+void ResponseWatch::write(double t, const std::vector<OutputReading>& readings) {
+  std::vector<double> values;
+  for (const OutputReading& r : readings) values.push_back(r.value);
   if (began_ && t == last_t_ && values == last_) return;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!began_) extremes_[i] = {values[i], values[i], values[i], t, t};
-    see(i, t, values[i]);
-    extremes_[i].last = values[i];
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const OutputReading& r = readings[i];
+    if (!began_) extremes_[i] = {r.greatest, r.least, r.value, t, t, r.at_greatest, r.at_least};
+    see(i, t, r);
+    extremes_[i].last = r.value;
   }
   began_ = true;
   last_t_ = t;
-  last_ = values;
   recorder_.response(t, values);
+  last_ = std::move(values);
 }
 
 void ResponseWatch::before(double t, const Point& point, const std::vector<double>& losses) {
@@ -151,10 +113,10 @@ void ResponseWatch::before(double t, const Point& point, const std::vector<doubl
 
 void ResponseWatch::row(double t, Side side, const Point& point, const std::vector<double>& losses) {
   if (!any()) return;
-  evaluate(t, side, point, losses, values_);
+  evaluate(t, side, point, losses, readings_);
   if (before_t_ == t) write(t, before_);
   before_t_ = -1.0;
-  write(t, values_);
+  write(t, readings_);
   for (const Output& sum : model_.reaction_sums) {
     const double off = std::abs(value_of(sum, t, side, point, none_));
     if (off > reactions_.value) reactions_ = {off, t, -1};
@@ -163,19 +125,21 @@ void ResponseWatch::row(double t, Side side, const Point& point, const std::vect
 
 void ResponseWatch::inside(Stepper& engine, double begin, double end) {
   if (!any() || !(end > begin)) return;
-  std::vector<char> open;
-  bool at_end = false;
-  for (const Output& output : model_.outputs) {
-    const bool between = !output.loss && (dense_ || is_of_motion(output));
+  std::vector<char> open, at_end(model_.outputs.size(), 0);
+  for (const Watched& watched : watched_) {
+    const std::span forms = std::span(forms_).subspan(watched.first, watched.count);
+    const bool loss = forms.front()->loss.has_value();
+    const bool between =
+        !loss && (dense_ || std::all_of(forms.begin(), forms.end(),
+                                        [](const Output* linear) { return is_of_motion(*linear); }));
     open.push_back(between ? 1 : 0);
-    at_end = at_end || (!output.loss && !between);
+    if (!between && !loss) at_end[watched.output] = 1;
   }
-  if (at_end) {
+  if (std::find(at_end.begin(), at_end.end(), 1) != at_end.end()) {
     engine.evaluate(end, point_);
     engine.accelerate(end, point_);
-    for (std::size_t i = 0; i < open.size(); ++i)
-      if (open[i] == 0 && !model_.outputs[i].loss)
-        see(i, end, value_of(model_.outputs[i], end, Side::before, point_, none_));
+    for (std::size_t i = 0; i < at_end.size(); ++i)
+      if (at_end[i] != 0) see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, none_));
   }
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
   double from = begin;
@@ -195,17 +159,26 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
   }
 }
 
+std::span<const Chebyshev::Values> ResponseWatch::samples_of(const Watched& watched) const {
+  return std::span(samples_).subspan(watched.first, watched.count);
+}
+
 void ResponseWatch::sample(Stepper& engine, const Part& part, double begin, std::size_t point) {
   const double x = Chebyshev::nodes()[point];
   const double t =
       point + 1 == Chebyshev::count ? part.end : part.begin + 0.5 * (x + 1.0) * (part.end - part.begin);
   engine.interpolate(t, point_);
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (part.open[i] == 0) continue;
-    const Side side = t == begin ? Side::after : Side::before;
-    samples_[i][point] = value_of(model_.outputs[i], t, side, point_, none_);
-    magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(model_.outputs[i], t, side, point_));
-    see(i, t, samples_[i][point]);
+  const Side side = t == begin ? Side::after : Side::before;
+  for (std::size_t k = 0; k < watched_.size(); ++k) {
+    if (part.open[k] == 0) continue;
+    const Watched& watched = watched_[k];
+    for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
+      samples_[i][point] = value_of(*forms_[i], t, side, point_, none_);
+      if (watched.stretch < 0 || point == 0)  // of the many points of stretches the beginning will do
+        magnitudes_[i] = std::max(magnitudes_[i], magnitude_of(*forms_[i], t, side, point_));
+    }
+    const double value = samples_[watched.first][point];
+    if (watched.stretch < 0) see(watched.output, t, {value, value, value, {}, {}});
   }
 }
 
@@ -214,53 +187,96 @@ bool ResponseWatch::look(Stepper& engine, Part& part, double begin) {
   for (const std::size_t stride : {4U, 2U, 1U}) {
     for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride) sample(engine, part, begin, j);
     bool left = false;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (part.open[i] == 0) continue;
-      if (settled(i, engine, part, stride)) part.open[i] = 0;
-      left = left || part.open[i] != 0;
+    for (std::size_t k = 0; k < watched_.size(); ++k) {
+      if (part.open[k] == 0) continue;
+      if (settled(watched_[k], engine, part, stride)) part.open[k] = 0;
+      left = left || part.open[k] != 0;
     }
     if (!left) return false;
   }
   if (part.end - part.begin > radian_) return true;
-  for (std::size_t i = 0; i < samples_.size(); ++i)
-    if (part.open[i] != 0) sharpen(i, engine, part, 1);
+  for (std::size_t k = 0; k < watched_.size(); ++k)
+    if (part.open[k] != 0) sharpen(watched_[k], engine, part, 1);
   return false;
 }
 
-bool ResponseWatch::settled(std::size_t i, Stepper& engine, const Part& part, std::size_t stride) {
-  const Chebyshev::Values& values = samples_[i];
+bool ResponseWatch::settled(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride) {
+  const std::span<const Chebyshev::Values> all = samples_of(watched);
   double error = 0.0;
-  for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride)
-    error =
-        std::max(error, std::abs(Chebyshev::through(values, 2 * stride, Chebyshev::nodes()[j]) - values[j]));
-  const OutputExtremes& known = extremes_[i];
-  const auto within = [&](const Bounds& b, double rest) {
+  for (const Chebyshev::Values& values : all)
+    for (std::size_t j = stride; j < Chebyshev::count; j += 2 * stride)
+      error = std::max(error,
+                       std::abs(Chebyshev::through(values, 2 * stride, Chebyshev::nodes()[j]) - values[j]));
+  if (watched.stretch >= 0) error *= Along::lebesgue;
+  const OutputExtremes& known = extremes_[watched.output];
+  const auto within = [&](const ValueBounds& b, double rest) {
     return b.greatest + rest <= known.maximum && b.least - rest >= known.minimum;
   };
-  const Bounds at = at_points(values, stride);
+  const ValueBounds at = bounds_along(all, stride, false);
   if (within(at, 2.0 * error + (at.greatest - at.least))) return true;
-  if (stride < 4 && within(between_points(values, stride), 2.0 * error)) return true;
+  if (stride < 4 && within(bounds_along(all, stride, true), 2.0 * error)) return true;
   const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));  // samples are known
-  if (error > std::max(resolved(stride) * size, rounding::of_elimination * magnitudes_[i])) return false;
-  sharpen(i, engine, part, stride);
+  double magnitude = 0.0;
+  for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
+    magnitude = std::max(magnitude, magnitudes_[i]);
+  if (error > std::max(resolved(stride) * size, rounding::of_elimination * magnitude)) return false;
+  sharpen(watched, engine, part, stride);
   return true;
 }
 
-void ResponseWatch::sharpen(std::size_t i, Stepper& engine, const Part& part, std::size_t stride) {
+void ResponseWatch::sharpen(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride) {
+  if (watched.stretch < 0)
+    sharpen_output(watched, engine, part, stride);
+  else
+    sharpen_stretch(watched, engine, part, stride);
+}
+
+void ResponseWatch::see_motion(const Watched& watched, Stepper& engine, double t) {
+  engine.interpolate(t, point_);
+  const Output& output = model_.outputs[watched.output];
+  Along::Values values{};
+  for (std::size_t i = 0; i < watched.count; ++i)
+    values[i] = value_of(*forms_[watched.first + i], t, Side::before, point_, none_);
+  see(watched.output, t,
+      watched.stretch < 0 ? OutputReading{values[0], values[0], values[0], {}, {}}
+                          : along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
+}
+
+void ResponseWatch::sharpen_output(const Watched& watched, Stepper& engine, const Part& part,
+                                   std::size_t stride) {
+  const Chebyshev::Values& values = samples_[watched.first];
   const Chebyshev::Values& nodes = Chebyshev::nodes();
-  const Chebyshev::Values slope = Chebyshev::slopes(samples_[i], stride);
+  const Chebyshev::Values slope = Chebyshev::slopes(values, stride);
   const double half = 0.5 * (part.end - part.begin);
   for (std::size_t j = 0; j + stride < Chebyshev::count; j += stride) {
     if ((slope[j] > 0.0) == (slope[j + stride] > 0.0)) continue;
     const double x = Chebyshev::turn_between(slope, stride, nodes[j], nodes[j + stride]);
-    const double p = Chebyshev::through(samples_[i], stride, x);
-    const OutputExtremes& known = extremes_[i];
+    const double p = Chebyshev::through(values, stride, x);
+    const OutputExtremes& known = extremes_[watched.output];
     const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
     if (p + rest <= known.maximum && p - rest >= known.minimum) continue;
-    const double at = part.begin + half * (x + 1.0);
-    engine.interpolate(at, point_);
-    see(i, at, value_of(model_.outputs[i], at, Side::before, point_, none_));
+    see_motion(watched, engine, part.begin + half * (x + 1.0));
   }
+}
+
+void ResponseWatch::sharpen_stretch(const Watched& watched, Stepper& engine, const Part& part,
+                                    std::size_t stride) {
+  const std::span<const Chebyshev::Values> all = samples_of(watched);
+  const Output& output = model_.outputs[watched.output];
+  const double half = 0.5 * (part.end - part.begin);
+  for (std::size_t j = 0; j < Chebyshev::count; j += stride) {
+    const double x = Chebyshev::nodes()[j];
+    Along::Values values{};
+    for (std::size_t i = 0; i < watched.count; ++i) values[i] = all[i][j];
+    see(watched.output, j + 1 == Chebyshev::count ? part.end : part.begin + half * (x + 1.0),
+        along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
+  }
+  const OutputExtremes& known = extremes_[watched.output];
+  const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
+  for (const double x : peaks_along(all, stride, 1.0, known.maximum + rest))
+    see_motion(watched, engine, part.begin + half * (x + 1.0));
+  for (const double x : peaks_along(all, stride, -1.0, known.minimum - rest))
+    see_motion(watched, engine, part.begin + half * (x + 1.0));
 }
 
 }  // namespace signorini

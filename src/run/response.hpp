@@ -8,21 +8,21 @@
 //             e below a part of |r|: p' = 0 gives the times, r its values there;
 //             else more points, else both halves, until no motion turns by more than a radian in a part
 //
+// An output with stretches (an envelope, the extremes of a stress) is followed stretch by stretch, at the points of each:
+// stretch_peaks.hpp in place of p and p'.
+//
 // The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average
 // acceleration in `newmark`, which is in equilibrium at the ends of its steps only: there stand its extremes of
 // forces and accelerations. Losses only grow, so their extremes stand in rows.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "run/audit.hpp"
 #include "run/chebyshev.hpp"
+#include "run/output_value.hpp"
 
 namespace signorini {
-
-/// The value of an output; losses: of all contacts.
-[[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
-                              const std::vector<double>& losses);
 
 class ResponseWatch {
  public:
@@ -44,20 +44,31 @@ class ResponseWatch {
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
 
  private:
+  /// What has points in time of its own: a linear output, or a stretch of another.
+  struct Watched {
+    std::size_t output = 0;
+    int stretch = -1;                  ///< -1: a linear output
+    std::size_t first = 0, count = 1;  ///< in forms_
+  };
   struct Part {
     double begin = 0.0, end = 0.0;
-    std::vector<char> open;  // outputs that are not settled there
+    std::vector<char> open;  // what is watched and not settled there
   };
 
   void evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
-                std::vector<double>& values) const;
-  void write(double t, const std::vector<double>& values);
-  void see(std::size_t output, double t, double value);
+                std::vector<OutputReading>& readings) const;
+  void write(double t, const std::vector<OutputReading>& readings);
+  void see(std::size_t output, double t, const OutputReading& reading);
+  [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
   /// Closes what is settled; false: nothing is left.
   [[nodiscard]] bool look(Stepper& engine, Part& part, double begin);
   void sample(Stepper& engine, const Part& part, double begin, std::size_t point);
-  [[nodiscard]] bool settled(std::size_t output, Stepper& engine, const Part& part, std::size_t stride);
-  void sharpen(std::size_t output, Stepper& engine, const Part& part, std::size_t stride);
+  [[nodiscard]] bool settled(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
+  void sharpen(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
+  void sharpen_output(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
+  void sharpen_stretch(const Watched& watched, Stepper& engine, const Part& part, std::size_t stride);
+  /// The engine's own values there.
+  void see_motion(const Watched& watched, Stepper& engine, double t);
 
   const Model& model_;
   Recorder& recorder_;
@@ -66,10 +77,13 @@ class ResponseWatch {
   bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
-  std::vector<double> values_, last_, before_, none_;
-  std::vector<double> magnitudes_;  // of the terms of each output, until now
+  std::vector<OutputReading> readings_, before_;
+  std::vector<double> last_, none_;
+  std::vector<Watched> watched_;
+  std::vector<const Output*> forms_;  // linear ones
+  std::vector<double> magnitudes_;    // of the terms of each form, until now
   double last_t_ = 0.0, before_t_ = -1.0;
-  std::vector<Chebyshev::Values> samples_;
+  std::vector<Chebyshev::Values> samples_;  // of each form
   Point point_;
   Extreme reactions_;
 };

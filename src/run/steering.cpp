@@ -34,8 +34,10 @@ void LoadChanges::set_load(const std::string& name, const History& history) {
   past_.push_back(std::exchange(found->history, found->history.then(t_, next)));
   for (std::vector<Output>* outputs : {&model_.outputs, &model_.reaction_sums})
     for (Output& output : *outputs)
-      for (Output::Given& given : output.given)
-        if (given.load == found->name) given.history = found->history.scaled(given.factor);
+      for_each_linear(output, [&](Output& linear) {
+        for (Output::Given& given : linear.given)
+          if (given.load == found->name) given.history = found->history.scaled(given.factor);
+      });
   engine_.refuse(model_, run_);
   if (method_.engine == Engine::exact && method_.flow == "modal" && !choose_flow(model_, run_).modal)
     throw SceneError(run_.place, "set_load",

@@ -81,7 +81,7 @@ constexpr Key table_of_keys[] = {
     {"run.initial.*", "wz", number, "1/time", "", "", "Initial angular velocity, counter-clockwise."},
 
     {"run.stages[]", "name", name, "", "required", "", "Name of the stage."},
-    {"run.stages[]", "loads", texts, "", "required", "", "What grows from zero to what it is at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"supports\" (motions of all), \"base motion\"."},
+    {"run.stages[]", "loads", texts, "", "required", "", "What grows from zero to what it is at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"preload\" (of all springs), \"supports\" (motions of all), \"base motion\"."},
     {"run.stages[]", "steps", count, "", "1", "", "Equal parts, at most 10000, after each of which the contacts are told in summary.json."},
 
     {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time; or cutoff_omega."},
@@ -95,9 +95,42 @@ constexpr Key table_of_keys[] = {
     {"damping", "frequencies", numbers, "1/time", "", "", "The two frequencies [f1, f2] of `ratios`, in cycles per time."},
 
     {"sections", "*", table, "", "", "", "A cross-section of this name."},
-    {"sections.*", "EA", positive, "force", "required", "", "Axial stiffness."},
+    {"sections.*", "EA", positive, "force", "", "", "Axial stiffness; required without a shape."},
     {"sections.*", "EI", positive, "force*length^2", "", "", "Bending stiffness; required for beams, unused by bars."},
-    {"sections.*", "mass_per_length", non_negative, "mass/length", "required", "", "Mass per length."},
+    {"sections.*", "mass_per_length", non_negative, "mass/length", "", "", "Mass per length; required without a shape."},
+    {"sections.*", "area", positive, "length^2", "", "", "Area, where there is no shape: stresses are N / area."},
+    {"sections.*", "modulus", positive, "length^3", "", "", "Section modulus, where there is no shape: stresses are M / modulus."},
+    {"sections.*", "pipe", table, "", "", "", "A round tube, with what is in it and around it, instead of EA, EI, mass_per_length, area, modulus."},
+    {"sections.*", "box", table, "", "", "", "A rectangle, hollow where it has a wall, instead of them."},
+    {"sections.*", "i", table, "", "", "", "Two flanges and a web, instead of them."},
+    {"sections.*", "round", table, "", "", "", "A round rod, instead of them."},
+
+    {"sections.*.pipe", "diameter", positive, "length", "required", "", "Outer diameter."},
+    {"sections.*.pipe", "wall", positive, "length", "required", "", "Thickness of the wall."},
+    {"sections.*.pipe", "E", positive, "force/length^2", "required", "", "Young's modulus."},
+    {"sections.*.pipe", "density", non_negative, "mass/length^3", "required", "", "Density of the wall."},
+    {"sections.*.pipe", "content", non_negative, "mass/length^3", "0.0", "", "Density of what fills it; mass only."},
+    {"sections.*.pipe", "insulation", table, "", "", "", "What is around it; mass only."},
+    {"sections.*.pipe.insulation", "thickness", positive, "length", "required", "", "Thickness of the insulation."},
+    {"sections.*.pipe.insulation", "density", non_negative, "mass/length^3", "required", "", "Density of the insulation."},
+
+    {"sections.*.box", "width", positive, "length", "required", "", "Extent out of the plane."},
+    {"sections.*.box", "height", positive, "length", "required", "", "Extent in the plane, across the member."},
+    {"sections.*.box", "wall", positive, "length", "", "", "Thickness of all four walls; solid where absent."},
+    {"sections.*.box", "E", positive, "force/length^2", "required", "", "Young's modulus."},
+    {"sections.*.box", "density", non_negative, "mass/length^3", "required", "", "Density."},
+
+    {"sections.*.i", "width", positive, "length", "required", "", "Width of both flanges."},
+    {"sections.*.i", "height", positive, "length", "required", "", "Height over both flanges."},
+    {"sections.*.i", "web", positive, "length", "required", "", "Thickness of the web."},
+    {"sections.*.i", "flange", positive, "length", "required", "", "Thickness of a flange."},
+    {"sections.*.i", "axis", choice, "", "\"strong\"", "strong weak", "\"strong\": the web stands in the plane; \"weak\": across it."},
+    {"sections.*.i", "E", positive, "force/length^2", "required", "", "Young's modulus."},
+    {"sections.*.i", "density", non_negative, "mass/length^3", "required", "", "Density."},
+
+    {"sections.*.round", "diameter", positive, "length", "required", "", "Diameter."},
+    {"sections.*.round", "E", positive, "force/length^2", "required", "", "Young's modulus."},
+    {"sections.*.round", "density", non_negative, "mass/length^3", "required", "", "Density."},
 
     {"nodes", "*", vector, "length", "", "", "Position [x, y] of the node of this name."},
 
@@ -108,13 +141,19 @@ constexpr Key table_of_keys[] = {
 
     {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next. \"P0..P9\" stands for P0, P1, ..., P9, \"P0..P9:3\" for every third of them."},
     {"members[]", "section", name, "", "required", "", "Name of the section."},
-    {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number."},
+    {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number; 8 of each arc where absent."},
     {"members[]", "type", choice, "", "\"beam\"", "beam bar", "\"beam\": Euler-Bernoulli beam; \"bar\": truss member with EA and mass only, hinged at its ends, one element a piece."},
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
     {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: its first node, its last, or both; its end then has a rotation of its own."},
     {"members[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain for each unit of temperature, in whichever unit that is."},
     {"members[]", "temperature", standing_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the member; a number or a history."},
     {"members[]", "initial_strain", standing_history, "", "0.0", "", "Strain along the member that no force goes with, positive where it is too long; a number or a history."},
+
+    {"members[]", "bend", table, "", "", "", "The pieces are arcs of a circle, of at most half a turn, which the elements follow as chords."},
+
+    {"members[].bend", "radius", number, "length", "required", "", "Radius of the middle line: > 0 where the course from node to node turns left, < 0 where it turns right."},
+    {"members[].bend", "flexibility", positive, "", "", "", "EI is divided by it; of a pipe max(1, 1.65 / h) where absent, h = wall radius / r^2, r the mean radius of the wall; else 1."},
+    {"members[].bend", "sif", positive, "", "", "", "Stresses of bending are multiplied by it; of a pipe max(1, 0.9 / h^(2/3)) where absent; else 1."},
 
     {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
     {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
@@ -143,8 +182,14 @@ constexpr Key table_of_keys[] = {
     {"springs[]", "direction", vector, "", "", "", "Direction of the spring; its length does not matter. Required but for a spring of rotations."},
     {"springs[]", "stiffness", non_negative, "force/length", "0.0", "", "Stiffness."},
     {"springs[]", "damping", non_negative, "force*time/length", "0.0", "", "Damper beside the spring."},
+    {"springs[]", "preload", number, "force", "0.0", "", "Force in the spring while nothing has moved: it pulls the node against direction, as stiffness times a motion along it does."},
+    {"springs[]", "hanger", table, "", "", "", "Loads of a spring hanger, instead of preload: the cold one is the preload."},
     {"springs[]", "rotation_stiffness", non_negative, "force*length", "0.0", "", "Stiffness against rotation (rz), moment per rad."},
     {"springs[]", "rotation_damping", non_negative, "force*length*time", "0.0", "", "Damper beside it."},
+
+    {"springs[].hanger", "hot", positive, "force", "required", "", "Load in operation, which it was chosen for."},
+    {"springs[].hanger", "cold", positive, "force", "", "", "Load while nothing has moved. Two of cold, travel and the spring's stiffness: cold = hot + stiffness travel."},
+    {"springs[].hanger", "travel", number, "length", "", "", "Motion of the node against direction, from cold to hot: up where direction points down."},
 
     {"matrices", "dofs", texts, "", "", "", "Names of the degrees of freedom; d0, d1, ... where absent."},
     {"matrices", "mass", matrix, "", "required", "", "Mass matrix, symmetric."},
@@ -199,15 +244,20 @@ constexpr Key table_of_keys[] = {
     {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "The load's course in time."},
 
     {"output[]", "name", name, "", "required", "", "Name of its column in response.csv."},
-    {"output[]", "kind", choice, "", "required", "displacement velocity acceleration relative member_force reaction spring contact combination", "What it is: see above."},
-    {"output[]", "at", KeyType::against, "", "", "", "A node; relative and member_force: two nodes [A, B]; contact: the name of a contact."},
+    {"output[]", "kind", choice, "", "required", "displacement velocity acceleration relative member_force stress envelope reaction spring contact combination", "What it is: see above."},
+    {"output[]", "at", KeyType::against, "", "", "", "A node; relative, member_force and stress: two nodes [A, B]; contact: the name of a contact."},
+    {"output[]", "nodes", texts, "", "", "", "envelope: from each of these nodes to the next there is a piece of a member; \"P0..P9\" as in members."},
     {"output[]", "direction", direction, "", "", "", "Along which; it is made a unit vector with [nodes], taken as given with [matrices], where it says all and `at` is left out."},
     {"output[]", "rotation", flag, "", "false", "", "Of the node, counter-clockwise, instead of along a direction; reaction and spring: the moment."},
-    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss", "member_force: N (tension is positive), V or M; contact: N, T, gap, slip or loss (the work of its friction, but for that in impacts)."},
-    {"output[]", "station", fraction, "", "0.0", "", "member_force: where, from A (0) to B (1); on a node between two finite elements the one towards B."},
+    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss stress", "member_force: N (tension is positive), V or M; stress: N or M for that part alone; envelope: N, V, M or stress; contact: N, T, gap, slip or loss (the work of its friction, but for that in impacts)."},
+    {"output[]", "station", fraction, "", "0.0", "", "member_force, stress: where, from A (0) to B (1); on a node between two finite elements the one towards B."},
+    {"output[]", "fibre", choice, "", "\"both\"", "both left right", "Of stresses: at the outermost fibre to the left of the course from node to node, to the right, or both: greatest magnitude, with the greatest and the least value as maximum and minimum."},
+    {"output[]", "sif", positive, "", "", "", "Of stresses: those of bending are multiplied by it; that of the bend where absent, else 1."},
     {"output[]", "spring", count, "", "", "", "spring: its number in the file, from 1 on."},
-    {"output[]", "terms", table, "", "", "", "combination: factors of outputs that stand before it, all of one unit."},
-    {"output[].terms", "*", number, "", "", "", "Factor of the output of this name."},
+    {"output[]", "terms", table, "", "", "", "combination: factors of outputs that stand before it; output times factor is of one unit."},
+    {"output[].terms", "*", KeyType::term, "", "", "", "Factor of the output of this name; with a unit of its own, as \"1/m^2\", in units of the scene."},
+    {"output[].terms.*", "factor", number, "", "required", "", "Factor."},
+    {"output[].terms.*", "unit", text, "", "required", "", "Its unit: names of the scene's units, as \"1/m^2\", \"m\", \"s^2/t\"."},
 
     {"history", "type", choice, "", "required", "constant step rectangle triangle half_sine harmonic polynomial table", "Shape of the history; it is zero before start and from end on."},
     {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},
@@ -330,19 +380,17 @@ std::string describe_type(const Key& key) {
     case integer:
       return key.type == integer ? "an integer" : "an integer >= 1";
     case text:
-      return "a string";
     case name:
-      return "a name";
+      return key.type == text ? "a string" : "a name";
     case choice:
       return one_of(choices_of(key));
     case vector:
       return "an array of two numbers [x, y]";
     case numbers:
-      return "an array of numbers";
+    case texts:
+      return key.type == numbers ? "an array of numbers" : "an array of strings";
     case numbers_or_file:
       return "an array of numbers, or the name of a Matrix Market file with one column";
-    case texts:
-      return "an array of strings";
     case table:
       return "a table";
     case tables:
@@ -365,6 +413,8 @@ std::string describe_type(const Key& key) {
       return "the name of a node, or an array of two";
     case KeyType::friction:
       return "a number >= 0 or a table { static, kinetic }";
+    case KeyType::term:
+      return "a number or a table { factor, unit }";
     case direction:
       return "an array [x, y], or with [matrices] a table { degree of freedom = number }";
     case KeyType::history:

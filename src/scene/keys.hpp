@@ -44,6 +44,7 @@ enum class KeyType {
   one_or_many,
   history,
   standing_history,
+  term,
   matrix
 };
 

@@ -79,6 +79,10 @@ void visit_structure(Scene& scene, const Visit& visit) {
     visit(s.EA, force);
     visit(s.EI, Unit{1, 2, 0});
     visit(s.mass_per_length, Unit{1, -2, 2});
+    visit(s.area, Unit{0, 2, 0});
+    visit(s.modulus, Unit{0, 3, 0});
+    visit(s.pipe_radius, length);
+    visit(s.pipe_wall, length);
   }
   for (Node& node : scene.nodes) {
     visit(node.x, length);
@@ -93,10 +97,13 @@ void visit_structure(Scene& scene, const Visit& visit) {
     visit(s.damping, damping);
     visit(s.rotation_stiffness, energy);
     visit(s.rotation_damping, Unit{1, 1, 1});
+    visit(s.preload, force);
+    visit_optional(s.hot_load, force, visit);
   }
   for (Member& m : scene.members) {  // temperatures have a unit of their own
     visit_history(m.temperature, plain, visit);
     visit_history(m.initial_strain, plain, visit);
+    if (m.bend) visit(m.bend->radius, length);
   }
   for (Support& s : scene.supports)
     if (s.motion) {
@@ -177,6 +184,8 @@ void visit_quantities(Scene& scene, const Visit& visit) {
     visit_history(load.history, plain, visit);
   }
   for (BaseMotionSpec& motion : scene.base_motion) visit_history(motion.acceleration, acceleration, visit);
+  for (OutputSpec& output : scene.outputs)
+    for (OutputTerm& term : output.terms) visit(term.factor, term.unit);
 }
 
 Scene rescaled(Scene scene, const Factors& factors) {

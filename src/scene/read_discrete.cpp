@@ -61,6 +61,35 @@ void read_masses(Table& top, Scene& scene, RecordedScene& record) {
   }
 }
 
+namespace {
+
+/// Of a spring hanger: hot + stiffness travel = cold.
+void read_hanger(Table& table, Spring& spring) {
+  if (table.has("preload"))
+    table.fail("preload", "stands beside hanger, whose cold load it is: expected one of the two");
+  Table hanger = table.child("hanger");
+  const double hot = hanger.number("hot");
+  const std::optional<double> cold = hanger.optional_number("cold"),
+                              travel = hanger.optional_number("travel");
+  const bool stiff = table.has("stiffness");
+  if ((cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0) != 2)
+    table.fail(
+        "hanger",
+        "expected two of cold, travel and the spring's stiffness beside hot: cold = hot + stiffness travel");
+  spring.hot_load = hot;
+  spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
+  if (!stiff) spring.stiffness = (*cold - hot) / *travel;
+  if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
+    table.fail("hanger",
+               fmt::format("the stiffness would be {:.6g}, expected > 0: the load falls where the node moves "
+                           "against direction (travel > 0)",
+                           spring.stiffness));
+  hanger.finish();
+  table.record("hanger", hanger.record().inline_table());
+}
+
+}  // namespace
+
 void read_springs(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   for (Table& table : tables_of(top, "springs")) {
@@ -77,8 +106,12 @@ void read_springs(Table& top, Scene& scene, RecordedScene& record) {
     if (!turns) table.require("direction", "");
     if (table.has("direction")) {
       spring.direction = read_unit_vector(table, "direction");
-      spring.stiffness = table.number("stiffness");
+      if (table.has("stiffness") || !table.has("hanger")) spring.stiffness = table.number("stiffness");
       spring.damping = table.number("damping");
+      if (table.has("hanger"))
+        read_hanger(table, spring);
+      else
+        spring.preload = table.number("preload");
     }
     table.finish("needs a direction beside it");
     scene.springs.push_back(spring);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/readers.hpp"
+#include "scene/unit_of_text.hpp"
 
 namespace signorini {
 
@@ -52,13 +53,20 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
   if (!table.has("quantity")) table.fail("quantity", fmt::format("missing, expected one of {}", known));
   const std::string word = table.text("quantity");
   constexpr std::pair<const char*, OutputQuantity> words[] = {
-      {"N", OutputQuantity::N},      {"V", OutputQuantity::V},     {"M", OutputQuantity::M},
-      {"T", OutputQuantity::T},      {"gap", OutputQuantity::gap}, {"slip", OutputQuantity::slip},
-      {"loss", OutputQuantity::loss}};
+      {"N", OutputQuantity::N},       {"V", OutputQuantity::V},          {"M", OutputQuantity::M},
+      {"T", OutputQuantity::T},       {"gap", OutputQuantity::gap},      {"slip", OutputQuantity::slip},
+      {"loss", OutputQuantity::loss}, {"stress", OutputQuantity::stress}};
   for (const auto& [name, quantity] : words)
     if (word == name) output.quantity = quantity;
   if (std::string_view(known).find(fmt::format("\"{}\"", word)) == std::string_view::npos)
     table.wrong("quantity", fmt::format("one of {}", known));
+}
+
+/// Whether it may have a part in a combination.
+bool sum_of_motions(const OutputSpec& output) {
+  return output.kind != OutputKind::envelope &&
+         !(output.kind == OutputKind::stress && output.fibre == Fibre::both &&
+           output.quantity != OutputQuantity::N);
 }
 
 void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
@@ -73,6 +81,29 @@ void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
                fmt::format("found \"gap\" of contact \"{}\", a slider, which has none", contact.name));
 }
 
+/// A number, or a table with a unit.
+OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
+  OutputTerm term;
+  term.name = entry.name;
+  if (!entry.node->is_table()) {
+    term.factor = terms.number(entry.name);
+    return term;
+  }
+  Table table(entry.node->as_table(), "output[].terms.*", terms.path(entry.name), entry.place());
+  term.factor = table.number("factor");
+  const std::string text = table.text("unit");
+  const std::optional<Unit> unit = unit_of_text(text, scene.units);
+  if (!unit)
+    table.fail("unit",
+               fmt::format("found \"{}\", expected a product of powers of {}, {}, {}, {}, as \"1/{}^2\"",
+                           text, scene.units.force, scene.units.mass, scene.units.length, scene.units.time,
+                           scene.units.length));
+  term.unit = *unit;
+  table.finish();
+  terms.record(entry.name, table.record().inline_table());
+  return term;
+}
+
 void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
   if (!table.has("terms")) table.require("terms", "");
   Names names;
@@ -82,10 +113,27 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
     const std::size_t i = check_known(entry.name, names, "output", entry.place(), terms.path(entry.name));
     if (scene.outputs[i].quantity == OutputQuantity::loss)
       terms.fail(entry.name, "is a loss, which has no part in a combination: it has no value between rows");
-    output.terms.emplace_back(entry.name, terms.number(entry.name));
+    if (!sum_of_motions(scene.outputs[i]))
+      terms.fail(entry.name,
+                 "is a greatest value, of an envelope or of both fibres, which has no part in a combination");
+    output.terms.push_back(read_term(terms, entry, scene));
   }
   if (output.terms.empty()) table.fail("terms", "found none, expected { name = factor }");
   table.record("terms", terms.record().inline_table());
+}
+
+void read_fibre(Table& table, OutputSpec& output) {
+  const std::string fibre = table.choice("fibre");
+  output.fibre = fibre == "left" ? Fibre::left : fibre == "right" ? Fibre::right : Fibre::both;
+  output.intensification = table.optional_number("sif");
+}
+
+void read_envelope(Table& table, OutputSpec& output, const Space& space) {
+  table.require("nodes", "");
+  output.at = read_node_names(table, "nodes", space);
+  if (output.at.size() < 2) table.wrong("nodes", "the names of two or more nodes");
+  read_quantity(table, output, "\"N\", \"V\", \"M\", \"stress\"");
+  if (output.quantity == OutputQuantity::stress) read_fibre(table, output);
 }
 
 void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
@@ -109,13 +157,19 @@ void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const Sp
       }
       return read_motion(table, output, space);
     case OutputKind::relative:
-    case OutputKind::member_force:
       output.at = read_places(table, 2, "the names of two nodes");
       check_nodes(table, output.at, space);
-      if (output.kind == OutputKind::relative) return read_motion(table, output, space);
-      read_quantity(table, output, "\"N\", \"V\", \"M\"");
+      return read_motion(table, output, space);
+    case OutputKind::member_force:
+    case OutputKind::stress:
+      output.at = read_places(table, 2, "the names of two nodes");
+      check_nodes(table, output.at, space);
       output.station = table.number("station");
-      return;
+      if (output.kind == OutputKind::member_force) return read_quantity(table, output, "\"N\", \"V\", \"M\"");
+      if (table.has("quantity")) read_quantity(table, output, "\"N\", \"M\"");
+      return read_fibre(table, output);
+    case OutputKind::envelope:
+      return read_envelope(table, output, space);
     case OutputKind::reaction:
       output.at = read_places(table, 1, "the name of a node");
       check_nodes(table, output.at, space);
@@ -130,8 +184,8 @@ void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const Sp
 }
 
 bool of_nodes_only(OutputKind kind) {
-  return kind == OutputKind::relative || kind == OutputKind::member_force || kind == OutputKind::reaction ||
-         kind == OutputKind::spring;
+  return kind == OutputKind::relative || kind == OutputKind::member_force || kind == OutputKind::stress ||
+         kind == OutputKind::envelope || kind == OutputKind::reaction || kind == OutputKind::spring;
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-// Sections, nodes and members.
+// Nodes and members.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/number.hpp"
+#include "base/rounding.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {
@@ -12,6 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr int most_elements = 1'000'000;
+constexpr int elements_of_arc = 8;  // chosen: of a quarter they are 0.16 % shorter than it
 
 void check_pieces(const Table& table, const Scene& scene, const std::vector<std::size_t>& nodes) {
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -25,7 +27,7 @@ void check_pieces(const Table& table, const Scene& scene, const std::vector<std:
   }
 }
 
-std::vector<int> read_elements(Table& table, std::size_t pieces) {
+std::vector<int> read_elements(Table& table, std::size_t pieces, bool arcs) {
   const toml::node* node = table.raw("elements");
   const auto count = [&](const toml::node& item) {
     const auto* number = item.as_integer();
@@ -35,7 +37,7 @@ std::vector<int> read_elements(Table& table, std::size_t pieces) {
     }
     return static_cast<int>(number->get());
   };
-  std::vector<int> elements(pieces, 1);
+  std::vector<int> elements(pieces, arcs ? elements_of_arc : 1);
   if (node && node->is_array()) {
     const toml::array& array = *node->as_array();
     if (array.size() != pieces) {
@@ -46,6 +48,8 @@ std::vector<int> read_elements(Table& table, std::size_t pieces) {
   } else if (node) {
     std::fill(elements.begin(), elements.end(), count(*node));
   }
+  if (arcs && *std::min_element(elements.begin(), elements.end()) < 2)
+    table.fail("elements", "found 1, expected at least 2 on an arc, which they follow as chords");
   std::vector<std::string> texts;
   for (const int n : elements) texts.push_back(std::to_string(n));
   table.record("elements", toml_array(texts));
@@ -65,22 +69,6 @@ void check_bar(const Table& table, const Member& member) {
 }
 
 }  // namespace
-
-void read_sections(Table& top, Scene& scene, RecordedScene& record) {
-  Table sections = top.child("sections");
-  for (const Entry& entry : entries_of(sections.node())) {
-    check_name(entry.name, entry.place(), sections.path(entry.name));
-    if (!entry.node->is_table()) sections.wrong(entry.name, "a table [sections." + entry.name + "]");
-    Table table(entry.node->as_table(), "sections.*", sections.path(entry.name), place_of(*entry.node));
-    Section section;
-    section.name = entry.name;
-    section.EA = table.number("EA");
-    section.EI = table.optional_number("EI").value_or(0.0);
-    section.mass_per_length = table.number("mass_per_length");
-    scene.sections.push_back(section);
-    record.add("sections", "[sections." + toml_key(entry.name) + "]", table.record());
-  }
-}
 
 void read_nodes(Table& top, Scene& scene, RecordedScene& record) {
   Table nodes = top.child("nodes");
@@ -141,6 +129,39 @@ void read_strains(Table& table, Member& member, const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Of a pipe, ASME B31: h = t R / r^2, flexibility 1.65 / h, intensification in its plane 0.9 / h^(2/3), not below 1.
+Bend factors_of_pipe(const Section& section, double radius) {
+  const double h = section.pipe_wall * std::abs(radius) / (section.pipe_radius * section.pipe_radius);
+  return {radius, std::max(1.0, 1.65 / h), std::max(1.0, 0.9 / std::cbrt(h * h))};
+}
+
+Bend read_bend(Table& table, const Member& member, const Section& section, const Scene& scene) {
+  if (member.type == MemberType::bar) table.fail("bend", "has no meaning for a bar, which is straight");
+  Table keys = table.child("bend");
+  const double radius = keys.number("radius");
+  Names nodes;
+  for (const Node& node : scene.nodes) nodes.add(node.name);
+  for (std::size_t i = 0; i + 1 < member.nodes.size(); ++i) {
+    const Node &a = scene.nodes[*nodes.index(member.nodes[i])],
+               &b = scene.nodes[*nodes.index(member.nodes[i + 1])];
+    const double half = 0.5 * std::hypot(b.x - a.x, b.y - a.y);
+    if (!(std::abs(radius) >= half * (1.0 - rounding::of_many)))
+      keys.fail("radius",
+                fmt::format("found {}, expected at least half the distance of \"{}\" and \"{}\", {:.9g}",
+                            shortest(radius), a.name, b.name, half));
+  }
+  Bend bend = section.pipe_wall > 0.0 ? factors_of_pipe(section, radius) : Bend{radius};
+  bend.flexibility = keys.optional_number("flexibility").value_or(bend.flexibility);
+  bend.intensification = keys.optional_number("sif").value_or(bend.intensification);
+  keys.finish();
+  table.record("bend", keys.record().inline_table());
+  return bend;
+}
+
+}  // namespace
+
 void read_members(Table& top, Scene& scene, RecordedScene& record) {
   const Space space = space_of(scene);
   Names sections;
@@ -163,7 +184,8 @@ void read_members(Table& top, Scene& scene, RecordedScene& record) {
       table.fail("section",
                  fmt::format("section \"{}\" has no EI, expected one with EI for a beam", section.name));
     }
-    member.elements = read_elements(table, member.nodes.size() - 1);
+    if (table.has("bend")) member.bend = read_bend(table, member, section, scene);
+    member.elements = read_elements(table, member.nodes.size() - 1, member.bend.has_value());
     check_bar(table, member);
     for (const int n : member.elements) total += n;
     if (total > most_elements) {

@@ -81,6 +81,8 @@ Json table_type(const Key& key) {
       return any_of(one_of_words({"static", "frictional"}), reference(below(key)));
     case KeyType::friction:
       return any_of(number_type(KeyType::non_negative), reference(below(key)));
+    case KeyType::term:
+      return any_of(number_type(KeyType::number), reference(below(key)));
     case KeyType::history:
       return reference("history");
     case KeyType::standing_history:
@@ -136,6 +138,7 @@ Json value_type(const Key& key) {
     case KeyType::friction:
     case KeyType::history:
     case KeyType::standing_history:
+    case KeyType::term:
       return table_type(key);
     default:
       return number_type(key.type);

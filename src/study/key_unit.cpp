@@ -13,6 +13,12 @@ std::string key_unit(const std::string& path, const Units& units) {
   for (const std::string& kind : {table, table + ".*", table + "[]"})
     if (const Key* key = find_key(kind, name); key != nullptr && key->name == name)
       return unit_in_words(key->unit, units);
+  // A table within a named one: sections.NAME.pipe.wall.
+  if (const std::size_t second = path.find('.', first + 1); second < last)
+    for (const char* named : {".*", "[]"})
+      if (const Key* key = find_key(table + named + path.substr(second, last - second), name);
+          key != nullptr && key->name == name)
+        return unit_in_words(key->unit, units);
   return "";
 }
 

@@ -6,7 +6,7 @@ namespace signorini::differential {
 namespace {
 
 const OutputSpec& first_term(const Scene& scene, const OutputSpec& combination) {
-  const std::string& name = combination.terms.front().first;
+  const std::string& name = combination.terms.front().name;
   return *std::find_if(scene.outputs.begin(), scene.outputs.end(),
                        [&](const OutputSpec& output) { return output.name == name; });
 }
@@ -27,6 +27,12 @@ Unit unit_of(const Scene& scene, const OutputSpec& output) {
       return turning(unit::acceleration, Unit{0, 0, -2});
     case OutputKind::member_force:
       return output.quantity == OutputQuantity::M ? unit::energy : unit::force;
+    case OutputKind::stress:
+      return Unit{1, -2, 0};
+    case OutputKind::envelope:
+      return output.quantity == OutputQuantity::stress ? Unit{1, -2, 0}
+             : output.quantity == OutputQuantity::M    ? unit::energy
+                                                       : unit::force;
     case OutputKind::reaction:
     case OutputKind::spring:
       return turning(unit::force, unit::energy);
@@ -38,11 +44,14 @@ Unit unit_of(const Scene& scene, const OutputSpec& output) {
     case OutputKind::combination:
       break;
   }
-  return unit_of(scene, first_term(scene, output));
+  const Unit of = unit_of(scene, first_term(scene, output)), factor = output.terms.front().unit;
+  return {of.force + factor.force, of.length + factor.length, of.time + factor.time};
 }
 
 double mirror_sign(const Scene& scene, const OutputSpec& output) {
   if (output.kind == OutputKind::combination) return mirror_sign(scene, first_term(scene, output));
+  // The fibres change sides; an envelope has magnitudes.
+  if (output.kind == OutputKind::stress || output.kind == OutputKind::envelope) return 1.0;
   const bool turns = output.quantity == OutputQuantity::V || output.quantity == OutputQuantity::M ||
                      output.quantity == OutputQuantity::T || output.quantity == OutputQuantity::slip;
   return output.rotation || turns ? -1.0 : 1.0;

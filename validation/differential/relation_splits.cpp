@@ -56,7 +56,7 @@ std::optional<Related> related_split_contact(const Scene& scene, std::uint64_t s
 
 std::optional<Related> related_split_member(const Scene& scene, std::uint64_t seed) {
   const auto place = one_of(scene.members, seed, [&](const Member& member) {
-    return member.type == MemberType::beam &&
+    return member.type == MemberType::beam && !member.bend &&
            std::any_of(scene.sections.begin(), scene.sections.end(), [&](const Section& section) {
              return section.name == member.section && section.mass_per_length == 0.0;
            });
@@ -73,7 +73,8 @@ std::optional<Related> related_split_spring(const Scene& scene, std::uint64_t se
   if (!place) return std::nullopt;
   Related result{"spring split", scene};
   Spring& half = result.scene.springs[*place];
-  for (double* x : {&half.stiffness, &half.damping, &half.rotation_stiffness, &half.rotation_damping})
+  for (double* x :
+       {&half.stiffness, &half.damping, &half.rotation_stiffness, &half.rotation_damping, &half.preload})
     *x *= 0.5;
   const Spring twin = half;
   result.scene.springs.push_back(twin);

@@ -74,9 +74,9 @@ std::optional<Related> related_mirrored(const Scene& scene, std::uint64_t /*seed
   for (OutputSpec& output : result->scene.outputs) {
     const double sign = mirror_sign(scene, output);
     result->output_factors[output.name] = sign;
-    for (auto& [name, factor] : output.terms)
+    for (OutputTerm& part : output.terms)
       for (const OutputSpec& term : scene.outputs)
-        if (term.name == name) factor *= sign * mirror_sign(scene, term);
+        if (term.name == part.name) part.factor *= sign * mirror_sign(scene, term);
   }
   return result;
 }

@@ -56,6 +56,8 @@ void move(Scene& scene, const Map& map) {
     node.y = place[1];
   }
   for (Spring& spring : scene.springs) map.apply(spring.direction);
+  for (Member& member : scene.members)
+    if (member.bend) member.bend->radius *= map.turn;
   for (ContactSpec& contact : scene.contacts) {
     if (contact.normal) map.apply(contact.normal->vector);
     if (contact.tangent) map.apply(contact.tangent->vector);
@@ -69,7 +71,11 @@ void move(Scene& scene, const Map& map) {
       map.apply(load.direction.vector);
   }
   for (BaseMotionSpec& motion : scene.base_motion) map.apply(motion.direction.vector);
-  for (OutputSpec& output : scene.outputs) map.apply(output.direction.vector);
+  for (OutputSpec& output : scene.outputs) {
+    map.apply(output.direction.vector);
+    if (map.turn < 0.0 && output.fibre != Fibre::both)
+      output.fibre = output.fibre == Fibre::left ? Fibre::right : Fibre::left;
+  }
   for (Support& support : scene.supports) {
     if (!support.motion) continue;
     const std::array<double, 2> along = map(support.ux ? 1.0 : 0.0, support.uy ? 1.0 : 0.0);
@@ -196,6 +202,7 @@ std::optional<Transformed> reversed(const Scene& scene) {
   for (Member& member : result.scene.members) {
     std::reverse(member.nodes.begin(), member.nodes.end());
     std::reverse(member.elements.begin(), member.elements.end());
+    if (member.bend) member.bend->radius *= -1.0;
   }
   return result;
 }

@@ -54,7 +54,9 @@ struct Builder {
                              : beam_mass(dx, dy, section.mass_per_length, e.mass);
     if (!map.within_body(e))
       add(stiffness, &SupportColumns::stiffness,
-          bar ? bar_stiffness(dx, dy, section.EA) : beam_stiffness(dx, dy, section.EA, section.EI), numbers);
+          bar ? bar_stiffness(dx, dy, section.EA)
+              : beam_stiffness(dx, dy, section.EA, section.EI / e.flexibility),
+          numbers);
     add(mass, &SupportColumns::mass, m, numbers);
     add_inertia(m, scene.gravity, numbers, weight);
     for (std::size_t i = 0; i < base.size(); ++i)

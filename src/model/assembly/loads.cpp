@@ -130,6 +130,23 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
   }
 }
 
+/// A spring that is stretched pulls its node back, against its direction.
+void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < scene.springs.size(); ++i) {
+    const Spring& spring = scene.springs[i];
+    if (spring.preload == 0.0) continue;
+    const auto d = clean_direction(spring.direction);
+    const double length = std::hypot(d[0], d[1]);
+    Direction pull{spring.node, {-d[0] / length, -d[1] / length}, {}, spring.place, {}};
+    if (!spring.against.empty()) pull.against.emplace_back(spring.against, 1.0);
+    Load load{fmt::format("preload of spring {}", i + 1),
+              combination(map, pull, fmt::format("springs.{}", i + 1), false),
+              History::constant(spring.preload), true};
+    load.kind = LoadKind::preload;
+    loads.push_back(std::move(load));
+  }
+}
+
 void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& loads) {
   const std::size_t count = scene.base_motion.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -231,6 +248,7 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     loads.push_back(given_load(scene.loads[i], map, i + 1));
   add_strains(scene, map, loads);
+  add_preloads(scene, map, loads);
   add_base(scene, assembly, loads);
   add_supports(scene, map, assembly, loads);
   return loads;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -19,6 +22,22 @@ int find_section(const Scene& scene, const Member& member, const std::string& ke
                      fmt::format("section '{}' needs EA > 0{} and mass_per_length >= 0", it->name,
                                  bends ? ", EI > 0" : ""));
   return static_cast<int>(it - scene.sections.begin());
+}
+
+/// At a part s of the way from a to b: on the straight line, or on the arc, which lies to the right where it turns left.
+std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const Member& member, double s) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  if (!member.bend) return {a.x + s * dx, a.y + s * dy};
+  const double length = std::hypot(dx, dy), radius = std::abs(member.bend->radius);
+  // Of half a circle rounding of the nodes would move the angle by the root of it.
+  const double sine = 0.5 * length / radius;
+  const double half = sine < 1.0 - rounding::of_many ? std::asin(sine) : 0.5 * std::numbers::pi;
+  const double turn = (2.0 * s - 1.0) * half;
+  const double along = 0.5 + radius * std::sin(turn) / length;
+  // cos turn - cos half
+  const double rise = 2.0 * std::sin(0.5 * (half + turn)) * std::sin(0.5 * (half - turn));
+  const double out = (member.bend->radius > 0.0 ? radius : -radius) * rise / length;
+  return {a.x + along * dx + out * dy, a.y + along * dy - out * dx};
 }
 
 void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t piece, int section,
@@ -50,13 +69,13 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
   for (int i = 1; i <= count; ++i) {
     int next = b;
     if (i < count) {
-      const double s = static_cast<double>(i) / count;
+      const auto [x, y] = place_on_piece(from, to, member, static_cast<double>(i) / count);
       next = static_cast<int>(mesh.nodes.size());
-      mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), from.x + s * (to.x - from.x),
-                            from.y + s * (to.y - from.y)});
+      mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), x, y});
     }
     mesh.elements.push_back({previous, next, section, member.type, member.mass, hinged_a && i == 1,
-                             hinged_b && i == count, static_cast<int>(number)});
+                             hinged_b && i == count, static_cast<int>(number),
+                             member.bend ? member.bend->flexibility : 1.0});
     previous = next;
   }
 }

@@ -25,9 +25,10 @@ struct MeshElement {
   MassKind mass = MassKind::consistent;
   bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
   int member = 0;                           ///< index into Scene::members
+  double flexibility = 1.0;                 ///< of a bend: EI is divided by it
 };
 
-/// A straight piece of a member between two named nodes.
+/// A piece of a member between two named nodes; an arc has nodes on it, and chords as elements.
 struct MeshPiece {
   int from = 0, to = 0;
   std::size_t first = 0, count = 0;  ///< of its elements

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/along.hpp"
 #include "model/outputs/body_reaction.hpp"
+#include "model/outputs/member_cuts.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
@@ -41,9 +43,14 @@ class Maker {
       of_contact(spec, output);
     } else if (spec.kind == OutputKind::combination) {
       combine(spec, before, output);
+    } else if (spec.kind == OutputKind::envelope) {
+      envelope(spec, output);
+    } else if (spec.kind == OutputKind::stress && spec.fibre == Fibre::both &&
+               spec.quantity != OutputQuantity::N) {
+      section_extremes(spec, output);
     } else {
       PhysicalRow row(map_.size());
-      fill(spec, row, output.unit);
+      fill(spec, row, output);
       take(row, output);
     }
     return output;
@@ -83,16 +90,16 @@ class Maker {
     output.constant = row.constant;
   }
 
-  void fill(const OutputSpec& spec, PhysicalRow& row, Unit& of) {
+  void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
+    Unit& of = output.unit;
     switch (spec.kind) {
       case OutputKind::member_force:
+      case OutputKind::stress:
         return member_force(spec, row, of);
       case OutputKind::reaction:
         return reaction(spec, row, of);
-      case OutputKind::spring: {
-        of = spec.rotation ? unit::energy : unit::force;
-        return rows_->add_spring(row, scene_.springs[spec.spring], spec.rotation, 1.0);
-      }
+      case OutputKind::spring:
+        return spring(spec, row, output);
       case OutputKind::velocity:
         of = spec.rotation ? unit::rate : unit::velocity;
         return motion(spec, 1, row);
@@ -141,26 +148,90 @@ class Maker {
     }
   }
 
+  [[nodiscard]] Way way(const OutputSpec& spec, std::size_t i, const char* key) const {
+    const auto [piece, backwards] = piece_between(map_, spec.at[i], spec.at[i + 1], spec.place,
+                                                  fmt::format("output.{}.{}", spec.name, key));
+    return {piece, backwards};
+  }
+
+  /// row += what is wanted at a part x of the k-th element on the way.
+  void cut(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
+           const Wanted& wanted, PhysicalRow& row) const {
+    const MemberCuts cuts(scene_, map_);
+    rows_->add_cut(
+        row, MemberCuts::element_of(way, at.first),
+        cuts.cut(way, at.first, at.second, wanted, spec.place, fmt::format("output.{}.{}", spec.name, key)));
+  }
+
   void member_force(const OutputSpec& spec, PhysicalRow& row, Unit& of) {
-    const auto [piece, backwards] =
-        piece_between(map_, spec.at[0], spec.at[1], spec.place, "output." + spec.name + ".at");
-    const auto count = static_cast<double>(piece->count);
-    const double along = (backwards ? 1.0 - spec.station : spec.station) * count;
-    // Between two elements: the one that the station's own direction leads to.
-    const double element =
-        std::clamp(backwards ? std::ceil(along) - 1.0 : std::floor(along), 0.0, count - 1.0);
-    const std::size_t number = piece->first + static_cast<std::size_t>(element);
-    const MeshElement& e = map_.mesh.elements[number];
-    const Axis axis = axis_of(map_.mesh, e);
-    Cut cut = cut_at(e, axis, scene_.sections[static_cast<std::size_t>(e.section)].mass_per_length,
-                     spec.quantity, (along - element) * axis.length);
-    of = spec.quantity == OutputQuantity::M ? unit::energy : unit::force;
-    if (backwards && spec.quantity == OutputQuantity::M) {  // the other side is to the right
-      cut.forces *= -1.0;
-      cut.acceleration *= -1.0;
-      cut.load = {-cut.load[0], -cut.load[1]};
+    const Wanted wanted = wanted_by(spec, spec.fibre);
+    const Way along = way(spec, 0, "at");
+    of = unit_of_cut(wanted.quantity);
+    cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
+  }
+
+  /// Of a stretch: the wanted quantity at one of its points.
+  Output point(const OutputSpec& spec, const char* key, const Way& way, std::pair<std::size_t, double> at,
+               const Wanted& wanted) const {
+    Output linear;
+    linear.kind = spec.kind;
+    linear.unit = unit_of_cut(wanted.quantity);
+    PhysicalRow row(map_.size());
+    cut(spec, key, way, at, wanted, row);
+    take(row, linear);
+    return linear;
+  }
+
+  static std::vector<Fibre> fibres_of(const OutputSpec& spec) {
+    const bool both = spec.fibre == Fibre::both &&
+                      (spec.kind == OutputKind::stress || spec.quantity == OutputQuantity::stress);
+    if (both) return {Fibre::left, Fibre::right};
+    return {spec.fibre};
+  }
+
+  /// Both fibres at one place.
+  void section_extremes(const OutputSpec& spec, Output& output) const {
+    const Way along = way(spec, 0, "at");
+    for (const Fibre fibre : fibres_of(spec)) {
+      const Wanted wanted = wanted_by(spec, fibre);
+      output.stretches.push_back(
+          {{point(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted)},
+           spec.at[0],
+           spec.at[1],
+           spec.station,
+           spec.station,
+           fibre});
     }
-    rows_->add_cut(row, number, cut);
+    output.unit = output.stretches.front().at.front().unit;
+  }
+
+  void envelope(const OutputSpec& spec, Output& output) const {
+    const std::size_t points = points_of(spec.quantity);
+    for (std::size_t i = 0; i + 1 < spec.at.size(); ++i) {
+      const Way along = way(spec, i, "nodes");
+      const auto count = static_cast<double>(along.piece->count);
+      for (std::size_t k = 0; k < along.piece->count; ++k)
+        for (const Fibre fibre : fibres_of(spec)) {
+          const auto at = static_cast<double>(k);
+          Output::Stretch stretch{{}, spec.at[i], spec.at[i + 1], at / count, (at + 1.0) / count, fibre};
+          for (std::size_t j = 0; j < points; ++j)
+            stretch.at.push_back(
+                point(spec, "nodes", along, {k, Along::point(points, j)}, wanted_by(spec, fibre)));
+          output.stretches.push_back(std::move(stretch));
+        }
+    }
+    output.unit = unit_of_cut(spec.quantity);
+  }
+
+  void spring(const OutputSpec& spec, PhysicalRow& row, Output& output) const {
+    const Spring& spring = scene_.springs[spec.spring];
+    output.unit = spec.rotation ? unit::energy : unit::force;
+    rows_->add_spring(row, spring, spec.rotation, 1.0);
+    const double stiffness = spec.rotation ? spring.rotation_stiffness : spring.stiffness;
+    const double damping = spec.rotation ? spring.rotation_damping : spring.damping;
+    if (!spec.rotation && spring.preload != 0.0) output.contains.emplace_back("preload");
+    if (stiffness != 0.0) output.contains.emplace_back("stiffness");
+    if (damping + model_.beta * stiffness != 0.0) output.contains.emplace_back("damper");
   }
 
   void reaction(const OutputSpec& spec, PhysicalRow& row, Unit& of) {
@@ -233,17 +304,26 @@ class Maker {
     }
   }
 
+  static bool with_units(const OutputSpec& spec) {
+    return std::any_of(spec.terms.begin(), spec.terms.end(), [](const OutputTerm& term) {
+      return term.unit.force != 0 || term.unit.length != 0 || term.unit.time != 0;
+    });
+  }
+
   static void combine(const OutputSpec& spec, const std::vector<Output>& before, Output& output) {
     bool first = true;
-    for (const auto& [name, factor] : spec.terms) {
+    for (const auto& [name, factor, of_factor] : spec.terms) {
       const std::string& wanted = name;
       const Output& term =
           *std::find_if(before.begin(), before.end(), [&](const Output& o) { return o.name == wanted; });
-      const Unit a = term.unit, b = output.unit;
+      const Unit a{term.unit.force + of_factor.force, term.unit.length + of_factor.length,
+                   term.unit.time + of_factor.time};
+      const Unit b = output.unit;
       if (!first && (a.force != b.force || a.length != b.length || a.time != b.time))
         refuse(spec, "terms",
-               fmt::format("'{}' and '{}' have different units, expected one", spec.terms[0].first, name));
-      output.unit = term.unit;
+               fmt::format("'{}' and '{}' have different units{}, expected one", spec.terms[0].name, name,
+                           with_units(spec) ? " with their factors" : ""));
+      output.unit = a;
       first = false;
       add(output.u, term.u, factor);
       add(output.v, term.v, factor);

@@ -87,7 +87,9 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
       bar ? bar_mass(dx, dy, s.mass_per_length, e.mass) : beam_mass(dx, dy, s.mass_per_length, e.mass);
   const Six ca = m * cut.forces + cut.acceleration;
   Six cu = Six::Zero();
-  if (stiff) cu = (bar ? bar_stiffness(dx, dy, s.EA) : beam_stiffness(dx, dy, s.EA, s.EI)) * cut.forces;
+  if (stiff)
+    cu =
+        (bar ? bar_stiffness(dx, dy, s.EA) : beam_stiffness(dx, dy, s.EA, s.EI / e.flexibility)) * cut.forces;
   const std::array<int, 6> numbers = map_.element_numbers(i);
   for (std::size_t j = 0; j < 6; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
@@ -124,6 +126,7 @@ void StructureRows::add_spring(PhysicalRow& row, const Spring& spring, bool rota
     for (const std::size_t c : rotation ? std::vector<std::size_t>{2} : std::vector<std::size_t>{0, 1})
       if (d[c] != 0.0) add_motion(row, numbers[c], sign * stiffness * d[c], sign * damping * d[c], 0.0);
   };
+  if (!rotation && spring.preload != 0.0) row.constant += factor * spring.preload;
   add(spring.node, 1.0);
   if (!spring.against.empty()) add(spring.against, -1.0);
 }

@@ -33,7 +33,8 @@ class StructureRows {
   void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// The cut of an element.
   void add_cut(PhysicalRow& row, std::size_t element, const Cut& cut) const;
-  /// The force in a spring, times a factor: positive where its node has moved along its direction.
+  /// The force in a spring, its preload and its damper included, times a factor: positive where its node has moved along
+  /// its direction.
   void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;
   /// What holds component c (0 x, 1 y, 2 rotation) of a node.
   void add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const;

@@ -21,6 +21,7 @@ std::string unit_text(const Unit& unit, const Units& names) {
   add(below, names.force, -unit.force);
   add(below, names.length, -unit.length);
   add(below, names.time, -unit.time);
+  if (above.empty()) above = "1";
   return below.empty() ? above : above + '/' + below;
 }
 

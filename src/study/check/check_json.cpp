@@ -2,6 +2,7 @@
 
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
+#include "result/hangers_json.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
 #include "study/check/check.hpp"
@@ -45,6 +46,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < report.contacts.size(); ++k)
     json["contacts"].push_back(contact_json(model.contacts[k], report.contacts[k]));
+  if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
   json["warnings"] = report.warnings;
   json["free_motions"] = report.free_motions;
   json["frequencies"] = {{"open", frequency_json(report.open)},

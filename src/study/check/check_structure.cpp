@@ -21,12 +21,6 @@
 namespace signorini::checks {
 namespace {
 
-double mass_per_length(const Scene& scene, const std::string& section) {
-  return std::find_if(scene.sections.begin(), scene.sections.end(),
-                      [&](const Section& s) { return s.name == section; })
-      ->mass_per_length;
-}
-
 /// r M r for a unit translation of all degrees of freedom whose names end so.
 double moving_mass(const Model& model, std::string_view component) {
   Vector r = Vector::Zero(model.size());
@@ -100,12 +94,14 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
     mx += mass * x;
     my += mass * y;
   };
-  for (const Member& member : scene.members)
-    for (std::size_t i = 0; i + 1 < member.nodes.size(); ++i) {
-      const Node &a = *nodes.at(member.nodes[i]), &b = *nodes.at(member.nodes[i + 1]);
-      add(mass_per_length(scene, member.section) * std::hypot(b.x - a.x, b.y - a.y), 0.5 * (a.x + b.x),
-          0.5 * (a.y + b.y));
-    }
+  const Mesh mesh = make_mesh(scene);
+  for (const MeshElement& e : mesh.elements) {
+    const MeshNode &a = mesh.nodes[static_cast<std::size_t>(e.a)],
+                   &b = mesh.nodes[static_cast<std::size_t>(e.b)];
+    add(scene.sections[static_cast<std::size_t>(e.section)].mass_per_length *
+            std::hypot(b.x - a.x, b.y - a.y),
+        0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
+  }
   for (const PointMass& point : scene.masses) {
     const Node& node = *nodes.at(point.node);
     add(point.mass, node.x, node.y);

@@ -54,16 +54,19 @@ class Dump {
 };
 
 void dump_structure(Dump& dump, const Scene& s) {
-  for (const auto& x : s.sections) dump.line("section", x.name, x.EA, x.EI, x.mass_per_length);
+  for (const auto& x : s.sections)
+    dump.line("section", x.name, x.EA, x.EI, x.mass_per_length, x.area, x.modulus, x.pipe_radius,
+              x.pipe_wall);
   for (const auto& x : s.nodes) dump.line("node", x.name, x.x, x.y);
   for (const auto& x : s.members)
     dump.line("member", x.nodes, x.section, x.elements, x.type == MemberType::bar, x.mass == MassKind::lumped,
-              x.release, x.thermal_expansion, x.temperature, x.initial_strain);
+              x.release, x.thermal_expansion, x.temperature, x.initial_strain, x.bend ? x.bend->radius : 0.0,
+              x.bend ? x.bend->flexibility : 0.0, x.bend ? x.bend->intensification : 0.0);
   for (const auto& x : s.masses) dump.line("mass", x.node, x.mass, x.inertia);
   for (const auto& x : s.rigid) dump.line("rigid", x.name, x.centre, x.nodes);
   for (const auto& x : s.springs)
     dump.line("spring", x.node, x.against, x.direction, x.stiffness, x.damping, x.rotation_stiffness,
-              x.rotation_damping);
+              x.rotation_damping, x.preload, x.hot_load);
   for (const auto& x : s.supports)
     dump.line("support", x.node, x.ux, x.uy, x.rz, x.motion, x.motion_is_acceleration);
   if (!s.matrices) return;

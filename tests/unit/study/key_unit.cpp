@@ -10,6 +10,11 @@ TEST_SUITE("unit/study/key_unit") {
     CHECK(key_unit("contacts.left.normal_stiffness", units) == "kN/m");
     CHECK(key_unit("contacts.*.friction", units).empty());
     CHECK(key_unit("loads.1.amplitude", units) == "kN");
+    CHECK(key_unit("sections.line.pipe.wall", units) == "m");
+    CHECK(key_unit("sections.line.pipe.insulation.thickness", units) == "m");
+    CHECK(key_unit("members.2.bend.radius", units) == "m");
+    CHECK(key_unit("springs.*.hanger.cold", units) == "kN");
+    CHECK(key_unit("members.2.bend.sif", units).empty());
     CHECK(key_unit("loads.1.moment", units) == "kN m");
     CHECK(key_unit("sections.column.EI", units) == "kN m^2");
     CHECK(key_unit("sections.column.mass_per_length", units) == "t/m");

@@ -1,0 +1,87 @@
+#include "model/outputs/member_cuts.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/quantities.hpp"
+
+namespace signorini {
+namespace {
+
+void add(Cut& to, const Cut& from, double factor) {
+  to.forces += factor * from.forces;
+  to.acceleration += factor * from.acceleration;
+  for (std::size_t c = 0; c < 2; ++c) to.load[c] += factor * from.load[c];
+}
+
+Cut nothing() { return {Eigen::Matrix<double, 6, 1>::Zero(), Eigen::Matrix<double, 6, 1>::Zero()}; }
+
+}  // namespace
+
+Wanted wanted_by(const OutputSpec& spec, Fibre fibre) {
+  Wanted wanted{spec.kind == OutputKind::stress ? OutputQuantity::stress : spec.quantity, fibre};
+  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::N) wanted.of_M = 0.0;
+  if (spec.kind == OutputKind::stress && spec.quantity == OutputQuantity::M) wanted.of_N = 0.0;
+  wanted.intensification = spec.intensification;
+  return wanted;
+}
+
+Unit unit_of_cut(OutputQuantity quantity) {
+  return quantity == OutputQuantity::stress ? Unit{1, -2, 0}
+         : quantity == OutputQuantity::M    ? unit::energy
+                                            : unit::force;
+}
+
+/// What is distributed is even, inertia linear along an element and cubic across it (cut.hpp).
+std::size_t points_of(OutputQuantity quantity) {
+  return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
+}
+
+std::size_t MemberCuts::element_of(const Way& way, std::size_t k) {
+  return way.piece->first + (way.backwards ? way.piece->count - 1 - k : k);
+}
+
+std::pair<std::size_t, double> MemberCuts::place_of(const Way& way, double station) {
+  const auto count = static_cast<double>(way.piece->count);
+  // Between two elements: the one that the way leads to.
+  const double element = std::clamp(std::floor(station * count), 0.0, count - 1.0);
+  return {static_cast<std::size_t>(element), station * count - element};
+}
+
+Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const {
+  const MeshElement& e = map_.mesh.elements[element_of(way, k)];
+  const Axis axis = axis_of(map_.mesh, e);
+  Cut cut = nothing();
+  // On the way back the other side is to the right.
+  const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
+  add(cut,
+      cut_at(e, axis, scene_.sections[static_cast<std::size_t>(e.section)].mass_per_length, quantity,
+             (way.backwards ? 1.0 - x : x) * axis.length),
+      sign);
+  return cut;
+}
+
+Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wanted, const SourcePlace& place,
+                    const std::string& key) const {
+  if (wanted.quantity != OutputQuantity::stress) return force(way, k, x, wanted.quantity);
+  const MeshElement& e = map_.mesh.elements[element_of(way, k)];
+  const Section& section = scene_.sections[static_cast<std::size_t>(e.section)];
+  if ((wanted.of_N != 0.0 && section.area == 0.0) || (wanted.of_M != 0.0 && section.modulus == 0.0))
+    throw SceneError(
+        place, key,
+        fmt::format("section '{}' has no stresses: expected a shape, pipe, box, i or round, or area and "
+                    "modulus beside EA and EI",
+                    section.name));
+  const std::optional<Bend>& bend = scene_.members[static_cast<std::size_t>(e.member)].bend;
+  const double i = wanted.intensification.value_or(bend ? bend->intensification : 1.0);
+  const double side = wanted.fibre == Fibre::left ? -1.0 : 1.0;
+  Cut cut = nothing();
+  if (wanted.of_N != 0.0) add(cut, force(way, k, x, OutputQuantity::N), wanted.of_N / section.area);
+  if (wanted.of_M != 0.0)
+    add(cut, force(way, k, x, OutputQuantity::M), side * i * wanted.of_M / section.modulus);
+  return cut;
+}
+
+}  // namespace signorini

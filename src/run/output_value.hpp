@@ -1,0 +1,30 @@
+// output_value.hpp: an output at one instant.
+//
+//   linear       r = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant
+//   stretches    r = greatest |p(x)|, p through the linear outputs at their points (base/along.hpp);
+//                with the greatest p, the least p, and where they are
+#pragma once
+
+#include "base/along.hpp"
+#include "motion/jet.hpp"
+#include "run/audit.hpp"
+
+namespace signorini {
+
+struct OutputReading {
+  double value = 0.0, greatest = 0.0, least = 0.0;
+  OutputPlace at_greatest, at_least;
+};
+
+/// The value of a linear output; losses: of all contacts.
+[[nodiscard]] double value_of(const Output& output, double t, Side side, const Point& point,
+                              const std::vector<double>& losses);
+[[nodiscard]] OutputReading reading_of(const Output& output, double t, Side side, const Point& point,
+                                       const std::vector<double>& losses);
+/// Extremes along the i-th of its stretches, as places of the output.
+[[nodiscard]] OutputReading along_stretch(const Output& output, std::size_t i, const Along::Values& values);
+
+/// Sum of the magnitudes of the terms of a linear output: what rounding is relative to.
+[[nodiscard]] double magnitude_of(const Output& output, double t, Side side, const Point& point);
+
+}  // namespace signorini

@@ -90,6 +90,7 @@ Json model_json(const Model& model) {
                {"omega_max", model.omega_max},
                {"static_start", model.static_start}};
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
+  if (model.geometric) json["load_factors"] = model.geometric->load_factors;
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},
                     {"rotation", model.scales.rotation},

@@ -25,6 +25,7 @@ struct MeshElement {
   MassKind mass = MassKind::consistent;
   bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
   int member = 0;                           ///< index into Scene::members
+  double force_a = 0.0, force_b = 0.0;  ///< frozen axial force at its ends, tension positive (geometric.hpp)
 };
 
 /// A straight piece of a member between two named nodes.

@@ -158,6 +158,7 @@ class Maker {
     if (backwards && spec.quantity == OutputQuantity::M) {  // the other side is to the right
       cut.forces *= -1.0;
       cut.acceleration *= -1.0;
+      cut.deflection *= -1.0;
       cut.load = {-cut.load[0], -cut.load[1]};
     }
     rows_->add_cut(row, number, cut);

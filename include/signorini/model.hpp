@@ -181,6 +181,14 @@ struct Ties {
   }
 };
 
+/// Of run.geometric: Model::stiffness contains the stiffness of these forces.
+struct Geometric {
+  FrozenForces forces;
+  /// Multiples of these forces under which some motion has no stiffness, on the contacts of the start: the lowest
+  /// ones, ascending, > 0. Up to 1: the structure is unstable there. Empty: it never is, or nobody asked.
+  std::vector<double> load_factors;
+};
+
 struct Model {
   std::string title;
   Units units;
@@ -218,6 +226,7 @@ struct Model {
   /// the first degrees of freedom = basis * u.
   std::optional<SparseMatrix> basis;
   std::optional<Ties> ties;  ///< rigid bodies
+  std::optional<Geometric> geometric;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   /// Whether displacements that are computed are those of physical_dofs().

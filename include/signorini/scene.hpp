@@ -116,7 +116,9 @@ struct RunSpec {
   double flight_tolerances = 1.0;
   double relaxation = 1.0;   ///< friction-iteration: part of the change of a bound that is taken, in (0, 1]
   int max_iterations = 100;  ///< friction-iteration: a step, before the run stops
+  bool geometric = false;    ///< static forces have a stiffness (FrozenForces)
   SourcePlace place = {};
+  SourcePlace geometric_place = {};
 
   /// The grid of history.csv: strictly ascending, t_end last. Errors: more than 1e8 times.
   [[nodiscard]] std::vector<double> grid() const;
@@ -129,6 +131,22 @@ struct StageSpec {
   int steps = 1;                   ///< parts of the stage after which its state is told
   SourcePlace place;
   std::vector<SourcePlace> load_places = {};  ///< one a load
+};
+
+/// Static forces whose geometric stiffness acts in a run (run.geometric).
+struct FrozenForces {
+  /// Axial force of a finite element at two nodes of the mesh, tension positive.
+  struct Element {
+    std::string from, to;
+    double at_from = 0.0, at_to = 0.0;
+  };
+  /// Of a rigid body, moment per rotation: sum of F . r over the forces on it.
+  struct Body {
+    std::string name;
+    double stiffness = 0.0;
+  };
+  std::vector<Element> elements;
+  std::vector<Body> bodies;
 };
 
 /// Where a run stood: everything that its motion goes on from.
@@ -155,6 +173,7 @@ struct SavedState {
   /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
   /// velocity, force.
   std::optional<std::array<double, 5>> scales;
+  std::optional<FrozenForces> frozen;  ///< of the run, if it had run.geometric
   std::vector<std::string> differing;  ///< tables in which the run's scene has another structure
 };
 

@@ -187,6 +187,15 @@ std::string frequency_rows(const Model& model, const CheckReport& report) {
                             number(model.alpha), u.time, number(model.beta), u.time);
 }
 
+std::string load_factor_lines(const CheckReport& report) {
+  if (!report.load_factors) return "";
+  const std::vector<double>& factors = *report.load_factors;
+  std::string text = "buckling on the contacts of the start, by factors of the static loads: ";
+  if (factors.empty()) return text + "none, no multiple of them does it\n\n";
+  for (std::size_t i = 0; i < factors.size(); ++i) text += (i == 0 ? "" : ", ") + number(factors[i]);
+  return text + (factors.front() > 1.0 ? "\n\n" : "; up to 1 it is unstable as it stands\n\n");
+}
+
 std::string stiffness_rows(const Model& model, const CheckReport& report) {
   if (report.stiffness.empty()) return "";
   const std::string stiffness = unit(model.units.force + "/" + model.units.length);
@@ -310,8 +319,8 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
   return head(scene, model, report) + body_lines(scene) + "\n" + contact_rows(model, report) +
          hanger_rows(model) + warning_lines(report) + free_motion_lines(report) +
-         frequency_rows(model, report) + stiffness_rows(model, report) + load_rows(model, report) +
-         reduction_lines(model) + cost_lines(scene, model, report);
+         frequency_rows(model, report) + load_factor_lines(report) + stiffness_rows(model, report) +
+         load_rows(model, report) + reduction_lines(model) + cost_lines(scene, model, report);
 }
 
 std::string column_text(const Model& model) {

@@ -34,7 +34,16 @@ that are not linear; `summary.json` says what was taken and why.
 
 A companion beside the run says how far off each event may be, and until when the sequence of events is certain
 ([output.md](output.md#certified-runs)). By itself it runs where it is expected to cost less than half of the run, which
-is where `exact` takes the scene; `certify = true` asks for it.)"},
+is where `exact` takes the scene; `certify = true` asks for it.
+
+`geometric = true` is P-delta: forces that stand in the structure push it on where it bends or turns. A first pass finds the forces of
+the static loads without that; then they are frozen, and their stiffness acts from the start on. A beam under a compression has
+less stiffness across, a bar under a tension is a string, a rigid body with its weight above its feet has the moment -m g h. Loads,
+springs and contacts keep their directions. A static start is found again with this stiffness, and refused where the structure would
+buckle, with its load factor; `check` prints the lowest ones. A frictional start comes to its end without it, and then it grows as a
+last stage, "geometric". Where the state is given, the forces are those of the static equilibrium, which must exist. A run that goes
+on has the forces of the run before, if that had any; they stand in its geometric.csv. What changes in the run changes no force
+that is frozen.)"},
     {"run.atol", "### `run.atol`",
      R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
 motions matter.)"},
@@ -227,8 +236,8 @@ The nodes have no degrees of freedom of their own: these are eliminated, without
 contacts, loads, outputs and supports may stand at them as at any node. Results have their motions as those of all
 nodes; `initial` is given at the centre. A node belongs to one body. A support of one node holds the body there, which may still
 turn about it; the motion of the centre then follows. Two supports of a body's nodes along one direction may not both hold it where
-one of them moves. Rotations are small: a weight does no work on them (the moment m g h of a block that rocks is a
-negative spring of rotations, which is not there).)"},
+one of them moves. Rotations are small: a weight does no work on them, unless `run.geometric` gives it the moment m g h of a
+block that rocks.)"},
     {"rigid[].box", "### `rigid.box`", ""},
     {"supports[]", "## `[[supports]]`",
      R"(What is held moves neither way for ever, or as `motion` says. A support that may open is a contact.

@@ -95,6 +95,12 @@ std::string text_of_state(const Scene& scene) {
   for (const auto& [name, value] : state.slips) text += fmt::format("{}={} ", name, value);
   for (const SavedState::Own& own : state.own)
     text += fmt::format("{}={},{} ", own.contact, own.state, own.memory);
+  if (state.frozen) {
+    for (const FrozenForces::Element& e : state.frozen->elements)
+      text += fmt::format("{}-{}={},{} ", e.from, e.to, e.at_from, e.at_to);
+    for (const FrozenForces::Body& body : state.frozen->bodies)
+      text += fmt::format("{}={} ", body.name, body.stiffness);
+  }
   if (state.scales)
     for (const double scale : *state.scales) text += fmt::format("{} ", scale);
   return text;

@@ -14,10 +14,12 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
+#include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
 #include "model/assembly/ties.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
+#include "model/geometric_start.hpp"
 #include "model/initial_state.hpp"
 #include "model/machine_units.hpp"
 #include "model/massless.hpp"
@@ -58,7 +60,8 @@ std::vector<SavedState::Left> left_contacts(const SavedState& saved, const Model
   return saved.left;
 }
 
-void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
+/// pressed: contacts that are closed in the first pass of run.geometric.
+void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, DofMap& map, Model& model) {
   if (scene.initial.is_frictional) {
     start_with_friction(scene, map, model);
     return;
@@ -78,8 +81,10 @@ void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
     throw SceneError(scene.initial.place, "run.initial",
                      "with [matrices] a static start needs loads with a constant history that say what the "
                      "weight is");
-  Equilibrium found = find_equilibrium(model.stiffness, static_load(model.loads, model.size()),
-                                       model.contacts, map, scene.initial.place, scene.units);
+  Equilibrium found = scene.run.geometric
+                          ? second_pass(scene, map, model, pressed)
+                          : find_equilibrium(model.stiffness, static_load(model.loads, model.size()),
+                                             model.contacts, map, scene.initial.place, scene.units);
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
@@ -107,6 +112,7 @@ const SavedState* same_run(const Scene& scene) {
   return saved && saved->differing.empty() ? &*saved : nullptr;
 }
 
+/// dampers: C without alpha M + beta K.
 void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   const DampingSpec& spec = scene.damping;
   model.alpha = spec.alpha;
@@ -126,6 +132,20 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   model.damping = dampers;
   if (model.alpha != 0.0) model.damping = SparseMatrix(model.damping + model.alpha * model.mass);
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
+}
+
+/// The initial state, and the forces that are frozen.
+void start(const Scene& scene, const MasslessPlaces& massless, DofMap& map, Model& model) {
+  if (scene.run.geometric && scene.matrices)
+    throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
+  FirstPass first;
+  if (scene.run.geometric && !scene.initial.is_frictional) {
+    first = first_pass(scene, map, model);
+    stiffen(scene, first.forces, map, model);
+  }
+  check_massless(model, map, massless);
+  set_initial_state(scene, first.closed, map, model);
+  if (scene.run.geometric && scene.initial.is_frictional) check_massless(model, map, massless);
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
@@ -150,13 +170,17 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  check_massless(model, map,
-                 {place, scene.matrices ? scene.matrices->stiffness.place : place,
-                  scene.matrices ? "matrices.stiffness" : ""});
-  set_initial_state(scene, map, model);
+  start(scene,
+        {place, scene.matrices ? scene.matrices->stiffness.place : place,
+         scene.matrices ? "matrices.stiffness" : ""},
+        map, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
+  if (model.geometric && doubted) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
+  // What is frozen is not damped: beta times the model's stiffness is too much by that of these forces.
+  if (model.geometric && scene.damping.beta != 0.0)
+    assembly.dampers -= scene.damping.beta * assemble_geometric(scene, map).matrix;
   set_damping(scene, assembly.dampers, model);
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);

@@ -11,9 +11,11 @@
 #include "contact/friction.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/initial_state.hpp"
+#include "model/modes/growth.hpp"
 #include "model/outputs/hangers.hpp"
 #include "model/slip_growth.hpp"
 #include "model/statics/null_motions.hpp"
@@ -52,6 +54,7 @@ class Doubts {
     sudden_supports();
     growth();
     for (std::string& doubt : hanger_doubts(model_)) found_.push_back(std::move(doubt));
+    runs_away();
     for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
     return std::move(found_);
   }
@@ -240,6 +243,22 @@ class Doubts {
         "should {} slip on after the slow start, an oscillation of {:.4g} rad/{} would grow as exp({:.4g} t) "
         "(flutter); damping may stop it",
         names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
+  }
+
+  /// run.geometric: some motion has negative energy where contacts are open.
+  void runs_away() {
+    if (!model_.geometric) return;
+    const auto fastest = fastest_growth(model_.stiffness, model_.mass);
+    if (!fastest) return;
+    const std::vector<double>& factors = model_.geometric->load_factors;
+    const bool at_once = !factors.empty() && factors.front() <= 1.0;
+    found_.push_back(
+        fmt::format("under its static forces (run.geometric) the structure is unstable {}: the {} grows like "
+                    "exp({:.4g} t)",
+                    model_.contacts.empty() ? "from the start"
+                    : at_once               ? "from the start, and with all its contacts open"
+                                            : "with all its contacts open",
+                    describe_motion(fastest->motion, map_), fastest->rate / model_.unit.time));
   }
 
   const Scene& scene_;

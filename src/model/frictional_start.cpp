@@ -7,6 +7,7 @@
 
 #include "base/suggest.hpp"
 #include "contact/friction.hpp"
+#include "model/geometric_start.hpp"
 #include "model/statics/frictional.hpp"
 
 namespace signorini {
@@ -67,12 +68,15 @@ Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::v
   return stage;
 }
 
-std::vector<Stage> stages_of(const Scene& scene, const Model& model) {
+/// acts: which loads stand in some stage.
+std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector<bool>& acts) {
   std::vector<Stage> stages;
   if (scene.initial.stages.empty()) {
     Stage all{"loads", Vector::Zero(model.size()), 1};
-    for (const Load& load : model.loads)
+    for (const Load& load : model.loads) {
+      acts.push_back(load.is_static);
       if (load.is_static) load.direction.add_to(all.load, load.history.value(0.0));
+    }
     return {all};
   }
   std::vector<int> taken(model.loads.size(), 0);
@@ -85,20 +89,23 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model) {
           scene.initial.stages.front().place, "run.stages",
           fmt::format("\"{}\" stands in no stage, and acts from the start: expected it in the loads of one",
                       load.name));
+    acts.push_back(taken[i] > 0);
   }
   return stages;
 }
 
 }  // namespace
 
-void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
+void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
                        "has no meaning beside initial = \"frictional\", which finds it");
-  const std::vector<Stage> stages = stages_of(scene, model);
+  std::vector<bool> acts;
+  const std::vector<Stage> stages = stages_of(scene, model, acts);
   FrictionalEquilibrium found =
       frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
+  if (scene.run.geometric) found = stiffened_end(scene, acts, std::move(found), map, model);
   for (const Stage& stage : stages)
     if (!scene.initial.stages.empty() && stage.load.isZero(0.0))
       found.start.doubts.push_back(
@@ -107,7 +114,7 @@ void start_with_friction(const Scene& scene, const DofMap& map, Model& model) {
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
   model.statics = std::move(found.start);
-  model.warnings = model.statics.doubts;
+  model.warnings.insert(model.warnings.end(), model.statics.doubts.begin(), model.statics.doubts.end());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& c = model.contacts[k];
     if (!c.tangential_stiffness || !c.has_friction()) continue;

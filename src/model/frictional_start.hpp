@@ -14,6 +14,6 @@ namespace signorini {
 
 /// Sets u0, v0, statics and the shears of contacts. Errors: SceneError for stages that name no load, leave
 /// out a static one or name one twice, and for a start that is no equilibrium.
-void start_with_friction(const Scene& scene, const DofMap& map, Model& model);
+void start_with_friction(const Scene& scene, DofMap& map, Model& model);
 
 }  // namespace signorini

@@ -138,6 +138,12 @@ class Rescaling {
     (*this)(c.own_memory, unit::length);
   }
 
+  void operator()(FrozenForces& forces) const {
+    for (FrozenForces::Element& e : forces.elements)
+      for (double* n : {&e.at_from, &e.at_to}) (*this)(*n, unit::force);
+    for (FrozenForces::Body& body : forces.bodies) (*this)(body.stiffness, unit::energy);
+  }
+
   void operator()(Scales& s) const {
     (*this)(s.displacement, unit::length);
     (*this)(s.velocity, unit::velocity);
@@ -214,6 +220,7 @@ Model rescaled(Model model, const Factors& factors) {
     rescale(left.vt, unit::velocity);
     for (double* force : {&left.N, &left.T}) rescale(*force, unit::force);
   }
+  if (model.geometric) rescale(model.geometric->forces);
   rescale(model.scales);
   rescale(model.alpha, unit::rate);
   rescale(model.beta, unit::time);

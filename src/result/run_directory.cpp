@@ -8,6 +8,7 @@
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
+#include "result/frozen_forces.hpp"
 #include "result/instants.hpp"
 #include "result/load_table.hpp"
 #include "result/plot_folder.hpp"
@@ -15,6 +16,7 @@
 #include "result/run_tables.hpp"
 #include "result/states.hpp"
 #include "result/summary.hpp"
+#include "scene/frozen_file.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -23,10 +25,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 16> run_files = {
+constexpr std::array<std::string_view, 17> run_files = {
     "events.csv", "history.csv", "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
     "loads.csv",  "energy.csv",  "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
-    "states.csv", "report.html", "response.csv", "instants.csv"};
+    "states.csv", "report.html", "response.csv", "instants.csv",       frozen_file};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -94,6 +96,7 @@ RunDirectory::Writers& RunDirectory::writers() {
     write_file(path_ / "summary.json", running_json(scene_, model_, options_.command_line));
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);
+    if (model_.geometric) write_file(path_ / frozen_file, frozen_text(model_.geometric->forces));
     writers_ = std::make_unique<Writers>(path_, model_);
   } catch (const FileError&) {
     std::error_code ignored;

@@ -42,6 +42,7 @@ SavedState last_state(const Model& model, const Result& result) {
   const Scales& s = model.scales;
   state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
   state.motions.emplace_back(saved_alpha, model.alpha);
+  if (model.geometric) state.frozen = model.geometric->forces;
   return state;
 }
 

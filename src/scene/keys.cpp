@@ -48,6 +48,7 @@ constexpr Key table_of_keys[] = {
     {"run", "initial", KeyType::initial, "", "{}", "", "State at t = 0: \"static\", \"frictional\", that of a run { run = \"DIR\", t = ... }, or displacements and velocities by node or (with [matrices]) as lists u and v; zero where absent."},
     {"run", "stages", tables, "", "", "", "initial = \"frictional\": what is loaded after what; all static loads at once where absent."},
     {"run", "engine", choice, "", "\"ida\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and every decay is slow beside the fastest oscillation, else ida."},
+    {"run", "geometric", flag, "", "false", "", "The forces of the static loads have a stiffness (P-delta): axial ones of members and all on rigid bodies, from a first pass without it, then frozen."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
     {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
     {"run", "output_dt", positive, "time", "", "", "Distance of the rows of history.csv; t_end / 1000 unless output_times is given."},

@@ -42,6 +42,12 @@ void visit_run(RunSpec& run, const Visit& visit) {
   visit_optional(run.dt, time, visit);
 }
 
+void visit_frozen(FrozenForces& forces, const Visit& visit) {
+  for (FrozenForces::Element& e : forces.elements)
+    for (double* n : {&e.at_from, &e.at_to}) visit(*n, force);
+  for (FrozenForces::Body& body : forces.bodies) visit(body.stiffness, energy);
+}
+
 void visit_initial(InitialSpec& initial, const Visit& visit) {
   for (double& u : initial.u) visit(u, length);
   for (double& v : initial.v) visit(v, velocity);
@@ -69,6 +75,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(left.N, force);
     visit(left.T, force);
   }
+  if (initial.saved->frozen) visit_frozen(*initial.saved->frozen, visit);
   if (!initial.saved->scales) return;
   const std::array units{length, plain, velocity, rate, force};
   for (std::size_t i = 0; i < units.size(); ++i) visit((*initial.saved->scales)[i], units[i]);

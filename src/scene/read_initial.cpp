@@ -8,6 +8,7 @@
 #include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "scene/data_file.hpp"
+#include "scene/frozen_file.hpp"
 #include "scene/left_contacts.hpp"
 #include "scene/readers.hpp"
 #include "scene/saved_state.hpp"
@@ -55,7 +56,7 @@ void read_stages(Table& run, InitialSpec& initial) {
   if (!array || array->empty()) run.wrong("stages", "tables under [[run.stages]]");
   if (!initial.is_frictional) run.fail("stages", "has no meaning without initial = \"frictional\"");
   std::vector<std::string> texts;
-  Names names{"fit"};
+  Names names{"fit", "geometric"};
   for (const toml::node& item : *array) {
     const std::string path = run.path("stages") + "." + std::to_string(texts.size() + 1);
     if (!item.is_table()) refuse(place_of(item), path, "found " + describe(item) + ", expected a table");
@@ -130,6 +131,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   initial.saved = std::move(*found.wanted);
   initial.saved->run = directory.string();
   initial.saved->left = read_left_contacts(directory / "contacts.csv", initial.saved->t);
+  initial.saved->frozen = read_frozen_forces(directory / frozen_file, table.path("run"));
   const Json model = model_of_run(directory);
   initial.saved->scales = scales_of_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);

@@ -119,6 +119,13 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   run.engine = engine_called(table.choice("engine")).value_or(Engine::automatic);
   const std::string flow = table.choice("flow");
   run.flow = flow == "modal" ? Flow::modal : flow == "taylor" ? Flow::taylor : Flow::automatic;
+  run.geometric = table.flag("geometric");
+  run.geometric_place = table.place("geometric");
+  if (run.geometric && scene.matrices)
+    table.fail(
+        "geometric",
+        "has nothing to act on beside [matrices]: expected their stiffness to contain what static forces "
+        "add to it");
   read_tolerances(table, run);
   read_output(table, run);
   read_frames(table, run, scene.matrices.has_value());

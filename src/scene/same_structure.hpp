@@ -1,6 +1,7 @@
 // same_structure.hpp: do two scenes, with all defaults filled in, describe one structure?
 //
-//   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction, matrices, gravity
+//   nodes, lines, sections, members, masses, springs, damping, supports, contacts, stops, reduction, matrices, gravity,
+//   run.geometric
 //
 // without what drives them, which may be another in a run that goes on: motions of supports and surfaces,
 // compressions, temperatures and initial strains of members, and friction's initial shear.

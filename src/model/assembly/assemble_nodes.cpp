@@ -5,6 +5,8 @@
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/bar.hpp"
 #include "model/assembly/beam.hpp"
+#include "model/assembly/geometric.hpp"
+#include "model/assembly/pieces.hpp"
 #include "model/assembly/ties.hpp"
 
 namespace signorini {
@@ -61,6 +63,18 @@ struct Builder {
     add_inertia(m, scene.gravity, numbers, weight);
     for (std::size_t i = 0; i < base.size(); ++i)
       add_inertia(m, scene.base_motion[i].direction.vector, numbers, base[i]);
+  }
+
+  /// Into what else holds stiffnesses.
+  void add_geometric(std::size_t number) {
+    const MeshElement& e = map.mesh.elements[number];
+    if ((e.force_a == 0.0 && e.force_b == 0.0) || map.within_body(e)) return;
+    const Axis axis = axis_of(map.mesh, e);
+    const double dx = axis.length * axis.c, dy = axis.length * axis.s;
+    add(stiffness, &SupportColumns::stiffness,
+        e.type == MemberType::bar ? bar_geometric(dx, dy, e.force_a, e.force_b)
+                                  : beam_geometric(dx, dy, e.force_a, e.force_b),
+        map.element_numbers(number));
   }
 
   /// target += M r a, with r a the acceleration of all translations.
@@ -125,17 +139,39 @@ struct Builder {
 
 }  // namespace
 
+namespace {
+
+Builder begun(const Scene& scene, const DofMap& map) {
+  const Vector zero = Vector::Zero(map.size());
+  return {scene,
+          map,
+          {},
+          {},
+          {},
+          zero,
+          std::vector<Vector>(scene.base_motion.size(), zero),
+          std::vector<SupportColumns>(map.supports.size(), {zero, zero, zero})};
+}
+
+}  // namespace
+
+GeometricStiffness assemble_geometric(const Scene& scene, const DofMap& map) {
+  Builder builder = begun(scene, map);
+  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_geometric(i);
+  for (std::size_t i = 0; i < map.body_stiffness.size(); ++i) {
+    const int turn = map.numbers_at(map.mesh.by_name.at(scene.rigid[i].centre))[2];
+    builder.add(builder.stiffness, &SupportColumns::stiffness,
+                Eigen::Matrix<double, 1, 1>(map.body_stiffness[i]), std::array<int, 1>{turn});
+  }
+  GeometricStiffness result{SparseMatrix(map.size(), map.size()), {}};
+  result.matrix.setFromTriplets(builder.stiffness.begin(), builder.stiffness.end());
+  for (SupportColumns& columns : builder.moving) result.moving.push_back(std::move(columns.stiffness));
+  return result;
+}
+
 Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
   const int n = map.size();
-  const Vector zero = Vector::Zero(n);
-  Builder builder{scene,
-                  map,
-                  {},
-                  {},
-                  {},
-                  zero,
-                  std::vector<Vector>(scene.base_motion.size(), zero),
-                  std::vector<SupportColumns>(map.supports.size(), {zero, zero, zero})};
+  Builder builder = begun(scene, map);
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_element(i);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
     builder.add_mass(scene.masses[i],

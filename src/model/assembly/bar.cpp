@@ -11,6 +11,13 @@ BeamMatrix bar_stiffness(double dx, double dy, double ea) {
   return (ea / l) * a * a.transpose();
 }
 
+BeamMatrix bar_geometric(double dx, double dy, double force_a, double force_b) {
+  const double l = std::hypot(dx, dy);
+  Eigen::Matrix<double, 6, 1> a;
+  a << dy / l, -dx / l, 0.0, -dy / l, dx / l, 0.0;
+  return (0.5 * (force_a + force_b) / l) * a * a.transpose();
+}
+
 BeamMatrix bar_mass(double dx, double dy, double mass_per_length, MassKind kind) {
   const double mass = mass_per_length * std::hypot(dx, dy);
   const bool lumped = kind == MassKind::lumped;

@@ -14,6 +14,10 @@ namespace signorini {
 /// Stiffness of a bar that spans (dx, dy); force per length.
 [[nodiscard]] BeamMatrix bar_stiffness(double dx, double dy, double ea);
 
+/// Geometric stiffness of a bar that spans (dx, dy) under an axial force, tension positive: that of a string, N/L
+/// across it. Where the force goes linearly from a to b its mean counts.
+[[nodiscard]] BeamMatrix bar_geometric(double dx, double dy, double force_a, double force_b);
+
 /// Mass matrix of a bar that spans (dx, dy).
 [[nodiscard]] BeamMatrix bar_mass(double dx, double dy, double mass_per_length, MassKind kind);
 

@@ -36,6 +36,22 @@ BeamMatrix beam_stiffness(double dx, double dy, double ea, double ei) {
   return turned(k, dx / l, dy / l);
 }
 
+BeamMatrix beam_geometric(double dx, double dy, double force_a, double force_b) {
+  const double l = std::hypot(dx, dy);
+  const double n = 0.5 * (force_a + force_b) / (30.0 * l), d = 0.5 * (force_b - force_a);
+  const double diagonal = 36.0 * n, slant = 3.0 * l * n, odd = d / 10.0, turn = d * l / 15.0;
+  BeamMatrix k;
+  // clang-format off
+  k << 0.0,  0.0,         0.0,                    0.0,  0.0,         0.0,
+       0.0,  diagonal,    slant + odd,            0.0, -diagonal,    slant - odd,
+       0.0,  slant + odd, 4.0 * l * l * n - turn, 0.0, -slant - odd, -l * l * n,
+       0.0,  0.0,         0.0,                    0.0,  0.0,         0.0,
+       0.0, -diagonal,   -slant - odd,            0.0,  diagonal,   -slant + odd,
+       0.0,  slant - odd, -l * l * n,             0.0, -slant + odd,  4.0 * l * l * n + turn;
+  // clang-format on
+  return turned(k, dx / l, dy / l);
+}
+
 BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind) {
   const double l = std::hypot(dx, dy), mass = mass_per_length * l;
   BeamMatrix m = BeamMatrix::Zero();

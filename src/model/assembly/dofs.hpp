@@ -42,7 +42,8 @@ struct DofMap {
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
   std::vector<int> body;                   ///< a mesh node: index into Scene::rigid, or `absent`
-  std::vector<TiedDof> tied;               ///< numbers size(), size() + 1, ...
+  std::vector<double> body_stiffness;  ///< a rigid body: of its frozen forces (geometric.hpp); empty: none
+  std::vector<TiedDof> tied;           ///< numbers size(), size() + 1, ...
   std::vector<Column> columns;
   double shown_length = 1.0;  ///< what one of the lengths here is in the names of motions
 

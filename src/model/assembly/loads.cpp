@@ -113,20 +113,19 @@ Combination strain_form(const Scene& scene, const DofMap& map, int member) {
 void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     const Member& member = scene.members[i];
-    const auto add = [&](LoadKind kind, const char* what, const char* key, const HistorySpec& spec,
-                         double factor) {
+    const auto add = [&](LoadKind kind, const char* key, const HistorySpec& spec, double factor) {
       const std::string path = fmt::format("members.{}.{}", i + 1, key);
       const History history = finite(make_history(spec, path).scaled(factor), member.place, path);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
-      Load load{fmt::format("{} of member {}", what, i + 1), strain_form(scene, map, static_cast<int>(i)),
+      Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(scene, map, static_cast<int>(i)),
                 history, holds_since_ever(spec, history)};
       load.kind = kind;
       load.of_direction = unit::force;
       load.of_history = unit::plain;
       loads.push_back(std::move(load));
     };
-    add(LoadKind::temperature, "temperature", "temperature", member.temperature, member.thermal_expansion);
-    add(LoadKind::initial_strain, "initial strain", "initial_strain", member.initial_strain, 1.0);
+    add(LoadKind::temperature, "temperature", member.temperature, member.thermal_expansion);
+    add(LoadKind::initial_strain, "initial_strain", member.initial_strain, 1.0);
   }
 }
 
@@ -232,6 +231,11 @@ std::string name_of(const LoadSpec& load, std::size_t number) {
   return load.name.empty() ? fmt::format("load {}", number) : load.name;
 }
 
+std::string name_of_strain(LoadKind kind, int member) {
+  return fmt::format("{} of member {}", kind == LoadKind::temperature ? "temperature" : "initial strain",
+                     member + 1);
+}
+
 Unit unit_of_history(LoadType type) {
   return type == LoadType::moment        ? unit::energy
          : type == LoadType::distributed ? unit::stiffness
@@ -252,6 +256,24 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   add_base(scene, assembly, loads);
   add_supports(scene, map, assembly, loads);
   return loads;
+}
+
+void add_geometric_supports(const Scene& scene, const DofMap& map, const std::vector<Vector>& columns,
+                            std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].isZero(0.0)) continue;
+    const SupportMotion moving = support_motion(scene, map, i);
+    const auto known = std::find_if(loads.begin(), loads.end(), [&](const Load& load) {
+      return load.kind == LoadKind::support && load.name == moving.name;
+    });
+    if (known == loads.end()) {
+      add_support_load(moving, "", columns[i], moving.s, 0, loads);
+      continue;
+    }
+    Vector whole = -columns[i];
+    known->direction.add_to(whole, 1.0);
+    known->direction = form_of(whole, 1.0);
+  }
 }
 
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,

@@ -21,6 +21,8 @@ namespace signorini {
 [[nodiscard]] std::string rate_of(const std::string& support_motion);
 /// Of [[loads]], counted from 1: its own name, or "load 1".
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
+/// Of a strain of a member, temperature or initial strain.
+[[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
 /// Load::of_history.
 [[nodiscard]] Unit unit_of_history(LoadType type);
 /// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of
@@ -34,6 +36,10 @@ namespace signorini {
 /// SceneError for a motion that jumps or has a kink where dampers or masses would answer with an impulse.
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads);
+
+/// What the geometric stiffness adds to where supports are, -K_fs s: one column for each of DofMap::supports.
+void add_geometric_supports(const Scene& scene, const DofMap& map, const std::vector<Vector>& columns,
+                            std::vector<Load>& loads);
 
 /// Sum of the static loads; n.
 [[nodiscard]] Vector static_load(const std::vector<Load>& loads, int n);

@@ -26,6 +26,7 @@ struct MeshElement {
   bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
   int member = 0;                           ///< index into Scene::members
   double flexibility = 1.0;                 ///< of a bend: EI is divided by it
+  double force_a = 0.0, force_b = 0.0;  ///< frozen axial force at its ends, tension positive (geometric.hpp)
 };
 
 /// A piece of a member between two named nodes; an arc has nodes on it, and chords as elements.

@@ -75,8 +75,8 @@ Frequencies dense(const SparseMatrix& mass, const SparseMatrix& damping, const S
   if (q.cols() == 0) return {};
   SparseMatrix m = mass, stiff = k;
   if (!fixed.empty()) {
-    m = (q.transpose() * (mass * q)).sparseView();
-    stiff = (q.transpose() * (k * q)).sparseView();
+    m = restricted(mass, q);
+    stiff = restricted(k, q);
   }
   const FreeMotions free = free_motions(stiff, m);
   Frequencies result;

@@ -2,7 +2,8 @@
 //
 //   K x = -sigma^2 M x,   u ~ exp(sigma t)
 //
-// Only matrices from elsewhere can have such a K: no member, spring or contact has negative energy.
+// Only matrices from elsewhere can have such a K, and frozen forces (run.geometric): no member, spring or contact has
+// negative energy.
 #pragma once
 
 #include <optional>

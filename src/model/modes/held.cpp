@@ -1,6 +1,7 @@
 #include "model/modes/held.hpp"
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -15,6 +16,14 @@ Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n) {
   Eigen::MatrixXd t(n, static_cast<Eigen::Index>(forms.size()));
   for (std::size_t j = 0; j < forms.size(); ++j) t.col(static_cast<Eigen::Index>(j)) = full(forms[j], n);
   return t;
+}
+
+SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q) {
+  Eigen::MatrixXd result = q.transpose() * (a * q);
+  const Eigen::MatrixXd across = q.cwiseAbs();
+  const Eigen::MatrixXd size = across.transpose() * (SparseMatrix(a.cwiseAbs()) * across);
+  result = (result.array().abs() > rounding::of_many * size.array()).select(result, 0.0);
+  return result.sparseView();
 }
 
 SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& forms) {

@@ -34,6 +34,9 @@ class HeldStructure {
 /// K with springs of the structure's own size along the forms.
 [[nodiscard]] SparseMatrix with_grips(const SparseMatrix& k, const std::vector<Combination>& forms);
 
+/// Q^T A Q for symmetric A; what cancels is zero, since nothing else may be left to compare it with.
+[[nodiscard]] SparseMatrix restricted(const SparseMatrix& a, const Eigen::MatrixXd& q);
+
 /// The forms as columns, n x m.
 [[nodiscard]] Eigen::MatrixXd form_columns(const std::vector<Combination>& forms, int n);
 

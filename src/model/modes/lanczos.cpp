@@ -56,6 +56,18 @@ double greatest_eigenvalue(int n, const Operator& apply, double tolerance) {
   return value;
 }
 
+Vector greatest_eigenvalues(int n, int count, const Operator& apply) {
+  try {
+    Products op(n, apply);
+    Spectra::SymEigsSolver<Products> solver(op, count, std::min(n, std::max(2 * count + 1, 60)));
+    solver.init();  // Spectra's own fixed start vector: the same scene gives the same answer
+    solver.compute(Spectra::SortRule::LargestAlge, most_restarts, converged);
+    return solver.eigenvalues();
+  } catch (const std::exception&) {
+    return Vector(0);
+  }
+}
+
 EigenPairs lowest_by_inverse(int count, int width, const SparseMatrix& mass, double shift,
                              const Operator& inverse) {
   using Mass = Spectra::SparseSymMatProd<double>;

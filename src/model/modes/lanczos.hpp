@@ -16,6 +16,10 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// Relative accuracy `tolerance`. Returns the best estimate when the iteration does not settle.
 [[nodiscard]] double greatest_eigenvalue(int n, const Operator& apply, double tolerance);
 
+/// The greatest eigenvalues of any sign, descending; fewer, or none, when the iteration does not settle. A single start
+/// vector sees each repeated one once.
+[[nodiscard]] Vector greatest_eigenvalues(int n, int count, const Operator& apply);
+
 /// The `count` lowest modes as far as a single start vector finds them: omega^2 and M-orthonormal shapes, not
 /// sorted, from a Krylov space of `width`; none when the iteration does not settle. `inverse`:
 /// (K + shift M)^-1.

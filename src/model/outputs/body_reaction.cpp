@@ -67,6 +67,10 @@ void add_body_reaction(const Scene& scene, const DofMap& map, const StructureRow
     for (std::size_t c = 0; c < 3; ++c)
       if (const double factor = weights.dot(resultant(map, node, c, centre, size)); factor != 0.0)
         rows.add_reaction(row, node, c, factor);
+  if (map.body_stiffness.empty()) return;
+  const int turn = map.numbers_at(map.mesh.by_name.at(body.centre))[2];
+  rows.add_motion(row, turn, weights[2] / size * map.body_stiffness[static_cast<std::size_t>(asked.body)],
+                  0.0, 0.0);
 }
 
 }  // namespace signorini

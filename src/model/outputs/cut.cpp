@@ -1,5 +1,7 @@
 #include "model/outputs/cut.hpp"
 
+#include <cmath>
+
 namespace signorini {
 namespace {
 
@@ -21,6 +23,26 @@ Shapes cubic_twice(double l, double s) {
   const double s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
   return {l * l * (s2 / 2.0 - s4 / 4.0 + s5 / 10.0), l * l * l * (s3 / 6.0 - s4 / 6.0 + s5 / 20.0),
           l * l * (s4 / 4.0 - s5 / 10.0), l * l * l * (s5 / 20.0 - s4 / 12.0)};
+}
+
+/// v' at a part of the length, by ux, uy, rz at both ends.
+Eigen::Matrix<double, 6, 1> slope(const Axis& axis, bool bar, double s) {
+  const double rise = bar ? 1.0 / axis.length : 6.0 * (s - s * s) / axis.length;
+  Eigen::Matrix<double, 6, 1> row;
+  row << rise * axis.s, -rise * axis.c, bar ? 0.0 : 1.0 - 4.0 * s + 3.0 * s * s, -rise * axis.s,
+      rise * axis.c, bar ? 0.0 : 3.0 * s * s - 2.0 * s;
+  return row;
+}
+
+Eigen::Matrix<double, 6, 1> deflection_at(const MeshElement& element, const Axis& axis,
+                                          OutputQuantity quantity, double part) {
+  const auto pull = [&](double s) -> Eigen::Matrix<double, 6, 1> {
+    const double force = element.force_a + s * (element.force_b - element.force_a);
+    return force * slope(axis, element.type == MemberType::bar, s);
+  };
+  if (quantity == OutputQuantity::V) return pull(part);
+  const double half = 0.5 * part, gauss = half / std::sqrt(3.0);  // cubic: two places are exact
+  return half * axis.length * (pull(half - gauss) + pull(half + gauss));
 }
 
 }  // namespace
@@ -50,6 +72,8 @@ Cut cut_at(const MeshElement& element, const Axis& axis, double mass_per_length,
     cut.load = {-0.5 * x * x * s, 0.5 * x * x * c};
     shapes = bar ? linear_twice(l, part) : cubic_twice(l, part);
   }
+  if (quantity != OutputQuantity::N && (element.force_a != 0.0 || element.force_b != 0.0))
+    cut.deflection = deflection_at(element, axis, quantity, part);
   if (element.mass == MassKind::lumped) {  // the half at a lies before the cut
     cut.acceleration = -0.5 * mass_per_length * l * cut.forces;
     cut.acceleration[2] = 0.0;

@@ -6,6 +6,8 @@
 //   V(x) =  f_ay + int_0^x p_y            V = dM/dx
 //   M(x) = -m_a  + int_0^x V              positive where it stretches the right-hand side, y < 0
 //
+// With frozen axial forces (run.geometric) N v' is added to V, which stays square to the bent axis, so that V = dM/dx.
+//
 // Along it lie what is distributed, q, and with a consistent mass -rho times the acceleration, interpolated
 // as the element's displacements are: linear along it (a bar: across it, too), cubic across. A lumped mass
 // lies at the ends: N and V step at the nodes, and nothing is left between them.
@@ -22,6 +24,8 @@ namespace signorini {
 struct Cut {
   Eigen::Matrix<double, 6, 1> forces, acceleration;
   std::array<double, 2> load{0.0, 0.0};
+  /// Of the displacements: what frozen axial forces add across the bent axis, V + N v', M + int_0^x N v'.
+  Eigen::Matrix<double, 6, 1> deflection = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 /// At x from a, 0 <= x <= axis.length.

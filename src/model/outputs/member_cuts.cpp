@@ -13,6 +13,7 @@ namespace {
 void add(Cut& to, const Cut& from, double factor) {
   to.forces += factor * from.forces;
   to.acceleration += factor * from.acceleration;
+  to.deflection += factor * from.deflection;
   for (std::size_t c = 0; c < 2; ++c) to.load[c] += factor * from.load[c];
 }
 

@@ -86,14 +86,18 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
   const BeamMatrix m =
       bar ? bar_mass(dx, dy, s.mass_per_length, e.mass) : beam_mass(dx, dy, s.mass_per_length, e.mass);
   const Six ca = m * cut.forces + cut.acceleration;
-  Six cu = Six::Zero();
+  Six cu = Six::Zero(), frozen = cut.deflection;  // what is frozen is not damped
   if (stiff)
     cu =
         (bar ? bar_stiffness(dx, dy, s.EA) : beam_stiffness(dx, dy, s.EA, s.EI / e.flexibility)) * cut.forces;
+  if (stiff && !map_.within_body(e))
+    frozen +=
+        (bar ? bar_geometric(dx, dy, e.force_a, e.force_b) : beam_geometric(dx, dy, e.force_a, e.force_b)) *
+        cut.forces;
   const std::array<int, 6> numbers = map_.element_numbers(i);
   for (std::size_t j = 0; j < 6; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    add_motion(row, numbers[j], cu[at], beta_ * cu[at] + alpha_ * ca[at], ca[at]);
+    add_motion(row, numbers[j], cu[at] + frozen[at], beta_ * cu[at] + alpha_ * ca[at], ca[at]);
   }
   add_frame(row, ca[0] + ca[3], ca[1] + ca[4]);
   for (const Uniform& load : uniform_[i]) {

@@ -1,6 +1,6 @@
 // structure_rows.hpp: forces within the structure as functionals of its motion.
 //
-//   ends of an element     f = k (u + beta v) + m (a + alpha v + r a_b - r g) - f_q q(t) - f_s strain(t)
+//   ends of an element     f = k (u + beta v) + k_g u + m (a + alpha v + r a_b - r g) - f_q q(t) - f_s strain(t)
 //   reaction of a support  R = sum of f + springs + masses + ( N n + T t ) of contacts - forces at the node
 //   sum over the supports  R = inertia - loads + springs and contacts to the ground
 //

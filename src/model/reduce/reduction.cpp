@@ -43,9 +43,22 @@ void check_reducible(const Scene& scene, const Model& model) {
     }
   }
   if (fastest_growth(model.stiffness, model.mass))
+    refuse(scene, model.geometric
+                      ? "under its static forces (run.geometric) the structure is unstable with all its "
+                        "contacts open, and modes that grow are not kept by their frequency; leave "
+                        "[reduction] out"
+                      : "the stiffness matrix has a negative eigenvalue, and modes that grow are not kept by "
+                        "their frequency; leave [reduction] out");
+}
+
+/// Shapes that follow a support at once leave out what damps them, which is that of the elastic stiffness alone.
+void check_frozen(const Scene& scene, const Model& model) {
+  const bool follows = std::any_of(model.loads.begin(), model.loads.end(),
+                                   [](const Load& load) { return load.kind == LoadKind::support_rate; });
+  if (model.geometric && model.beta != 0.0 && follows)
     refuse(scene,
-           "the stiffness matrix has a negative eigenvalue, and modes that grow are not kept by their "
-           "frequency; leave [reduction] out");
+           "a support moves beside run.geometric and damping.beta, which shapes that follow it at once do "
+           "not take together; leave [reduction] or beta out");
 }
 
 bool normal_needs_mass(const Contact& c) { return c.takes_impulses() || c.normal_damping > 0.0; }
@@ -331,6 +344,7 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
 
 void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   check_reducible(scene, model);
+  check_frozen(scene, model);
   const double cutoff = scene.reduction->cutoff_omega;
   KeptModes modes;
   StaticShapes shapes;

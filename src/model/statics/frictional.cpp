@@ -30,7 +30,21 @@ class Path {
   FrictionalEquilibrium run(const std::vector<Stage>& stages) {
     fit();
     for (const Stage& stage : stages) grow(stage);
-    FrictionalEquilibrium result{u_, {}, std::move(found_)};
+    return told();
+  }
+
+  FrictionalEquilibrium go_on(FrictionalEquilibrium from, const Stage& stage) {
+    u_ = std::move(from.u);
+    standing_ = std::move(from.standing);
+    found_ = std::move(from.start);
+    found_.reactions.clear();
+    grow(stage);
+    return told();
+  }
+
+ private:
+  FrictionalEquilibrium told() {
+    FrictionalEquilibrium result{u_, {}, std::move(found_), standing_};
     result.start.frictional = true;
     for (const Standing& s : standing_) {
       result.start.reactions.push_back(std::max(0.0, -s.N));
@@ -39,7 +53,6 @@ class Path {
     return result;
   }
 
- private:
   /// Contacts that press in the undeformed state come apart first.
   void fit() {
     bool any = false;
@@ -322,6 +335,12 @@ FrictionalEquilibrium frictional_equilibrium(const SparseMatrix& stiffness,
                                              const std::vector<Stage>& stages, const DofMap& map,
                                              const SourcePlace& place) {
   return Path(stiffness, contacts, map, place).run(stages);
+}
+
+FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
+                              const std::vector<Contact>& contacts, const Stage& stage, const DofMap& map,
+                              const SourcePlace& place) {
+  return Path(stiffness, contacts, map, place).go_on(std::move(from), stage);
 }
 
 }  // namespace signorini

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "model/assembly/dofs.hpp"
+#include "model/statics/standing.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -36,6 +37,7 @@ struct FrictionalEquilibrium {
   Vector u;                    ///< n
   std::vector<double> shears;  ///< T a contact
   StaticStart start;
+  std::vector<Standing> standing;  ///< one a contact
 };
 
 /// From u = 0 without load. Errors: SceneError at `place` that names the stage, how far it came, and what
@@ -44,5 +46,10 @@ struct FrictionalEquilibrium {
                                                            const std::vector<Contact>& contacts,
                                                            const std::vector<Stage>& stages,
                                                            const DofMap& map, const SourcePlace& place);
+
+/// One more stage from there, on another stiffness.
+[[nodiscard]] FrictionalEquilibrium gone_on(FrictionalEquilibrium from, const SparseMatrix& stiffness,
+                                            const std::vector<Contact>& contacts, const Stage& stage,
+                                            const DofMap& map, const SourcePlace& place);
 
 }  // namespace signorini

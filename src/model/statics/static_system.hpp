@@ -20,11 +20,12 @@ struct StaticProblem {
   const Vector& load;
   const std::vector<Contact>& contacts;
   const DofMap& map;
+  double firmness = 1.0;  ///< of rigid contacts' stiffness, in units of the structure's own
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].has_gap(); }
   [[nodiscard]] double normal_stiffness(std::size_t k) const {
-    return contacts[k].takes_impulses() ? own_stiffness(stiffness, contacts[k].normal)
+    return contacts[k].takes_impulses() ? firmness * own_stiffness(stiffness, contacts[k].normal)
                                         : contacts[k].normal_stiffness;
   }
   [[nodiscard]] double gap(std::size_t k, const Vector& u) const { return contacts[k].gap_at(u); }

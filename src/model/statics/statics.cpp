@@ -19,8 +19,6 @@ namespace {
 constexpr double only_touches = 1e-13;  // of the greatest translation: a solution's rounding in a gap
 constexpr double no_reaction = 1e-9;  // of the greatest load: less drives no free motion (static_system.cpp)
 
-const std::string key = "run.initial";
-
 struct Trial {
   std::vector<FreeMotion> held;
   Vector u;
@@ -57,7 +55,8 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
 
 /// Far beyond any sensible mesh K itself is lost: EI / h^3 against EI / L^3 exceeds 16 digits. What seems
 /// free is then a slow bending, and its name would say nothing.
-void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place) {
+void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
+                     const char* key) {
   if (problem.size() <= 10000) return;
   bool rigid = true;
   for (Eigen::Index j = 0; j < null.cols(); ++j) rigid = rigid && is_rigid(null.col(j), problem.map);
@@ -72,14 +71,15 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
 }
 
 /// A motion that not even contacts that pull and stick can hold.
-void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place) {
+void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
+                       const char* key) {
   std::vector<LineSpring> grips;
   const SparseMatrix k = problem.matrix(all);
   for (const Contact& c : problem.contacts)
     if (!c.tangent.terms.empty()) grips.push_back({c.tangent, own_stiffness(k, c.tangent)});
   const Eigen::MatrixXd null = simple_motions(null_motions(with_springs(k, grips)), problem.map);
   if (null.cols() == 0) return;
-  refuse_roundoff(problem, null, place);
+  refuse_roundoff(problem, null, place, key);
   std::string names = describe_motion(null.col(0), problem.map);
   for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
     names += ", " + describe_motion(null.col(j), problem.map);
@@ -92,7 +92,8 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
 }
 
 [[noreturn]] void refuse_driven(const StaticProblem& problem, const std::vector<bool>& all,
-                                const Trial& found, const SourcePlace& place, const std::string& unit) {
+                                const Trial& found, const SourcePlace& place, const std::string& unit,
+                                const char* key) {
   const Trial gripped = attempt(problem, all);
   if (gripped.driven >= 0) {
     const std::string name = describe_motion(gripped.driven_motion().motion, problem.map);
@@ -132,6 +133,21 @@ bool carries_nothing(const StaticProblem& problem, std::size_t k, double reactio
   return std::abs(reaction) * squares <= no_reaction * greatest * sum;
 }
 
+/// Rigid contacts stand in the matrix as springs. What only they hold against negative energy needs stiff ones; of
+/// what is still negative then, friction may hold some.
+double firm_enough(StaticProblem problem, const std::vector<bool>& closed) {
+  double best = 1.0;
+  Eigen::Index least = null_motions(problem.matrix(closed)).cols();
+  for (const double firmness : {1e2, 1e4, 1e6}) {
+    if (least == 0) break;
+    problem.firmness = firmness;
+    const Eigen::Index left = null_motions(problem.matrix(closed)).cols();
+    if (left < least) best = firmness;
+    least = std::min(least, left);
+  }
+  return best;
+}
+
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
   const std::string name = describe_motion(f.motion, problem.map);
   if (f.holder < 0) return name + ", held by no contact, stays at zero";
@@ -143,13 +159,14 @@ std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
 
 Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                              const std::vector<Contact>& contacts, const DofMap& map,
-                             const SourcePlace& place, const Units& units) {
-  const StaticProblem problem{stiffness, load, contacts, map};
+                             const SourcePlace& place, const Units& units, const EquilibriumSearch& search) {
+  StaticProblem problem{stiffness, load, contacts, map};
   std::vector<bool> all(contacts.size(), false);
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = problem.is_support(k);
-  refuse_mechanisms(problem, all, place);
+  if (!search.mechanisms) refuse_mechanisms(problem, all, place, search.key);
 
-  std::vector<bool> closed = closed_supports(problem);
+  std::vector<bool> closed = search.closed ? *search.closed : closed_supports(problem);
+  if (search.closed) problem.firmness = firm_enough(problem, closed);
   // What carries nothing may be closed only since Newton's rigid contacts gave way, and would hold a free motion
   // away from its place: it opens, once. If its gap is negative without it, it closes for good.
   std::vector<bool> opened(contacts.size(), false);
@@ -157,7 +174,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
   // touches may change its side, and change back: after 20 rounds either will do.
   for (int round = 0;; ++round) {
     const Trial trial = attempt(problem, closed);
-    if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force);
+    if (trial.driven >= 0) refuse_driven(problem, all, trial, place, units.force, search.key);
     std::vector<bool> next = closed;
     const double size = trial.u.size() == 0 ? 0.0 : greatest_translation(trial.u, map);
     for (std::size_t k = 0; k < next.size(); ++k) {
@@ -174,7 +191,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       }
     }
     if (next == closed || round == 20) {
-      Equilibrium result{trial.u, {}};
+      Equilibrium result{trial.u, {}, closed};
       for (std::size_t k = 0; k < contacts.size(); ++k)
         result.start.reactions.push_back(std::max(0.0, trial.reactions[k]));
       for (const FreeMotion& f : trial.held) result.start.free_motions.push_back(motion_name(problem, f));

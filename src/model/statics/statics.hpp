@@ -18,14 +18,26 @@
 
 namespace signorini {
 
+//
+// With geometric stiffness (run.geometric) K may have negative energy where contacts are open, and Newton's method has
+// no minimum to find. So it begins with the contacts that are closed without it.
 struct Equilibrium {
-  Vector u;           ///< n
-  StaticStart start;  ///< reactions -N >= 0 a contact, names of free motions
+  Vector u;                  ///< n
+  StaticStart start;         ///< reactions -N >= 0 a contact, names of free motions
+  std::vector<bool> closed;  ///< one a contact
+};
+
+struct EquilibriumSearch {
+  const char* key = "run.initial";  ///< in messages
+  bool mechanisms = false;          ///< what nothing holds may stay, if nothing drives it
+  /// One a contact: begins with these, and K need not be semidefinite without them.
+  std::optional<std::vector<bool>> closed = {};
 };
 
 /// Errors: SceneError at `place` that names what nothing holds, what is driven, and what would pull.
 [[nodiscard]] Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                                            const std::vector<Contact>& contacts, const DofMap& map,
-                                           const SourcePlace& place, const Units& units);
+                                           const SourcePlace& place, const Units& units,
+                                           const EquilibriumSearch& search = {});
 
 }  // namespace signorini

@@ -76,6 +76,7 @@ CheckReport check(const Scene& scene, const Model& model) {
   report.open = frequencies(structure.damping, {});
   report.closed = frequencies(with_dashpots(structure), close_contacts(structure.contacts));
   report.stuck = frequencies(with_dashpots(structure), hold_contacts(structure.contacts, all));
+  if (structure.geometric) report.load_factors = structure.geometric->load_factors;
   report.stiffness = checks::stiffness_ratios(structure);
   report.discontinuities = checks::discontinuities(model, scene.run.t_end);
   report.cost = checks::cost_of(model, scene.run, report.method);

@@ -58,6 +58,7 @@ struct CheckReport {
   std::vector<std::string> warnings;             ///< of the run, and what may be a mistake
   std::vector<std::string> free_motions;  ///< of the structure on its closed contacts, and what holds them
   Frequencies open, closed, stuck;        ///< all contacts alike
+  std::optional<std::vector<double>> load_factors;  ///< run.geometric: Geometric::load_factors
   std::vector<StiffnessRatio> stiffness;
   std::vector<Discontinuity> discontinuities;  ///< ascending
   Method method;

@@ -52,6 +52,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   json["frequencies"] = {{"open", frequency_json(report.open)},
                          {"closed", frequency_json(report.closed)},
                          {"stuck", frequency_json(report.stuck)}};
+  if (report.load_factors) json["load_factors"] = *report.load_factors;
   json["damping"] = {{"alpha", model.alpha}, {"beta", model.beta}, {"omega1", model.omega1}};
   json["stiffness"] = Json::array();
   for (const StiffnessRatio& s : report.stiffness)

@@ -41,6 +41,9 @@ std::vector<bool> closed_ones(const Model& model, const std::vector<ContactSampl
   return closed;
 }
 
+/// Springs in place of rigid contacts that hold what frozen forces push.
+double firmness_of(const Model& model) { return model.geometric ? 1e6 : 1.0; }
+
 }  // namespace
 
 std::vector<std::string> loose_parts(const Scene& scene) {
@@ -73,7 +76,7 @@ std::string unstable_motion(const Scene& scene, const Model& model,
                             const std::vector<ContactSample>& contacts) {
   const Vector load = static_load(model.loads, model.size());
   const DofMap map = map_of(scene);
-  const StaticProblem problem{model.stiffness, load, model.contacts, map};
+  const StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
   const auto growth = fastest_growth(problem.matrix(closed_ones(model, contacts)), model.mass);
   if (!growth) return "";
   const std::string pace =
@@ -117,7 +120,7 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
   if (model.static_start) return model.statics.free_motions;
   const DofMap map = map_of(scene);
   const Vector load = static_load(model.loads, model.size());
-  const StaticProblem problem{model.stiffness, load, model.contacts, map};
+  const StaticProblem problem{model.stiffness, load, model.contacts, map, firmness_of(model)};
   const std::vector<bool> closed = closed_ones(model, contacts);
   const SparseMatrix k = problem.matrix(closed);
   std::vector<std::string> names;

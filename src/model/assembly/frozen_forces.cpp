@@ -1,0 +1,247 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/rounding.hpp"
+#include "model/assembly/bar.hpp"
+#include "model/assembly/beam.hpp"
+#include "model/assembly/geometric.hpp"
+#include "model/assembly/loads.hpp"
+#include "model/assembly/pieces.hpp"
+#include "model/assembly/ties.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double no_force = 1e-9;  // of the forces on a body: what a solve leaves of a sum that is zero
+
+using Plane = std::array<double, 2>;
+
+std::array<double, 2> unit_of(const Plane& v) {
+  const auto clean = clean_direction(v);
+  const double length = std::hypot(clean[0], clean[1]);
+  return length > 0.0 ? Plane{clean[0] / length, clean[1] / length} : Plane{0.0, 0.0};
+}
+
+/// Forces on the nodes, but for those of supports and of bodies within themselves.
+class Gathering {
+ public:
+  Gathering(const Scene& scene, const DofMap& map, const Model& model, const StandingForces& standing)
+      : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
+    for (std::size_t i = 0; i < map.supports.size(); ++i)
+      supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
+    for (std::size_t i = 0; i < model.loads.size(); ++i) {
+      const Load& load = model.loads[i];
+      const double value = standing.acts[i] ? load.history.value(0.0) : 0.0;
+      if (load.kind == LoadKind::weight)
+        weight_ = value;
+      else
+        values_[{is_strain(load.kind), load.name}] += value;
+    }
+  }
+
+  FrozenForces all() {
+    spread_loads();
+    FrozenForces forces;
+    for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) forces.elements.push_back(element(i));
+    for (const PointMass& m : scene_.masses)
+      add(m.node, {weight_ * m.mass * scene_.gravity[0], weight_ * m.mass * scene_.gravity[1]}, 1.0);
+    for (const Spring& spring : scene_.springs) add_spring(spring);
+    for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(k);
+    for (std::size_t i = 0; i < scene_.rigid.size(); ++i)
+      forces.bodies.push_back({scene_.rigid[i].name, body(i)});
+    return forces;
+  }
+
+ private:
+  static bool is_strain(LoadKind kind) {
+    return kind == LoadKind::temperature || kind == LoadKind::initial_strain;
+  }
+  [[nodiscard]] double value_of(bool strain, const std::string& name) const {
+    const auto found = values_.find({strain, name});
+    return found == values_.end() ? 0.0 : found->second;
+  }
+  [[nodiscard]] double moved(int number) const {
+    double sum = 0.0;
+    for (const TiedTerm& term : map_.terms(number))
+      sum += term.factor * (term.number >= 0
+                                ? standing_.u[term.number]
+                                : supports_[static_cast<std::size_t>(DofMap::moving_of_code(term.number))]);
+    return sum;
+  }
+  void add(const std::string& node, const Plane& force, double factor) {
+    Plane& sum = on_node_[static_cast<std::size_t>(map_.mesh.by_name.at(node))];
+    for (std::size_t c = 0; c < 2; ++c) sum[c] += factor * force[c];
+  }
+
+  void spread_loads() {
+    uniform_.assign(map_.mesh.elements.size(), Plane{0.0, 0.0});
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
+      const LoadSpec& load = scene_.loads[i];
+      const double value = value_of(false, name_of(load, i + 1));
+      if (load.type == LoadType::force) add(load.direction.node, load.direction.vector, value);
+      for (std::size_t j = 0; j + 1 < load.pieces.size(); ++j) {
+        const auto [piece, backwards] =
+            piece_between(map_, load.pieces[j], load.pieces[j + 1], load.place, "loads");
+        for (std::size_t e = piece->first; e < piece->first + piece->count; ++e) {
+          const Plane q = along_element(load, axis_of(map_.mesh, map_.mesh.elements[e]), backwards);
+          for (std::size_t c = 0; c < 2; ++c) uniform_[e][c] += value * q[c];
+        }
+      }
+    }
+  }
+
+  FrozenForces::Element element(std::size_t i) {
+    const MeshElement& e = map_.mesh.elements[i];
+    const Section& section = scene_.sections[static_cast<std::size_t>(e.section)];
+    const Axis axis = axis_of(map_.mesh, e);
+    const double l = axis.length;
+    Plane &at_a = on_node_[static_cast<std::size_t>(e.a)], &at_b = on_node_[static_cast<std::size_t>(e.b)];
+    Plane along = uniform_[i];  // between the ends; a lumped weight lies at them
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double weight = weight_ * section.mass_per_length * scene_.gravity[c];
+      const double half = 0.5 * l * (uniform_[i][c] + weight);
+      at_a[c] += half;
+      at_b[c] += half;
+      if (e.mass == MassKind::consistent) along[c] += weight;
+    }
+    FrozenForces::Element result{map_.mesh.nodes[static_cast<std::size_t>(e.a)].name,
+                                 map_.mesh.nodes[static_cast<std::size_t>(e.b)].name};
+    if (map_.within_body(e)) return result;
+    const std::array<int, 6> numbers = map_.element_numbers(i);
+    Eigen::Matrix<double, 6, 1> u;
+    for (std::size_t j = 0; j < 6; ++j) u[static_cast<Eigen::Index>(j)] = moved(numbers[j]);
+    const bool bar = e.type == MemberType::bar;
+    const Eigen::Matrix<double, 6, 1> ends =
+        (bar ? bar_stiffness(l * axis.c, l * axis.s, section.EA)
+             : beam_stiffness(l * axis.c, l * axis.s, section.EA, section.EI)) *
+        u;
+    const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member)) +
+                          value_of(true, name_of_strain(LoadKind::initial_strain, e.member));
+    const Plane held{section.EA * strain * axis.c, section.EA * strain * axis.s};
+    for (std::size_t c = 0; c < 2; ++c) {
+      at_a[c] -= ends[static_cast<Eigen::Index>(c)] + held[c];
+      at_b[c] -= ends[static_cast<Eigen::Index>(c) + 3] - held[c];
+    }
+    const double mean = section.EA * ((axis.c * (u[3] - u[0]) + axis.s * (u[4] - u[1])) / l - strain);
+    const double falls = 0.5 * l * (along[0] * axis.c + along[1] * axis.s);
+    result.at_from = mean + falls;
+    result.at_to = mean - falls;
+    return result;
+  }
+
+  void add_spring(const Spring& spring) {
+    const Plane d = unit_of(spring.direction);
+    double elongation = 0.0;
+    const auto take = [&](const std::string& node, double sign) {
+      const auto numbers = map_.numbers_at(map_.mesh.by_name.at(node));
+      for (std::size_t c = 0; c < 2; ++c)
+        if (d[c] != 0.0) elongation += sign * d[c] * moved(numbers[c]);
+    };
+    take(spring.node, 1.0);
+    if (!spring.against.empty()) take(spring.against, -1.0);
+    add(spring.node, d, -spring.stiffness * elongation);
+    if (!spring.against.empty()) add(spring.against, d, spring.stiffness * elongation);
+  }
+
+  void add_contact(std::size_t k) {
+    const ContactSpec& spec = scene_.contacts[k];
+    const Direction* at = spec.normal ? &*spec.normal : spec.tangent ? &*spec.tangent : nullptr;
+    if (at == nullptr) return;
+    Plane force{0.0, 0.0};
+    const auto take = [&](const Plane& direction, double size) {
+      const Plane d = unit_of(direction);
+      for (std::size_t c = 0; c < 2; ++c) force[c] -= size * d[c];
+    };
+    if (spec.normal && has_gap(spec.law)) take(spec.normal->vector, standing_.N[k]);
+    take(sliding_direction(spec), standing_.T[k]);
+    add(at->node, force, 1.0);
+    for (const auto& [name, weight] : at->against) add(name, force, -weight);
+  }
+
+  /// Where the supports of a body hold component c: x of ux, y of uy; its centre where they do not.
+  [[nodiscard]] double origin(std::size_t number, std::size_t c, const Plane& total,
+                              const Plane& size) const {
+    const RigidBody& body = scene_.rigid[number];
+    const auto at = [&](int node) {
+      const MeshNode& n = map_.mesh.nodes[static_cast<std::size_t>(node)];
+      return c == 0 ? n.x : n.y;
+    };
+    std::optional<double> held;
+    for (const auto& [node, component] : held_in_body(scene_, map_, static_cast<int>(number))) {
+      if (component != c) continue;
+      if (held && *held != at(node) && std::abs(total[c]) > no_force * size[c])
+        throw SceneError(
+            scene_.run.geometric_place, "run.geometric",
+            fmt::format("supports of rigid body '{}' hold its {} together, and nothing decides how "
+                        "much each bears, which its stiffness depends on: expected one of them",
+                        body.name, c == 0 ? "ux" : "uy"));
+      if (!held) held = at(node);
+    }
+    return held.value_or(at(map_.mesh.by_name.at(body.centre)));
+  }
+
+  /// sum F . r; reactions stand at the origin.
+  [[nodiscard]] double body(std::size_t number) const {
+    const auto owner = static_cast<int>(number);
+    const int centre = map_.mesh.by_name.at(scene_.rigid[number].centre);
+    if (map_.numbers_at(centre)[2] == DofMap::fixed) return 0.0;
+    Plane total{0.0, 0.0}, size{0.0, 0.0};
+    for (std::size_t node = 0; node < map_.body.size(); ++node)
+      for (std::size_t c = 0; map_.body[node] == owner && c < 2; ++c) {
+        total[c] += on_node_[node][c];
+        size[c] += std::abs(on_node_[node][c]);
+      }
+    const double x = origin(number, 0, total, size), y = origin(number, 1, total, size);
+    double sum = 0.0, terms = 0.0;
+    for (std::size_t node = 0; node < map_.body.size(); ++node) {
+      if (map_.body[node] != owner) continue;
+      const MeshNode& at = map_.mesh.nodes[node];
+      for (const double term : {on_node_[node][0] * (at.x - x), on_node_[node][1] * (at.y - y)}) {
+        sum += term;
+        terms += std::abs(term);
+      }
+    }
+    return std::abs(sum) > rounding::of_many * terms ? sum : 0.0;
+  }
+
+  const Scene& scene_;
+  const DofMap& map_;
+  const StandingForces& standing_;
+  std::vector<Plane> on_node_, uniform_;                   // a node; an element: force per length that acts
+  std::vector<double> supports_;                           // where those that move are
+  double weight_ = 1.0;                                    // how much of it acts
+  std::map<std::pair<bool, std::string>, double> values_;  // of loads and strains, by name
+};
+
+}  // namespace
+
+FrozenForces frozen_forces(const Scene& scene, const DofMap& map, const Model& model,
+                           const StandingForces& standing) {
+  return Gathering(scene, map, model, standing).all();
+}
+
+void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map) {
+  const auto name = [&](int node) { return map.mesh.nodes[static_cast<std::size_t>(node)].name; };
+  bool same =
+      forces.elements.size() == map.mesh.elements.size() && forces.bodies.size() == scene.rigid.size();
+  for (std::size_t i = 0; same && i < forces.elements.size(); ++i)
+    same = forces.elements[i].from == name(map.mesh.elements[i].a) &&
+           forces.elements[i].to == name(map.mesh.elements[i].b);
+  for (std::size_t i = 0; same && i < forces.bodies.size(); ++i)
+    same = forces.bodies[i].name == scene.rigid[i].name;
+  if (!same)
+    throw SceneError(scene.initial.place, "run.initial.run",
+                     "the frozen forces of that run (geometric.csv) are those of other members or rigid "
+                     "bodies: expected a run of the same structure");
+  map.body_stiffness.clear();
+  for (const FrozenForces::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
+  for (std::size_t i = 0; i < forces.elements.size(); ++i) {
+    map.mesh.elements[i].force_a = forces.elements[i].at_from;
+    map.mesh.elements[i].force_b = forces.elements[i].at_to;
+  }
+}
+
+}  // namespace signorini

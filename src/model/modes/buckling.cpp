@@ -1,0 +1,145 @@
+#include "model/modes/buckling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/eigen_dense.hpp"
+#include "model/assembly/parts.hpp"
+#include "model/modes/held.hpp"
+#include "model/modes/lanczos.hpp"
+#include "model/statics/null_motions.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double no_factor = 1e-12;   // of the greatest |nu|: rounding of a motion that forces do not bend
+constexpr double least_share = 1e-7;  // the smallest s: below it K + s K_g is K to half of the digits
+
+/// K and K_g where nothing is left that neither resists.
+struct Pencil {
+  SparseMatrix elastic, geometric;
+
+  [[nodiscard]] SparseMatrix at(double s) const { return elastic + s * geometric; }
+};
+
+/// Common null motions that respect what is fixed, held each where it moves most: they bend nothing, so that this
+/// changes no factor.
+Pencil held_pencil(const SparseMatrix& loose, const SparseMatrix& geometric,
+                   const std::vector<Combination>& fixed) {
+  const SparseMatrix elastic = fixed.empty() ? loose : with_grips(loose, fixed);
+  Vector size = elastic.diagonal().cwiseAbs() + geometric.diagonal().cwiseAbs();
+  for (double& d : size) d = d > 0.0 ? d : 1.0;
+  // K_g D^-1 K_g has the null motions of K_g, and no negative energy.
+  const SparseMatrix square = geometric * SparseMatrix(size.cwiseInverse().asDiagonal() * geometric);
+  const auto greatest = [&](const SparseMatrix& a) {
+    return a.rows() == 0 ? 0.0 : a.diagonal().cwiseQuotient(size).cwiseAbs().maxCoeff();
+  };
+  const double of_square = greatest(square);
+  const SparseMatrix both =
+      of_square > 0.0 ? SparseMatrix(elastic + std::max(greatest(elastic), 1e-300) / of_square * square)
+                      : elastic;
+  Eigen::MatrixXd null = null_motions(greatest(elastic) > 0.0 ? both : square);
+  Pencil result{loose, geometric};
+  for (Eigen::Index j = 0; j < null.cols(); ++j) {
+    Eigen::Index at = 0;
+    null.col(j).cwiseAbs().maxCoeff(&at);
+    for (Eigen::Index i = j + 1; i < null.cols(); ++i) null.col(i) -= null(at, i) / null(at, j) * null.col(j);
+    result.elastic.coeffRef(at, at) += size[at];
+  }
+  return result;
+}
+
+bool is_definite(const SparseMatrix& a) { return null_motions(a).cols() == 0; }
+
+/// s, and what is added to K + s K_g so that it is definite: springs along the forms that are fixed.
+struct Shift {
+  double s = 1.0;
+  SparseMatrix matrix;
+};
+
+std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combination>& fixed) {
+  const auto try_at = [&](double s) -> std::optional<Shift> {
+    const SparseMatrix a = pencil.at(s);
+    if (fixed.empty()) return is_definite(a) ? std::optional(Shift{s, a}) : std::nullopt;
+    const SparseMatrix gripped = with_grips(a, fixed), grips = gripped - a;
+    for (const double firm : {1.0, 1e3, 1e6})
+      if (const SparseMatrix all = a + firm * grips; is_definite(all)) return Shift{s, all};
+    return std::nullopt;
+  };
+  for (const double s : {1.0, 0.0})
+    if (auto found = try_at(s)) return found;
+  for (double s = 0.5; s > least_share; s *= 0.125)
+    if (auto found = try_at(s)) return found;
+  return std::nullopt;
+}
+
+/// From nu, in any order.
+std::vector<double> factors_of(double s, const Vector& nu) {
+  std::vector<double> factors;
+  const double most = nu.size() == 0 ? 0.0 : nu.cwiseAbs().maxCoeff();
+  for (const double value : nu)
+    if (value > no_factor * most) factors.push_back(s + 1.0 / value);
+  std::sort(factors.begin(), factors.end());
+  return factors;
+}
+
+std::vector<double> dense_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
+                                  const std::vector<Combination>& fixed) {
+  const auto n = static_cast<int>(elastic.rows());
+  Pencil own{elastic, geometric};
+  if (!fixed.empty()) {
+    const Eigen::MatrixXd q = orthogonal_complement(form_columns(fixed, n));
+    if (q.cols() == 0) return {};
+    own = {restricted(elastic, q), restricted(geometric, q)};
+  }
+  const Pencil pencil = held_pencil(own.elastic, own.geometric, {});
+  const auto shift = find_shift(pencil, {});
+  if (!shift) return {0.0};
+  return factors_of(
+      shift->s, generalized_eigenvalues(-Eigen::MatrixXd(pencil.geometric), Eigen::MatrixXd(shift->matrix)));
+}
+
+std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
+                                   const std::vector<Combination>& fixed, int count) {
+  const auto n = static_cast<int>(elastic.rows());
+  const Pencil pencil = held_pencil(elastic, geometric, fixed);
+  const auto shift = find_shift(pencil, fixed);
+  if (!shift) return {0.0};
+  const CholeskyFactor factor(shift->matrix);
+  if (!factor.ok()) return {0.0};
+  Eigen::MatrixXd across = form_columns(fixed, n);  // F^-1 T, orthonormal
+  for (Eigen::Index j = 0; j < across.cols(); ++j) across.col(j) = factor.solve_factor(Vector(across.col(j)));
+  if (across.cols() > 0) across = orthonormal(across);
+  const auto along = [&](const Vector& y) -> Vector { return y - across * (across.transpose() * y); };
+  const Operator apply = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    return along(factor.solve_factor(Vector(-(pencil.geometric * factor.solve_transposed_factor(along(y))))));
+  };
+  return factors_of(shift->s, greatest_eigenvalues(n, std::min(count, n - 1), apply));
+}
+
+}  // namespace
+
+std::vector<double> load_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
+                                 const Holding& holding, int count) {
+  if (elastic.rows() == 0 || geometric.nonZeros() == 0) return {};
+  const SparseMatrix k = with_springs(elastic, holding.springs);
+  std::vector<double> factors;
+  if (elastic.rows() <= dense_up_to) {
+    factors = dense_factors(k, geometric, holding.fixed);
+  } else {
+    for (const Part& part : Parts({&k, &geometric}, holding.fixed)) {
+      const SparseMatrix own = part.matrix(k), forces = part.matrix(geometric);
+      const std::vector<Combination> fixed = part.forms(holding.fixed);
+      const std::vector<double> found = part.size() <= dense_up_to
+                                            ? dense_factors(own, forces, fixed)
+                                            : sparse_factors(own, forces, fixed, count);
+      factors.insert(factors.end(), found.begin(), found.end());
+    }
+    std::sort(factors.begin(), factors.end());
+  }
+  if (static_cast<int>(factors.size()) > count) factors.resize(static_cast<std::size_t>(count));
+  return factors;
+}
+
+}  // namespace signorini

@@ -1,0 +1,290 @@
+// run.geometric: rigid bodies under static forces, k = sum F . r, and blocks that rock by it.
+//
+//   (I_C + m r^2) rz'' = -(k_spring + sum F . r) rz
+//   on a foot: th'' = p^2 (th - b/h),  p^2 = m g h/I_O,   quarter period acosh(1/(1 - th0 h/b))/p
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "behaviour/engines.hpp"
+#include "behaviour/halves.hpp"
+#include "behaviour/scene_parts.hpp"
+#include "own_folder.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini::tests::geometric_bodies {
+namespace {
+
+using namespace parts;
+
+Model built(const std::string& text, const std::vector<Override>& changes = {}) {
+  return build_model(parse_scene(text, "test.toml", changes));
+}
+
+std::string body(const std::string& name, const std::string& centre, const std::string& nodes, double mass,
+                 double inertia) {
+  return fmt::format("[[rigid]]\nname = \"{}\"\ncentre = {}\nnodes = {}\nmass = {:.17g}\ninertia = {:.17g}\n",
+                     name, centre, quoted(nodes), mass, inertia);
+}
+
+/// Under gravity along (gx, gy).
+std::string heavy(double gx, double gy, const std::string& run) {
+  return head +
+         fmt::format(
+             "gravity = [{:.17g}, {:.17g}]\n[run]\nt_end = 1.0\nengine = \"exact\"\ncertify = "
+             "false\ngeometric = true\n",
+             gx, gy) +
+         run;
+}
+
+constexpr const char* from_static = "initial = \"static\"\n";
+
+/// b / h: half width and half height, feet below the centre.
+struct Block {
+  double m = 2.3, b = 0.31, h = 1.17, g = 9.81, tilt = 0.11;
+  [[nodiscard]] double inertia() const { return m * (4.0 * b * b + 4.0 * h * h) / 12.0; }
+  [[nodiscard]] double about_foot() const { return inertia() + m * (b * b + h * h); }
+  [[nodiscard]] double p() const { return std::sqrt(m * g * h / about_foot()); }
+  /// Tilted about its left foot, at rest.
+  [[nodiscard]] std::string scene(double t_end, bool geometric = true) const {
+    return head + fmt::format("gravity = [0.0, {:.17g}]\n", -g) +
+           fmt::format("[run]\nt_end = {}\nengine = \"exact\"\ncertify = false\ngeometric = {}\n", t_end,
+                       geometric) +
+           fmt::format("initial = {{ block = {{ ux = {:.17g}, uy = {:.17g}, rz = {:.17g} }} }}\n", -tilt * h,
+                       tilt * b, tilt) +
+           fmt::format("[nodes]\nL = [{:.17g}, 0.0]\nR = [{:.17g}, 0.0]\n", -b, b) +
+           body("block", fmt::format("[0.0, {:.17g}]", h), "L, R", m, inertia()) +
+           "[[contacts]]\nname = \"foot\"\nnodes = [\"L\", \"R\"]\nlaw = \"rigid\"\nnormal = [0.0, "
+           "1.0]\nfriction = 2.0\n";
+  }
+};
+
+double stiffness_of_turn(const Model& model) {
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].rotation) return model.stiffness.coeff(i, i);
+  FAIL("nothing turns");
+  return 0.0;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/geometric_bodies");
+
+TEST_CASE("a pendulum that hangs: m g h, wherever its centre and its weights are, at every angle") {
+  const double m = 1.7, inertia = 0.23, g = 9.81, arm = 0.8;
+  for (const double angle : {0.0, 0.9, 4.0}) {
+    const double dx = std::sin(angle), dy = -std::cos(angle);  // the way down
+    const std::string down = fmt::format("[{:.17g}, {:.17g}]", arm * dx + 0.3, arm * dy - 0.2);
+    const std::string hung = "[nodes]\nA = [0.3, -0.2]\nB = " + down + "\n" + fixed("A", "ux, uy");
+    const std::string beside = fmt::format("[{:.17g}, {:.17g}]", 5.0, 7.0);
+    for (const std::string& rest :
+         {hung + body("b", "\"B\"", "A", m, inertia),
+          hung + body("b", "\"A\"", "B", 0.0, 0.0) + point_mass("B", m, inertia),
+          hung + body("b", beside, "A, B", 0.0, 0.0) + point_mass("B", m, inertia)}) {
+      const Model model = built(heavy(g * dx, g * dy, from_static) + rest);
+      REQUIRE(model.size() == 1);
+      CHECK(model.stiffness.coeff(0, 0) == doctest::Approx(m * g * arm).epsilon(1e-13));
+      CHECK(model.omega1 ==
+            doctest::Approx(std::sqrt(m * g * arm / (inertia + m * arm * arm))).epsilon(1e-13));
+      CHECK(model.geometric->load_factors.empty());
+    }
+  }
+}
+
+TEST_CASE("an inverted pendulum on a spring: factor k/(m g h) and frequency; without, it falls") {
+  const double m = 1.7, inertia = 0.23, g = 9.81, arm = 0.8, k = 21.0;
+  const std::string up = "[nodes]\nA = [0.0, 0.0]\nB = [0.0, 0.8]\n" + fixed("A", "ux, uy") +
+                         body("b", "\"B\"", "A", m, inertia);
+  const std::string held = fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {}\n", k);
+  const Model model = built(heavy(0.0, -g, from_static) + up + held);
+  REQUIRE(model.geometric->load_factors.size() == 1);
+  CHECK(model.geometric->load_factors[0] == doctest::Approx(k / (m * g * arm)).epsilon(1e-12));
+  CHECK(model.omega1 ==
+        doctest::Approx(std::sqrt((k - m * g * arm) / (inertia + m * arm * arm))).epsilon(1e-12));
+  CHECK_THROWS_WITH_AS(static_cast<void>(built(heavy(0.0, -g, from_static) + up)),
+                       doctest::Contains("load factor 0"), SceneError);
+  const std::string weak =
+      fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {:.17g}\n", 0.75 * m * g * arm);
+  CHECK_THROWS_WITH_AS(static_cast<void>(built(heavy(0.0, -g, from_static) + up + weak)),
+                       doctest::Contains("0.75 times"), SceneError);
+}
+
+TEST_CASE("forces of springs, members, heat and contacts on a body: sum F . r by hand") {
+  // A body pressed by a spring that a support strains, by a hot bar, by loads and through a stop.
+  const std::string points =
+      "[nodes]\nl = [-1.0, 0.4]\nr = [1.2, -0.3]\nt = [0.2, 0.9]\nf = [-1.0, 3.4]\nw = [4.2, -0.3]\n";
+  const std::string rest =
+      body("b", "[0.1, 0.2]", "l, r, t", 0.5, 0.4) + fixed("f, w", "ux, uy") + section(1000.0, 0.0, 0.2) +
+      member("r, w", "type = \"bar\"\nthermal_expansion = 1e-5\ntemperature = 40.0\n") +
+      member("l, f", "type = \"bar\"\n") + spring("b", "[1.0, 0.0]", 60.0) + spring("l", "[0.0, 1.0]", 45.0) +
+      "[[springs]]\nnode = \"b\"\nrotation_stiffness = 500.0\n"
+      "[[contacts]]\nname = \"stop\"\nnode = \"t\"\nlaw = \"compliant\"\nnormal = [0.0, "
+      "-1.0]\nnormal_stiffness = 80.0\ngap = -0.01\n" +
+      "[[loads]]\nnode = \"t\"\ndirection = [0.6, 0.8]\namplitude = 1.3\n[[loads]]\nnode = \"b\"\nmoment = "
+      "0.7\n";
+  const std::string text = heavy(0.3, -9.81, from_static) + points + rest;
+  // The forces follow from where it stands without their stiffness.
+  const Model plain = built(text, {{"run.geometric", "false"}});
+  double x = 0.0, y = 0.0, turn = 0.0;
+  for (int i = 0; i < plain.size(); ++i) {
+    const std::string& name = plain.dofs[static_cast<std::size_t>(i)].displacement;
+    (name == "b.ux" ? x : name == "b.uy" ? y : turn) = plain.u0[i];
+  }
+  const auto ux = [&](double py) { return x - turn * (py - 0.2); };
+  const auto uy = [&](double px) { return y + turn * (px - 0.1); };
+  const double bar = 1000.0 * (-ux(-0.3) / 3.0 - 4e-4);  // r to w, tension
+  const double rope = 1000.0 * (-uy(-1.0) / 3.0);        // l to f
+  double k = 0.0;
+  const auto add = [&](double px, double py, double fx, double fy) {
+    k += fx * (px - 0.1) + fy * (py - 0.2);
+  };
+  add(1.2, -0.3, bar + 0.3 * 0.3, -9.81 * 0.3);  // half of the bar's weight, 0.6 t
+  add(-1.0, 0.4, 0.3 * 0.3, rope - 9.81 * 0.3 - 45.0 * uy(-1.0));
+  add(0.2, 0.9, 1.3 * 0.6, 1.3 * 0.8 + 80.0 * std::min(0.0, -0.01 - uy(0.2)));
+  const Model model = built(text);
+  REQUIRE(model.geometric->forces.bodies.size() == 1);
+  CHECK(model.geometric->forces.bodies[0].stiffness == doctest::Approx(k).epsilon(1e-10));
+  CHECK(model.geometric->forces.elements[0].at_from == doctest::Approx(bar + 0.3 * 0.3).epsilon(1e-10));
+  CHECK(model.geometric->forces.elements[0].at_to == doctest::Approx(bar - 0.3 * 0.3).epsilon(1e-10));
+}
+
+TEST_CASE("a rigid bar between two members is a stiff one: the same stiffness by other means") {
+  // A stack of a column, a rigid piece and a column, against one whose middle is a beam of 10^5 times its stiffness.
+  const std::string points = "[nodes]\nA = [0.0, 0.0]\nB = [0.0, 1.0]\nC = [0.0, 1.6]\nD = [0.0, 2.4]\n";
+  const auto stack = [&](bool rigid) {
+    std::string text = heavy(0.0, 0.0, from_static) + points + section(4e4, 5.0, 0.1) +
+                       "[sections.stiff]\nEA = 4e9\nEI = 5e6\nmass_per_length = 0.0\n" +
+                       member("A, B", "elements = 4\n") + member("C, D", "elements = 4\n") +
+                       fixed("A", "ux, uy, rz") + fixed("D", "ux") +
+                       "[[loads]]\nnode = \"D\"\ndirection = [0.0, -1.0]\namplitude = 5.0\n";
+    text += rigid ? body("piece", "[0.7, 1.1]", "B, C", 0.0, 0.0)
+                  : "[[members]]\nnodes = [\"B\", \"C\"]\nsection = \"stiff\"\n";
+    return built(text);
+  };
+  const std::vector<double> a = stack(true).geometric->load_factors, b = stack(false).geometric->load_factors;
+  REQUIRE(a.size() == 5);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(a[i] == doctest::Approx(b[i]).epsilon(1e-5));
+}
+
+TEST_CASE("a block rocks: quarter period, ten impacts and their rates in closed form") {
+  const Block block;
+  const double p = block.p(), share = block.b / block.h;
+  const double ratio = 1.0 - 2.0 * block.m * block.b * block.b / block.about_foot();
+  const Model model = built(block.scene(10.0));
+  CHECK(stiffness_of_turn(model) == doctest::Approx(-block.m * block.g * block.h).epsilon(1e-14));
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Scene scene =
+        parse_scene(block.scene(10.0), "test.toml", {{"run.engine", engine}, {"run.rtol", "1e-10"}});
+    const auto begin = std::chrono::steady_clock::now();
+    const Result result = simulate(build_model(scene), scene.run);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    MESSAGE(engine << ": " << result.events.size() << " events in " << taken.count() << " s");
+    CHECK(result.report.outcome.reason == "");
+    CHECK(result.report.witness.violations.empty());
+    double t = std::acosh(1.0 / (1.0 - block.tilt / share)) / p;
+    double rate = p * std::sqrt(share * share - (share - block.tilt) * (share - block.tilt));
+    int impacts = 0;
+    const double bound = engine == "exact" ? 1e-10 : 1e-6;
+    for (const Event& event : result.events) {
+      if (event.type != EventType::impact || !(event.vn < 0.0) || impacts == 10) continue;
+      CHECK(event.t == doctest::Approx(t).epsilon(bound));
+      CHECK(event.contact == (impacts % 2 == 0 ? 1 : 0));
+      CHECK(event.vn == doctest::Approx(-2.0 * block.b * rate).epsilon(bound));
+      rate *= ratio;
+      t += 2.0 / p * std::atanh(rate / (p * share));
+      ++impacts;
+    }
+    CHECK(impacts == 10);
+  }
+}
+
+TEST_CASE("how far the linear block parts from Housner's: the table of docs/theory.md") {
+  // I_O th'' = -m g R sin(alpha - th) from rest at th0, by th = th0 (1 - s^2) and the midpoint rule.
+  const auto nonlinear = [](double alpha, double tilt) {
+    constexpr int n = 4000;
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i) {
+      const double s = (i + 0.5) / n, th = tilt * (1.0 - s * s);
+      sum += 2.0 * tilt * s / n /
+             std::sqrt(4.0 * std::sin(alpha - 0.5 * (th + tilt)) * std::sin(0.5 * (tilt - th)));
+    }
+    return sum;
+  };
+  struct Entry {
+    double slender, part, percent;
+  };
+  for (const Entry& e : {Entry{2.0, 0.5, -1.48}, Entry{5.0, 0.9, -2.80}, Entry{20.0, 0.99, -1.43}}) {
+    Block block;
+    block.b = 0.2;
+    block.h = e.slender * block.b;
+    const double alpha = std::atan(1.0 / e.slender), radius = std::hypot(block.b, block.h);
+    block.tilt = e.part * alpha;
+    const Scene scene = parse_scene(block.scene(3.0), "test.toml");
+    const Result result = simulate(build_model(scene), scene.run);
+    REQUIRE(!result.events.empty());
+    const double quarter =
+        nonlinear(alpha, block.tilt) / std::sqrt(block.m * block.g * radius / block.about_foot());
+    CHECK(std::abs(100.0 * (result.events.front().t / quarter - 1.0) - e.percent) < 0.006);
+  }
+}
+
+TEST_CASE("a block that rocks in two halves: the forces of the first are those of the second") {
+  const halves::Difference d =
+      halves::split_text(Block().scene(4.0), {{"run.engine", "exact"}, {"run.flow", "taylor"}}, 0.37);
+  INFO(d.first);
+  CHECK(d.events_agree);
+  CHECK(d.events > 5);
+  CHECK(d.time < 1e-11);
+  // From another static state the run would freeze others: its file tells, and the bits are those.
+  const OwnFolder own;
+  const auto folder = own.path() / "first";
+  const Scene scene = parse_scene(Block().scene(0.3), "test.toml");
+  const Model model = build_model(scene);
+  RunDirectory directory(folder, scene, model, {true, {"test"}});
+  static_cast<void>(directory.finish(simulate(model, scene.run, directory)));
+  std::string later = Block().scene(1.0);
+  const std::size_t at = later.find("initial = "), end = later.find('\n', at);
+  later.replace(at, end - at, fmt::format("initial = {{ run = \"{}\" }}", folder.string()));
+  const Model same = built(later);
+  CHECK(same.geometric->forces.bodies[0].stiffness == model.geometric->forces.bodies[0].stiffness);
+  CHECK(same.warnings == model.warnings);
+  const Model heavier = built(later, {{"gravity", "[0.0, -5.0]"}});
+  CHECK(heavier.geometric->forces.bodies[0].stiffness == model.geometric->forces.bodies[0].stiffness);
+  CHECK(stiffness_of_turn(heavier) == stiffness_of_turn(model));
+  const Model without = built(later, {{"run.geometric", "false"}});
+  CHECK(!without.geometric);
+  bool said = false;
+  for (const std::string& warning : without.warnings)
+    said = said || warning.find("run.geometric") != std::string::npos;
+  CHECK(said);
+}
+
+TEST_CASE("a block at rest on its feet stands, and rocks on springs as its stiffness says") {
+  const Block block;
+  const Model rigid = built(block.scene(1.0), {{"run.initial", "static"}});
+  REQUIRE(rigid.statics.reactions.size() == 2);
+  for (const double reaction : rigid.statics.reactions)
+    CHECK(reaction == doctest::Approx(0.5 * block.m * block.g).epsilon(1e-12));
+  CHECK(rigid.u0.cwiseAbs().maxCoeff() < 1e-14);
+  const double kn = 300.0;
+  const std::string text = [&] {
+    std::string t = block.scene(1.0);
+    const std::string from = "law = \"rigid\"";
+    t.replace(t.find(from), from.size(),
+              fmt::format("law = \"compliant\"\nnormal_stiffness = {}\ntangential_stiffness = 1e9", kn));
+    return t;
+  }();
+  const Model model = built(text, {{"run.initial", "static"}});
+  CHECK(model.geometric->load_factors.front() ==
+        doctest::Approx(2.0 * kn * block.b * block.b / (block.m * block.g * block.h)).epsilon(1e-6));
+  const double square = (2.0 * kn * block.b * block.b - block.m * block.g * block.h) /
+                        (block.inertia() + block.m * block.h * block.h);
+  CHECK(model.omega1 == doctest::Approx(std::sqrt(square)).epsilon(1e-6));
+}
+
+TEST_SUITE_END();
+
+}  // namespace signorini::tests::geometric_bodies

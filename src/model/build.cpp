@@ -15,6 +15,7 @@
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/springs.hpp"
 #include "model/assembly/ties.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
@@ -85,6 +86,18 @@ void set_initial_state(const Scene& scene, const DofMap& map, Model& model) {
   model.statics = std::move(found.start);
 }
 
+/// The weight that a pendulum carries at rest drives it back from the start on.
+void stiffen_pendulums(const Scene& scene, Model& model) {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    if (!scene.contacts[k].carries_static || !model.static_start) continue;
+    Contact& c = model.contacts[k];
+    c.bowl->carried = model.statics.reactions[k];
+    springs.push_back({c.tangent, c.bowl->carried / c.bowl->radius});
+  }
+  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
+}
+
 /// Sliders are always closed; compliant contacts where they press at the start.
 std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
@@ -153,6 +166,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
                  {place, scene.matrices ? scene.matrices->stiffness.place : place,
                   scene.matrices ? "matrices.stiffness" : ""});
   set_initial_state(scene, map, model);
+  stiffen_pendulums(scene, model);
   const std::vector<bool> closed = closed_at_start(model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, hold_contacts(model.contacts, closed));
   set_damping(scene, assembly.dampers, model);

@@ -279,7 +279,8 @@ enum class Law { compliant, rigid, slider };
 /// Coefficients of friction, of a scene and of its contacts.
 struct Friction {
   double static_ = 0.0;  ///< |T| <= static |N| in stick
-  double kinetic = 0.0;  ///< |T| = kinetic |N| in slip; where friction rises: of fast slip, no less than static_
+  double kinetic =
+      0.0;  ///< |T| = kinetic |N| in slip; where friction rises: of fast slip, no less than static_
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
   /// f = fast - (fast - slow) exp(-|p'| / velocity) while slipping; static_ is slow, kinetic is fast
@@ -329,7 +330,7 @@ struct ContactSpec {
   SourcePlace place = {};
   std::optional<Bowl> bowl = {};  ///< of a pendulum; `carried` stands among the springs
   bool carries_static = false;    ///< what its bowl carries is the reaction of the static start
-  std::string table = {};  ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
+  std::string table = {};         ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.
   std::shared_ptr<const OwnLaw> own = {};

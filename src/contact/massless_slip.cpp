@@ -7,11 +7,14 @@
 namespace signorini {
 namespace {
 
-constexpr int most_steps = 200;  // of Newton's method: each of the first is v at least, the last ones are quadratic
+constexpr int most_steps =
+    200;  // of Newton's method: each of the first is v at least, the last ones are quadratic
 
 }  // namespace
 
-double rate_of_saturation(const Friction& friction) { return -friction.rate_of_change() * std::log(saturated); }
+double rate_of_saturation(const Friction& friction) {
+  return -friction.rate_of_change() * std::log(saturated);
+}
 
 std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                          double pressed) {

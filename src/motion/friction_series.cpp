@@ -27,7 +27,8 @@ void FrictionSeries::begin_massless(int s, const Form& normal, const Series& ser
   const double *u = series.u.data(), *u1 = u + series.u.rows(), per_time = 1.0 / series.scale;
   const ForcingSeries& f = series.forcing;
   const double length = element.body.dot(u) - c.tangent.dot(u);
-  const double along = s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own
+  const double along =
+      s * per_time * (element.body.dot(u1) - f.surface[index_ * f.count + 1]);  // the body's own
   const double pressed = -normal_coefficient(c, index_, normal, series, 0);
   // A dashpot's part in the growth of |N| is left out: it needs accelerations, and an estimate will do.
   const double growth = normal.gap * per_time * c.normal.dot(u1) +

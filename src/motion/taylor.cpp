@@ -65,8 +65,8 @@ void Taylor::add_bowls(int order, const Series& series) {
     for (std::size_t j = 0; j <= k; ++j) {
       const double N = normal_coefficient(contact, c, row, series, j);
       const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
-      const double ut = contact.body_tangent().dot(u) -
-                        series.forcing.surface[c * series.forcing.count + k - j];
+      const double ut =
+          contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
       // The constant that K holds counts once.
       force += j == 0 ? bowl_force(contact, N, ut) : -N / contact.bowl->radius * ut;
     }

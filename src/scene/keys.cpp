@@ -309,7 +309,8 @@ std::vector<std::string> key_names(std::string_view table) {
   for (const Key& key : table_of_keys) {
     if (key.table == table && key.name != "*") names.emplace_back(key.name);
   }
-  if (table == of_pendulums) names.insert(names.end(), borrowed_by_pendulums.begin(), borrowed_by_pendulums.end());
+  if (table == of_pendulums)
+    names.insert(names.end(), borrowed_by_pendulums.begin(), borrowed_by_pendulums.end());
   if (table == "stops[]")
     for (const std::string& name : key_names("contacts[]"))
       if (find_key(table, name) && find_key(table, name)->table != table) names.push_back(name);

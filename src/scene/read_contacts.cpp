@@ -18,9 +18,10 @@ namespace {
 void read_rising_friction(Table& table, Friction& friction) {
   for (const char* key : {"static", "kinetic", "stribeck_velocity"})
     if (table.has(key))
-      table.fail(key, "stands beside slow, fast or velocity, expected one law of friction: static, kinetic and "
-                      "stribeck_velocity for one that falls with the slip rate, slow, fast and velocity for one "
-                      "that rises");
+      table.fail(key,
+                 "stands beside slow, fast or velocity, expected one law of friction: static, kinetic and "
+                 "stribeck_velocity for one that falls with the slip rate, slow, fast and velocity for one "
+                 "that rises");
   for (const char* key : {"slow", "fast", "velocity"}) table.require(key, " (friction that rises)");
   friction.static_ = table.number("slow");
   friction.kinetic = table.number("fast");

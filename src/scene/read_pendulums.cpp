@@ -37,7 +37,8 @@ Direction along(const Table& table, const std::string& node, const std::string& 
 /// What N varies with. Returns the force that its spring carries.
 double read_force(Table& table, ContactSpec& contact, double radius, const Scene& scene) {
   const bool bears = table.has("normal_stiffness");
-  if (!bears) table.require("normal_force", " (or normal_stiffness: the force is then what the structure puts there)");
+  if (!bears)
+    table.require("normal_force", " (or normal_stiffness: the force is then what the structure puts there)");
   const bool given = table.has("normal_force");
   if (given) {
     contact.normal_force = read_standing_history(table, "normal_force", scene);
@@ -53,12 +54,14 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
     return carried;
   }
   if (given && !history.is_constant())
-    table.fail("normal_force", "found a history beside normal_stiffness, expected the number that is carried at rest");
+    table.fail("normal_force",
+               "found a history beside normal_stiffness, expected the number that is carried at rest");
   contact.law = Law::compliant;
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
   contact.normal_force = constant_history(0.0);
-  if (contact.friction.any()) table.require("tangential_stiffness", " (beside normal_stiffness, with friction)");
+  if (contact.friction.any())
+    table.require("tangential_stiffness", " (beside normal_stiffness, with friction)");
   contact.bowl = Bowl{radius, carried};
   contact.carries_static = !given;
   return carried;
@@ -90,7 +93,8 @@ void read_pendulums(Table& top, Scene& scene, RecordedScene& record) {
   Names names = names_of(scene);
   std::size_t number = 0;
   for (Table& table : tables_of(top, "pendulums")) {
-    if (space.matrices) table.fail("", "has no meaning with [matrices]: give a slider and N / R in the stiffness");
+    if (space.matrices)
+      table.fail("", "has no meaning with [matrices]: give a slider and N / R in the stiffness");
     ContactSpec contact = part_of(table, read_contact_name(table, "pendulum", ++number));
     const std::string node = read_node(table, "node", space);
     const std::string against = table.has("against") ? read_node(table, "against", space) : "";

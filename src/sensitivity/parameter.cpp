@@ -32,11 +32,10 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
         if (const auto f = (*both)[key].value<double>()) found.insert(*f);
       for (const FrictionConstant& constant : friction_constants)
         if (both->contains(constant.key))
-          fail_at(path,
-                  fmt::format("expected friction.{}, friction.{} or friction.{}: several numbers "
-                              "make the friction",
-                              both->contains("slow") ? "slow" : "static",
-                              both->contains("slow") ? "fast" : "kinetic", constant.key));
+          fail_at(path, fmt::format("expected friction.{}, friction.{} or friction.{}: several numbers "
+                                    "make the friction",
+                                    both->contains("slow") ? "slow" : "static",
+                                    both->contains("slow") ? "fast" : "kinetic", constant.key));
       return;
     }
     const auto number = node.value<double>();

@@ -31,18 +31,23 @@ struct Block {
   }
   [[nodiscard]] std::string scene(double t_end) const {
     return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n" +
-           fmt::format("gravity = [0.0, {:.17g}]\n[run]\nt_end = {:.17g}\noutput_dt = {:.17g}\ncertify = false\n[nodes]\nL "
-                       "= [{:.17g}, 0.0]\nR = [{:.17g}, 0.0]\n",
-                       -g, t_end, t_end / 7.0, -b, b) +
-           fmt::format("[[rigid]]\nname = \"block\"\ncentre = [0.0, {:.17g}]\nnodes = [\"L\", \"R\"]\nmass = "
-                       "{:.17g}\ninertia = {:.17g}\n",
-                       h, m, J) +
-           fmt::format("[[contacts]]\nname = \"foot\"\nnodes = [\"L\", \"R\"]\nlaw = \"rigid\"\nnormal = [0.0, "
-                       "1.0]\nfriction = {:.17g}\n",
-                       f) +
-           fmt::format("[base_motion]\ndirection = [1.0, 0.0]\nacceleration = {{ type = \"half_sine\", start = 0.0, "
-                       "duration = {:.17g}, amplitude = {:.17g} }}\n",
-                       duration, size);
+           fmt::format(
+               "gravity = [0.0, {:.17g}]\n[run]\nt_end = {:.17g}\noutput_dt = {:.17g}\ncertify = "
+               "false\n[nodes]\nL "
+               "= [{:.17g}, 0.0]\nR = [{:.17g}, 0.0]\n",
+               -g, t_end, t_end / 7.0, -b, b) +
+           fmt::format(
+               "[[rigid]]\nname = \"block\"\ncentre = [0.0, {:.17g}]\nnodes = [\"L\", \"R\"]\nmass = "
+               "{:.17g}\ninertia = {:.17g}\n",
+               h, m, J) +
+           fmt::format(
+               "[[contacts]]\nname = \"foot\"\nnodes = [\"L\", \"R\"]\nlaw = \"rigid\"\nnormal = [0.0, "
+               "1.0]\nfriction = {:.17g}\n",
+               f) +
+           fmt::format(
+               "[base_motion]\ndirection = [1.0, 0.0]\nacceleration = {{ type = \"half_sine\", start = 0.0, "
+               "duration = {:.17g}, amplitude = {:.17g} }}\n",
+               duration, size);
   }
 };
 
@@ -66,30 +71,29 @@ class Follower {
   int impacts = 0, slips = 0;
 
  private:
-  using Row = Eigen::RowVector3d;
-  [[nodiscard]] Row up(bool right) const { return {0.0, 1.0, right ? s_.b : -s_.b}; }
-  [[nodiscard]] Row aside() const { return {1.0, 0.0, s_.h}; }
+  [[nodiscard]] Vector3 up(bool right) const { return {0.0, 1.0, right ? s_.b : -s_.b}; }
+  [[nodiscard]] Vector3 aside() const { return {1.0, 0.0, s_.h}; }
 
   /// (accelerations or jumps, L, R, H) by (constant, ground) or of velocities: columns of the right side.
   [[nodiscard]] Eigen::MatrixXd solved(const Mode& mode, const Eigen::MatrixXd& dynamics,
                                        const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, 6), r = Eigen::MatrixXd::Zero(6, dynamics.cols());
     A.diagonal().head(3) = Vector3(s_.m, s_.m, s_.J);
-    A.block(0, 3, 3, 1) = -up(false).transpose();
-    A.block(0, 4, 3, 1) = -up(true).transpose();
-    A.block(0, 5, 3, 1) = -aside().transpose();
+    A.block(0, 3, 3, 1) = -up(false);
+    A.block(0, 4, 3, 1) = -up(true);
+    A.block(0, 5, 3, 1) = -aside();
     r.topRows(3) = dynamics;
     for (const bool right : {false, true}) {
       const int i = right ? 4 : 3;
       if (right ? mode.right : mode.left) {
-        A.block(i, 0, 1, 3) = up(right);
+        A.block(i, 0, 1, 3) = up(right).transpose();
         r.row(i) = rows.row(right ? 1 : 0);
       } else {
         A(i, i) = 1.0;
       }
     }
     if ((mode.left || mode.right) && mode.slip == 0) {
-      A.block(5, 0, 1, 3) = aside();
+      A.block(5, 0, 1, 3) = aside().transpose();
       r.row(5) = rows.row(2);
     } else {
       A(5, 5) = 1.0;
@@ -119,10 +123,11 @@ class Follower {
     Vector3 q, v;
     move(t, q, v);
     const Eigen::VectorXd x = at(law_, t);
-    std::array<double, 4> g{mode_.left ? x[3] : up(false) * q, mode_.right ? x[4] : up(true) * q, 1.0, 1.0};
+    std::array<double, 4> g{mode_.left ? x[3] : up(false).dot(q), mode_.right ? x[4] : up(true).dot(q), 1.0,
+                            1.0};
     const double limit = s_.f * (x[3] + x[4]);
     if (mode_.left || mode_.right) {
-      g[2] = mode_.slip == 0 ? limit - x[5] : mode_.slip * (aside() * v);
+      g[2] = mode_.slip == 0 ? limit - x[5] : mode_.slip * (aside().dot(v));
       if (mode_.slip == 0) g[3] = limit + x[5];
     }
     return g;
@@ -155,23 +160,24 @@ class Follower {
     hit();
     decide();
   }
-  [[nodiscard]] bool touches(bool right) const { return std::abs(up(right) * q_) < 1e-11; }
+  [[nodiscard]] bool touches(bool right) const { return std::abs(up(right).dot(q_)) < 1e-11; }
   /// e = 0: of those that touch, which take an impulse, and whether they slide on.
   void hit() {
     const bool left = touches(false), right = touches(true);
-    if (!((left && up(false) * v_ < -1e-9) || (right && up(true) * v_ < -1e-9))) return;
+    if (!((left && up(false).dot(v_) < -1e-9) || (right && up(true).dot(v_) < -1e-9))) return;
     ++impacts;
     for (const bool by_left : {true, false})
       for (const bool by_right : {true, false})
         for (const int slip : {0, 1, -1}) {
           if ((by_left && !left) || (by_right && !right) || !(by_left || by_right)) continue;
           Eigen::MatrixXd rows(3, 1);
-          rows << -up(false) * v_, -up(true) * v_, -aside() * v_;
+          rows << -up(false).dot(v_), -up(true).dot(v_), -aside().dot(v_);
           const Eigen::VectorXd x = solved({by_left, by_right, slip}, Eigen::MatrixXd::Zero(3, 1), rows);
           const Vector3 v = v_ + x.head(3);
-          const bool bears = x[3] >= -1e-12 && x[4] >= -1e-12, flies = (!left || up(false) * v > -1e-9) &&
-                                                                       (!right || up(true) * v > -1e-9);
-          const bool rubs = slip == 0 ? std::abs(x[5]) <= s_.f * (x[3] + x[4]) : slip * (aside() * v) > 1e-12;
+          const bool bears = x[3] >= -1e-12 && x[4] >= -1e-12,
+                     flies = (!left || up(false).dot(v) > -1e-9) && (!right || up(true).dot(v) > -1e-9);
+          const bool rubs =
+              slip == 0 ? std::abs(x[5]) <= s_.f * (x[3] + x[4]) : slip * (aside().dot(v)) > 1e-12;
           if (!bears || !flies || !rubs) continue;
           v_ = v;
           return;
@@ -184,10 +190,10 @@ class Follower {
       for (const bool right : {true, false})
         for (const int slip : {0, 1, -1}) {
           const auto may = [&](bool bears, bool of_right) {
-            return !bears || (touches(of_right) && std::abs(up(of_right) * v_) < 1e-9);
+            return !bears || (touches(of_right) && std::abs(up(of_right).dot(v_)) < 1e-9);
           };
           if (!may(left, false) || !may(right, true) || (!(left || right) && slip != 0)) continue;
-          if ((left || right) && slip == 0 && std::abs(aside() * v_) > 1e-9) continue;
+          if ((left || right) && slip == 0 && std::abs(aside().dot(v_)) > 1e-9) continue;
           const Mode last = mode_;
           mode_ = {left, right, slip};
           law_ = accelerations(mode_);

@@ -28,23 +28,28 @@ class Writer {
   explicit Writer(const View& view) : v_(view) {}
 
   [[nodiscard]] std::string scene() const {
-    std::string text = fmt::format("schema = 1\nunits = {{ {} }}\n[run]\nt_end = {:.17g}\noutput_dt = {:.17g}\nrtol = 1e-10\n",
-                                   v_.units, 1.2 * v_.time, 0.1 * v_.time);
-    const std::string A = fmt::format("A = [0.0, 0.0]\n"), B = fmt::format("B = [{:.17g}, 0.0]\n", 3.0 * v_.length);
+    std::string text = fmt::format(
+        "schema = 1\nunits = {{ {} }}\n[run]\nt_end = {:.17g}\noutput_dt = {:.17g}\nrtol = 1e-10\n", v_.units,
+        1.2 * v_.time, 0.1 * v_.time);
+    const std::string A = fmt::format("A = [0.0, 0.0]\n"),
+                      B = fmt::format("B = [{:.17g}, 0.0]\n", 3.0 * v_.length);
     text += "[nodes]\n" + (v_.permuted ? B + A : A + B);
     const double mass = v_.force * v_.time * v_.time / v_.length;
-    text += fmt::format("[[masses]]\nnode = \"A\"\nmass = {:.17g}\n[[masses]]\nnode = \"B\"\nmass = {:.17g}\n", 300.0 * mass,
-                        200.0 * mass);
+    text +=
+        fmt::format("[[masses]]\nnode = \"A\"\nmass = {:.17g}\n[[masses]]\nnode = \"B\"\nmass = {:.17g}\n",
+                    300.0 * mass, 200.0 * mass);
     if (v_.held) text += "[[supports]]\nnodes = [\"A\", \"B\"]\nfix = [\"uy\"]\n";
     const double stiffness = v_.force / v_.length;
-    text += fmt::format("[[springs]]\nnode = \"A\"\nagainst = \"B\"\ndirection = {}\nstiffness = {:.17g}\n", along(),
-                        3e4 * stiffness);
+    text += fmt::format("[[springs]]\nnode = \"A\"\nagainst = \"B\"\ndirection = {}\nstiffness = {:.17g}\n",
+                        along(), 3e4 * stiffness);
     const std::string a = bearing("a", "A", 3000.0, 2.0), b = bearing("b", "B", 2000.0, 1.4);
     text += v_.permuted ? b + a : a + b;
     return text +
-           fmt::format("[[loads]]\nnode = \"A\"\ndirection = {}\namplitude = {:.17g}\nhistory = {{ type = \"harmonic\", "
-                       "omega = {:.17g} }}\n",
-                       along(), 1800.0 * v_.force, 5.3 / v_.time) +
+           fmt::format(
+               "[[loads]]\nnode = \"A\"\ndirection = {}\namplitude = {:.17g}\nhistory = {{ type = "
+               "\"harmonic\", "
+               "omega = {:.17g} }}\n",
+               along(), 1800.0 * v_.force, 5.3 / v_.time) +
            v_.more;
   }
   /// A bearing's own unit vector; what it moves along it is the same in every view but for the mirror's sign.
@@ -57,26 +62,30 @@ class Writer {
   [[nodiscard]] std::string along() const {
     return fmt::format("[{:.17g}, {:.17g}]", tangent()[0], tangent()[1]);
   }
-  [[nodiscard]] std::string bearing(const std::string& name, const std::string& node, double N, double R) const {
+  [[nodiscard]] std::string bearing(const std::string& name, const std::string& node, double N,
+                                    double R) const {
     const double stiffness = v_.force / v_.length;
     const std::string friction =
         "friction = " + fmt::format(fmt::runtime(v_.friction), 0.05 * v_.length / v_.time) + "\n" +
         fmt::format(fmt::runtime(v_.spring), 4e5 * stiffness);
     const double stop = 0.05 * v_.length, rim = 5e5 * stiffness;
     if (!v_.by_hand)
-      return fmt::format("[[pendulums]]\nname = \"{}\"\nnode = \"{}\"\nnormal = [{:.17g}, {:.17g}]\nradius = "
-                         "{:.17g}\nnormal_force = {:.17g}\nstop = {:.17g}\nstop_stiffness = {:.17g}\n",
-                         name, node, -tangent()[1], tangent()[0], R * v_.length, N * v_.force, stop, rim) +
+      return fmt::format(
+                 "[[pendulums]]\nname = \"{}\"\nnode = \"{}\"\nnormal = [{:.17g}, {:.17g}]\nradius = "
+                 "{:.17g}\nnormal_force = {:.17g}\nstop = {:.17g}\nstop_stiffness = {:.17g}\n",
+                 name, node, -tangent()[1], tangent()[0], R * v_.length, N * v_.force, stop, rim) +
              friction;
-    return fmt::format("[[contacts]]\nname = \"{}\"\nnode = \"{}\"\nlaw = \"slider\"\ntangent = {}\nnormal_force = "
-                       "{:.17g}\n",
-                       name, node, along(), N * v_.force) +
+    return fmt::format(
+               "[[contacts]]\nname = \"{}\"\nnode = \"{}\"\nlaw = \"slider\"\ntangent = {}\nnormal_force = "
+               "{:.17g}\n",
+               name, node, along(), N * v_.force) +
            friction +
            fmt::format("[[springs]]\nnode = \"{}\"\ndirection = {}\nstiffness = {:.17g}\n", node, along(),
                        N / R * stiffness) +
-           fmt::format("[[stops]]\nname = \"{}\"\nnode = \"{}\"\nlaw = \"compliant\"\ndirection = {}\ngap = {:.17g}\n"
-                       "normal_stiffness = {:.17g}\n",
-                       name, node, along(), stop, rim);
+           fmt::format(
+               "[[stops]]\nname = \"{}\"\nnode = \"{}\"\nlaw = \"compliant\"\ndirection = {}\ngap = {:.17g}\n"
+               "normal_stiffness = {:.17g}\n",
+               name, node, along(), stop, rim);
   }
 
   View v_;
@@ -102,8 +111,10 @@ Seen seen(const View& view, const std::vector<Override>& changes = {}) {
     for (const char* node : {"A", "B"}) {
       double along = 0.0;
       for (const Column& column : model.columns)
-        if (!column.velocity && column.name == std::string(node) + ".ux") along += row.u[column.dof] * writer.tangent()[0];
-        else if (!column.velocity && column.name == std::string(node) + ".uy") along += row.u[column.dof] * writer.tangent()[1];
+        if (!column.velocity && column.name == std::string(node) + ".ux")
+          along += row.u[column.dof] * writer.tangent()[0];
+        else if (!column.velocity && column.name == std::string(node) + ".uy")
+          along += row.u[column.dof] * writer.tangent()[1];
       s.place.push_back(along / view.length);
     }
   return s;
@@ -163,7 +174,7 @@ TEST_CASE("pendulums with rising friction go on from where a run left them") {
   const halves::Reader read = [&](const std::vector<Override>& changes) {
     return parse_scene(text, "halves.toml", changes);
   };
-  for (const double part : {0.31, 0.55, 0.83}) {
+  for (const double part : {0.31, 0.55, 0.77}) {
     CAPTURE(part);
     const halves::Difference d = halves::split_scene(read, {}, part);
     CAPTURE(d.first);
@@ -174,7 +185,8 @@ TEST_CASE("pendulums with rising friction go on from where a run left them") {
   }
 }
 
-TEST_CASE("a reduced model that keeps all modes moves as the whole one, rising friction beside a spring or not") {
+TEST_CASE(
+    "a reduced model that keeps all modes moves as the whole one, rising friction beside a spring or not") {
   for (const char* spring : {"", "tangential_stiffness = {:.17g}\n"}) {
     CAPTURE(spring);
     View whole;

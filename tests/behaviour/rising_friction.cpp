@@ -20,8 +20,8 @@
 namespace signorini::tests::rising {
 namespace {
 
-constexpr double slow = 0.04, fast = 0.11, velocity = 0.06;
-const std::string law = "friction = { slow = 0.04, fast = 0.11, velocity = 0.06 }\n";
+constexpr double slow = 0.04, fast = 0.11, velocity = 0.2;
+const std::string law = "friction = { slow = 0.04, fast = 0.11, velocity = 0.2 }\n";
 
 /// w = exp(x/v): w' = -(N / m v) (fast w - (fast - slow)), until w = 1.
 double time_to_rest(double x, double N, double m, double f_slow = slow, double f_fast = fast,
@@ -37,7 +37,8 @@ struct Quake {
   explicit Quake(double t_end, double size) {
     for (int i = 0; i <= static_cast<int>(std::lround(t_end / step)) + 1; ++i) {
       const double t = i * step;
-      values.push_back(size * t * (std::sin(9.7 * t) + 0.7 * std::sin(23.1 * t + 0.4) - 0.5 * std::sin(41.3 * t)));
+      values.push_back(size * t *
+                       (std::sin(9.7 * t) + 0.7 * std::sin(23.1 * t + 0.4) - 0.5 * std::sin(41.3 * t)));
     }
   }
   [[nodiscard]] double at(double t) const {
@@ -95,21 +96,24 @@ Motion integrated(const Isolator& s, const Quake& quake, double t_end, double h)
 std::string isolator_scene(const Isolator& s, const Quake& quake, double t_end,
                            const std::string& more = "") {
   return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\n" +
-         fmt::format("t_end = {}\noutput_dt = {}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = "
-                     "{:.17g}\n[[supports]]\nnode = \"A\"\nfix = [\"uy\"]\n[[springs]]\nnode = \"A\"\ndirection = "
-                     "[1.0, 0.0]\nstiffness = {:.17g}\n",
-                     t_end, t_end / 10.0, s.m, s.k) +
-         fmt::format("[[contacts]]\nname = \"c\"\nnode = \"A\"\nlaw = \"slider\"\ntangent = [1.0, 0.0]\n"
-                     "normal_force = {:.17g}\ntangential_stiffness = {:.17g}\n",
-                     s.N, s.kt) +
+         fmt::format(
+             "t_end = {}\noutput_dt = {}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = "
+             "{:.17g}\n[[supports]]\nnode = \"A\"\nfix = [\"uy\"]\n[[springs]]\nnode = \"A\"\ndirection = "
+             "[1.0, 0.0]\nstiffness = {:.17g}\n",
+             t_end, t_end / 10.0, s.m, s.k) +
+         fmt::format(
+             "[[contacts]]\nname = \"c\"\nnode = \"A\"\nlaw = \"slider\"\ntangent = [1.0, 0.0]\n"
+             "normal_force = {:.17g}\ntangential_stiffness = {:.17g}\n",
+             s.N, s.kt) +
          law + more + "[base_motion]\ndirection = [1.0, 0.0]\nacceleration = " + quake.table() + "\n";
 }
 
-std::string block(double m, double N, double v, double t_end, const std::string& more = "") {
-  return matrix_scene(fmt::format("t_end = {}\ninitial = {{ u = [0.0], v = [{:.17g}] }}", t_end, v),
-                      fmt::format("mass = [[{:.17g}]]\nstiffness = [[0.0]]", m),
-                      fmt::format("law = \"slider\"\ntangent = {{ d0 = 1.0 }}\nnormal_force = {:.17g}\n", N) + law +
-                          more);
+std::string block(double m, double N, double v, double t_end, const std::string& more = "",
+                  const std::string& run = "") {
+  return matrix_scene(
+      run + fmt::format("t_end = {}\ninitial = {{ u = [0.0], v = [{:.17g}] }}", t_end, v),
+      fmt::format("mass = [[{:.17g}]]\nstiffness = [[0.0]]", m),
+      fmt::format("law = \"slider\"\ntangent = {{ d0 = 1.0 }}\nnormal_force = {:.17g}\n", N) + law + more);
 }
 
 }  // namespace
@@ -131,10 +135,11 @@ TEST_CASE("a block that rising friction brakes comes to rest as the closed form 
   }
 }
 
-TEST_CASE("an isolator with rising friction beside its spring, shaken, is where a fixed step of 1e-7 s puts it") {
+TEST_CASE(
+    "an isolator with rising friction beside its spring, shaken, is where a fixed step of 1e-7 s puts it") {
   const Isolator isolator;
-  const double t_end = 0.6;
-  const Quake quake(t_end, 14.0);
+  const double t_end = 1.0;
+  const Quake quake(t_end, 9.0);
   const Motion expected = integrated(isolator, quake, t_end, 1e-7);
   const Result result = run_text(isolator_scene(isolator, quake, t_end), "ida", "1e-10");
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
@@ -147,6 +152,96 @@ TEST_CASE("an isolator with rising friction beside its spring, shaken, is where 
   CHECK(last.energy.friction == doctest::Approx(expected.slid).epsilon(1e-7));
   CHECK(result.report.audit.energy.value < 1e-6 * result.report.audit.energy_scale);
   CHECK(result.report.witness.violations.empty());
+}
+
+TEST_CASE("sensitivities to slow, fast and velocity are those of the closed form") {
+  const double v = 0.9, N = 40.0, m = 5.0;
+  const Sensitivities s =
+      rates_of(block(m, N, v, 1.3 * time_to_rest(v, N, m), "", "engine = \"ida\"\nrtol = 1e-11\n"),
+               {"contacts.c.friction.slow", "contacts.c.friction.fast", "contacts.c.friction.velocity"});
+  REQUIRE(s.events.size() == 1);
+  const double h = 1e-4;
+  const auto rate = [&](double of_slow, double of_fast, double of_velocity) {
+    const auto at = [&](double x) {
+      return time_to_rest(v, N, m, slow + x * of_slow, fast + x * of_fast, velocity + x * of_velocity);
+    };
+    return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+  };
+  CHECK(s.event_rates[0][0].t == doctest::Approx(rate(1.0, 0.0, 0.0)).epsilon(1e-7));
+  CHECK(s.event_rates[0][1].t == doctest::Approx(rate(0.0, 1.0, 0.0)).epsilon(1e-7));
+  CHECK(s.event_rates[0][2].t == doctest::Approx(rate(0.0, 0.0, 1.0)).epsilon(1e-7));
+}
+
+TEST_CASE("a rigid hit takes the friction of the slip rate just before it") {
+  const double vx = 0.3, vy = 0.8;
+  const std::string text = matrix_scene(
+      fmt::format(
+          "t_end = 0.02\noutput_times = [0.02]\ninitial = {{ u = [0.0, 0.008], v = [{:.17g}, {:.17g}] }}", vx,
+          -vy),
+      "mass = [[2.0, 0.0], [0.0, 2.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+      "law = \"rigid\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nrestitution = 0.5\n" + law);
+  const Result result = run_text(text, "ida", "1e-10");
+  REQUIRE(result.events.size() == 1);
+  const double f = fast - (fast - slow) * std::exp(-vx / velocity);
+  CHECK(std::abs(result.events[0].t - 0.01) < 1e-12);
+  CHECK(result.rows.back().v[1] == doctest::Approx(0.4).epsilon(1e-12));
+  CHECK(result.rows.back().v[0] == doctest::Approx(vx - f * 1.5 * vy).epsilon(1e-12));
+  CHECK(result.report.witness.violations.empty());
+}
+
+TEST_CASE(
+    "where the compression falls at once friction drops to the fast limit, where it rises the bearing "
+    "sticks") {
+  for (const double later : {300.0, 2000.0}) {
+    CAPTURE(later);
+    // 1000 kg at 0.05 m/s: its speed hardly changes, so T settles where f N of that speed is.
+    const std::string text = matrix_scene(
+        "t_end = 0.6\noutput_times = [0.3, 0.6]\ninitial = { u = [0.0], v = [0.05] }",
+        "mass = [[1e5]]\nstiffness = [[0.0]]",
+        fmt::format("law = \"slider\"\ntangent = {{ d0 = 1.0 }}\ntangential_stiffness = 1e4\nnormal_force = "
+                    "{{ type = "
+                    "\"table\", times = [0.0, 0.3, 0.3, 1.0], values = [1000.0, 1000.0, {0}, {0}] }}\n",
+                    later) +
+            law);
+    const Result result = run_text(text, "ida", "1e-10");
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    const auto limit = [&](double v, double N) {
+      return N * (fast - (fast - slow) * std::exp(-v / velocity));
+    };
+    const Event* jump = nullptr;
+    for (const Event& e : result.events)
+      if (std::abs(e.t - 0.3) < 1e-12 && e.contact == 0) jump = &e;
+    REQUIRE(jump);
+    CHECK(jump->T == doctest::Approx(limit(0.05, 1000.0)).epsilon(1e-3));
+    if (later < 1000.0) {
+      CHECK(jump->T_after == doctest::Approx(fast * later).epsilon(1e-7));
+    } else {
+      CHECK(jump->T_after == doctest::Approx(jump->T).epsilon(1e-9));
+      CHECK(jump->to == State::stick);
+    }
+    CHECK(result.rows.back().contacts[0].T == doctest::Approx(limit(0.05, later)).epsilon(2e-3));
+    CHECK(result.report.audit.energy.value < 1e-6 * result.report.audit.energy_scale);
+  }
+}
+
+TEST_CASE("a contact that is hit in passing slips from its first touch on, and energy is kept") {
+  for (const std::string& damping : {"", "tangential_damping = 40.0\n"}) {
+    CAPTURE(damping);
+    const std::string text = matrix_scene(
+        "t_end = 0.4\noutput_dt = 0.01\ninitial = { u = [0.0, 0.01], v = [0.5, -0.3] }",
+        "mass = [[3.0, 0.2], [0.2, 3.0]]\nstiffness = [[20.0, 0.0], [0.0, 0.0]]",
+        "law = \"compliant\"\nnormal = { d1 = 1.0 }\ntangent = { d0 = 1.0 }\nnormal_stiffness = 3000.0\n"
+        "tangential_stiffness = 2000.0\n" +
+            damping + law,
+        "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = -30.0\n");
+    const Result result = run_text(text, "ida", "1e-10");
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE_FALSE(result.events.empty());
+    CHECK(result.events[0].to == State::slip_plus);
+    CHECK(result.report.audit.energy.value < 1e-6 * result.report.audit.energy_scale);
+    CHECK(result.report.audit.friction.value < 1e-6 * result.report.audit.force_scale);
+    CHECK(result.report.witness.violations.empty());
+  }
 }
 
 TEST_SUITE_END();

@@ -182,7 +182,8 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     const ContactMotion m = motion(k, t, y, yp, step);
     if (const Contact& contact = model_.contacts[k]; contact.bowl)
       contact.body_tangent().add_to(
-          forces, bowl_force(contact, y[f], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
+          forces,
+          bowl_force(contact, y[f], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
     r[f] = linear_.rows()[k].normal.value(m);
     r[f + 1] = linear_.rows()[k].tangent.value(m);
   }

@@ -50,7 +50,7 @@ void check_reducible(const Scene& scene, const Model& model) {
 
 bool normal_needs_mass(const Contact& c) {
   const bool tells_rate = c.friction.rises() && c.tangential_stiffness;
-  return c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.bowl;
+  return c.has_gap() && (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.bowl);
 }
 
 bool tangent_needs_mass(const Contact& c, double tangential_damping) {

@@ -77,6 +77,7 @@ struct Contact {
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
+  std::optional<Bowl> bowl;           ///< not of rigid contacts
   double normal_damping = 0.0;        ///< dashpot beside the normal spring
   Friction friction;
   double restitution = 0.0;                ///< rigid: Newton's coefficient

@@ -310,13 +310,20 @@ enum class Law { compliant, rigid, slider };
 /// Coefficients of friction, of a scene and of its contacts.
 struct Friction {
   double static_ = 0.0;  ///< |T| <= static |N| in stick
-  double kinetic = 0.0;  ///< |T| = kinetic |N| in slip
+  double kinetic =
+      0.0;  ///< |T| = kinetic |N| in slip; where friction rises: of fast slip, no less than static_
   /// f = kinetic + (static - kinetic) exp(-|p'| / stribeck_velocity) while slipping
   std::optional<double> stribeck_velocity = {};
+  /// f = fast - (fast - slow) exp(-|p'| / velocity) while slipping; static_ is slow, kinetic is fast
+  std::optional<double> velocity = {};
 
   [[nodiscard]] bool any() const { return static_ > 0.0; }
+  /// It grows with the slip rate, from static_ on: no jump where slip begins.
+  [[nodiscard]] bool rises() const { return velocity.has_value(); }
   /// It depends on the slip rate: what slips is not linear.
-  [[nodiscard]] bool varies() const { return stribeck_velocity.has_value(); }
+  [[nodiscard]] bool varies() const { return stribeck_velocity || velocity; }
+  /// Of the exponential; where friction varies.
+  [[nodiscard]] double rate_of_change() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
 
 /// A constant of friction beside the two coefficients: its key below `friction`, and its unit.
@@ -326,7 +333,14 @@ struct FrictionConstant {
   Unit unit;
 };
 inline constexpr std::array friction_constants = {
-    FrictionConstant{"stribeck_velocity", &Friction::stribeck_velocity, {0, 1, -1}}};
+    FrictionConstant{"stribeck_velocity", &Friction::stribeck_velocity, {0, 1, -1}},
+    FrictionConstant{"velocity", &Friction::velocity, {0, 1, -1}}};
+
+/// A surface of this radius under a force that varies: |N| ut / radius drives the body back, of which
+/// carried ut / radius stands in K (contact/bowl.hpp).
+struct Bowl {
+  double radius = 0.0, carried = 0.0;
+};
 
 struct ContactSpec {
   std::string name = {};
@@ -345,7 +359,9 @@ struct ContactSpec {
   double restitution = 0.0;                     ///< rigid: Newton's coefficient, 0 to 1
   std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds rest; absent: from the tolerances
   SourcePlace place = {};
-  std::string table = {};  ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
+  std::optional<Bowl> bowl = {};  ///< of a pendulum; `carried` stands among the springs
+  bool carries_static = false;    ///< what its bowl carries is the reaction of the static start
+  std::string table = {};         ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.
   std::shared_ptr<const OwnLaw> own = {};

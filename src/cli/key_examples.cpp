@@ -385,6 +385,20 @@ tangent = [1.0, 0.0]
 normal_force = { type = "harmonic", offset = 10.0, amplitude = 4.0, omega = 3.0 }
 friction = { static = 0.4, kinetic = 0.3 }
 surface_velocity = 0.2
+```
+
+Sliding bearings of PTFE rub more the faster they slide; `fast` is then what a slider's data sheet calls mu_max, 1 / velocity its rate
+parameter:
+
+```toml
+[[contacts]]
+name = "bearing"
+node = "slab"
+law = "slider"
+tangent = [1.0, 0.0]
+normal_force = 800.0
+tangential_stiffness = 4e4      # before it slides; without it it sticks rigidly
+friction = { slow = 0.04, fast = 0.10, velocity = 0.02 }
 ```)"},
     {"stops[]", "## `[[stops]]`",
      R"(A guide or a line stop: contacts on both sides of a node. All other keys are those of a contact with a gap, for either
@@ -399,6 +413,26 @@ direction = [1.0, 0.0]
 gap = 0.01
 normal_stiffness = 1e5
 ```)"},
+    {"pendulums[]", "## `[[pendulums]]`",
+     R"(A friction pendulum: a contact NAME that rubs, a spring N / radius that brings it back, and with `stop` a rim on either side,
+contacts NAME+ and NAME-. Rotations are small, so that the restoring force is N u / radius. `normal_force` is what the bearing
+carries. Where it is a number every engine takes the scene. Where it is a history, or follows from the structure by
+`normal_stiffness`, the restoring force goes with it, which `ida` knows and the others refuse; the bearing may then lift off.
+
+```toml
+[[pendulums]]
+name = "west"
+node = "slab"
+radius = 2.2
+normal_force = 800.0
+friction = { slow = 0.04, fast = 0.10, velocity = 0.02 }
+tangential_stiffness = 4e4
+stop = 0.35
+stop_stiffness = 2e4
+```
+
+friction, tangential_stiffness, tangential_damping and initial_shear are those of [contacts](#contacts), and so is normal_damping,
+beside normal_stiffness.)"},
     {"base_motion", "## `[base_motion]`",
      R"(The ground shakes: displacements and velocities are then relative to it, and the load is -M r a(t), with r the
 direction on all translations, fixed ones included.

@@ -16,14 +16,15 @@ double next_of_exponential(const std::vector<double>& g, const std::vector<doubl
 }  // namespace
 
 double sliding_friction(const Contact& contact, double along) {
-  if (!contact.friction.stribeck_velocity) return contact.friction.kinetic;
-  return contact.friction.kinetic + (contact.friction.static_ - contact.friction.kinetic) *
-                                        std::exp(-along / *contact.friction.stribeck_velocity);
+  const Friction& f = contact.friction;
+  if (!f.varies()) return f.kinetic;
+  return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.rate_of_change());
 }
 
 double sliding_friction_slope(const Contact& contact, double along) {
-  if (!contact.friction.stribeck_velocity) return 0.0;
-  return (contact.friction.kinetic - sliding_friction(contact, along)) / *contact.friction.stribeck_velocity;
+  const Friction& f = contact.friction;
+  if (!f.varies()) return 0.0;
+  return (f.kinetic - sliding_friction(contact, along)) / f.rate_of_change();
 }
 
 Form sliding_row(int s, double f) {
@@ -45,11 +46,17 @@ Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) 
 
 void FrictionRecursion::begin(const Contact& contact, int s, double rate) {
   s_ = s;
-  velocity_ = *contact.friction.stribeck_velocity;
+  velocity_ = contact.friction.rate_of_change();
   const double along = s * rate;
   first_ = sliding_friction(contact, along);
   varying_.assign(1, first_ - contact.friction.kinetic);
   exponent_.assign(1, -along / velocity_);
+}
+
+void FrictionRecursion::take_rate(double rate) {
+  exponent_.pop_back();
+  varying_.pop_back();
+  extend(rate);
 }
 
 void FrictionRecursion::extend(double rate) {
@@ -60,10 +67,10 @@ void FrictionRecursion::extend(double rate) {
 FrictionTangent::FrictionTangent(const Friction& friction, const Friction& by, int s)
     : static_(friction.static_),
       kinetic_(friction.kinetic),
-      velocity_(friction.stribeck_velocity.value()),
+      velocity_(friction.rate_of_change()),
       by_static_(by.static_),
       by_kinetic_(by.kinetic),
-      by_velocity_(by.stribeck_velocity.value_or(0.0)),
+      by_velocity_((friction.rises() ? by.velocity : by.stribeck_velocity).value_or(0.0)),
       s_(s) {}
 
 void FrictionTangent::extend(double rate, double moved_rate) {

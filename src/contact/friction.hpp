@@ -1,7 +1,9 @@
 // friction.hpp: how large the friction force is, and how it changes.
 //
 //   stick   |T| <= fs |N|
-//   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    Stribeck; f = fk without v_s
+//   slip s  T + s f(s p') N = 0,   f(x) = fk + (fs - fk) exp(-x / v_s)    f = fk without v_s
+//
+// fs > fk: Stribeck's friction, which falls. fs < fk: friction that rises from slow (fs) to fast (fk).
 //
 // Its tangent at a motion is dT + s f dN + f' N dvt. Along a series of the motion, with E = exp(g):
 //   k E_k = sum_j j g_j E_(k-j),   f_k = (fs - fk) E_k,   T_k + s f_0 N_k = -s sum_(j = 1..k) f_j N_(k-j)
@@ -22,7 +24,9 @@ namespace signorini {
 
 /// Greatest |T| over |N| in stick; and over |N| in slip, of all slip rates the least.
 [[nodiscard]] inline double static_friction(const Contact& contact) { return contact.friction.static_; }
-[[nodiscard]] inline double kinetic_friction(const Contact& contact) { return contact.friction.kinetic; }
+[[nodiscard]] inline double kinetic_friction(const Contact& contact) {
+  return contact.friction.rises() ? contact.friction.static_ : contact.friction.kinetic;
+}
 /// Coefficient of friction at a slip rate along the slip, s p'; smooth past zero. And its derivative by the
 /// rate.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
@@ -51,13 +55,25 @@ class FrictionRecursion {
   template <class Pressing>
   [[nodiscard]] double next(double rate, const Pressing& pressing) {
     extend(rate);
+    return known(pressing);
+  }
+  /// Where ut' is an unknown of level k: what is known of it there, without that; and then the coefficient of ut'.
+  template <class Pressing>
+  [[nodiscard]] double without_rate(const Pressing& pressing) {
+    extend(0.0);
+    return known(pressing);
+  }
+  void take_rate(double rate);
+
+ private:
+  template <class Pressing>
+  [[nodiscard]] double known(const Pressing& pressing) const {
     const std::size_t k = varying_.size() - 1;
     double known = 0.0;
     for (std::size_t j = 1; j <= k; ++j) known += varying_[j] * pressing(k - j);
     return s_ * known;
   }
 
- private:
   void extend(double rate);
 
   double first_ = 0.0, velocity_ = 0.0;  // f_0, v_s

@@ -74,6 +74,10 @@ Impacts::Hit Impacts::meet(const Forcing& forcing, double t, const ModeSystem& s
     item.kind = contact.has_friction() ? CoulombItem::Kind::frictional : CoulombItem::Kind::normal;
     item.static_friction = static_friction(contact);
     item.kinetic_friction = kinetic_friction(contact);
+    // What rises with the slip rate is in a hit what it was just before.
+    if (contact.friction.rises())
+      item.static_friction = item.kinetic_friction =
+          sliding_friction(contact, std::abs(hit.before[tangent_place(i)]));
     hit.problem.items.push_back(item);
   }
   return hit;

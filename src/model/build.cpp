@@ -16,6 +16,7 @@
 #include "model/assembly/drawing.hpp"
 #include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/springs.hpp"
 #include "model/assembly/ties.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
@@ -89,6 +90,18 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;
   model.statics = std::move(found.start);
+}
+
+/// The weight that a pendulum carries at rest drives it back from the start on.
+void stiffen_pendulums(const Scene& scene, Model& model) {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    if (!scene.contacts[k].carries_static || !model.static_start) continue;
+    Contact& c = model.contacts[k];
+    c.bowl->carried = model.statics.reactions[k];
+    springs.push_back({c.tangent, c.bowl->carried / c.bowl->radius});
+  }
+  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
 }
 
 /// Sliders are always closed; compliant contacts where they press at the start.
@@ -174,6 +187,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
         {place, scene.matrices ? scene.matrices->stiffness.place : place,
          scene.matrices ? "matrices.stiffness" : ""},
         map, model);
+  stiffen_pendulums(scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && doubted) set_load_factors(scene, map, closed, model);

@@ -158,7 +158,8 @@ class Doubts {
     std::vector<std::size_t> high;
     double greatest = 0.0;
     for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-      const double f = std::max(static_friction(model_.contacts[k]), kinetic_friction(model_.contacts[k]));
+      const Friction& law = model_.contacts[k].friction;
+      const double f = std::max(law.static_, law.kinetic);
       if (f > greatest_friction) high.push_back(k);
       greatest = std::max(greatest, f);
     }

@@ -127,6 +127,10 @@ class Rescaling {
       (*this)(c.shear->stiffness, unit::stiffness);
       (*this)(c.shear->damping, unit::damping);
     }
+    if (c.bowl) {
+      (*this)(c.bowl->radius, unit::length);
+      (*this)(c.bowl->carried, unit::force);
+    }
     (*this)(c.normal_damping, unit::damping);
     for (const FrictionConstant& constant : friction_constants)
       (*this)(c.friction.*constant.value, constant.unit);

@@ -39,6 +39,23 @@ void check_mass(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
+/// Friction that depends on the slip rate, and a curved surface, need motions that are data of an instant.
+void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
+  const Contact& contact = model.contacts[k];
+  const bool by_rate = friction_varies(contact), beside_spring = contact.tangential_stiffness.has_value();
+  if (!by_rate && !contact.bowl) return;
+  for (const Combination* form : {&contact.tangent, &contact.normal}) {
+    if (form == &contact.normal && !contact.bowl && !beside_spring) continue;
+    for (const auto& [dof, factor] : form->terms)
+      if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
+        refuse(scene, k, by_rate ? "friction" : "radius",
+               fmt::format("{} needs mass where it acts, and {} has none",
+                           by_rate ? "friction that depends on the slip rate"
+                                   : "a curved surface under a force that varies",
+                           d.displacement));
+  }
+}
+
 /// Sum of the magnitudes that the gap is a difference of. Displacements of a run that goes on are known relative to
 /// the greatest that it had, however small those at the contact are: solves do not tell one from the other.
 double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
@@ -138,13 +155,7 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
   std::vector<bool> closed(model.contacts.size(), false);
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
-    if (friction_varies(contact))
-      for (const auto& term : contact.tangent.terms)
-        if (const Dof& d = model.dofs[static_cast<std::size_t>(term.first)]; d.massless)
-          refuse(
-              scene, k, "friction",
-              fmt::format("friction that falls with the slip rate needs mass where it acts, and {} has none",
-                          d.displacement));
+    check_known_motion(scene, model, k);
     if (!contact.takes_impulses()) continue;
     check_mass(scene, model, k);
     closed[k] = close_gap(scene, model, k);

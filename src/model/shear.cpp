@@ -28,10 +28,11 @@ void add_shear_elements(const Scene& scene, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     Contact& contact = model.contacts[k];
     const double ct = scene.contacts[k].tangential_damping;
-    if (ct == 0.0 || !contact.has_friction()) continue;
+    const bool by_rate = contact.friction.rises() && contact.tangential_stiffness;
+    if ((ct == 0.0 && !by_rate) || !contact.has_friction()) continue;
     const double kt = *contact.tangential_stiffness;
     // Below this the element would follow at once, within the rounding of everything else.
-    if (ct / kt * model.omega_max < fastest)
+    if (ct > 0.0 && ct / kt * model.omega_max < fastest)
       throw SceneError(
           scene.contacts[k].place, scene.contacts[k].key("tangential_damping"),
           fmt::format("tangential_damping / tangential_stiffness = {:.3g} is a time constant far "

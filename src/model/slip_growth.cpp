@@ -49,7 +49,7 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
       continue;
     }
     const Vector n = full(c.normal, model.size());
-    const Vector push = n - s * c.friction.kinetic * full(c.tangent, model.size());
+    const Vector push = n - s * kinetic_friction(c) * full(c.tangent, model.size());
     result.drives.push_back({n, push, normal.stiffness, c.normal_damping});
     result.contacts.push_back(k);
   }

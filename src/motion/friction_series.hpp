@@ -2,7 +2,13 @@
 //
 //   T_k + s sum_(j = 0..k) f_j N_(k-j) = 0       f_j: contact/friction.hpp
 //
-// f_0 stands in the matrix of the system; what the higher ones do is known at level k, since p'_k is.
+// f_0 stands in the matrix of the system; what the higher ones do is known at level k, since p'_k is. A sliding point
+// without mass (a shear element) has p'_k as an unknown of level k:
+//
+//   T_k + s f_0 N_k + f'(s p'_0) N_0 p'_k = -s sum' f_j N_(k-j)     sum': without what p'_k does to f_k
+//
+// and p'_0 follows from T_0 (contact/massless_slip.hpp). Where friction is at its greatest, or N_0 is zero, the point
+// follows at once: its displacement is the unknown, and friction's coefficient stays.
 #pragma once
 
 #include "contact/friction.hpp"
@@ -12,20 +18,28 @@ namespace signorini {
 
 class FrictionSeries {
  public:
-  /// At the beginning of a series whose u_0 and u_1 are known. s: direction of slip; contact number `index`.
-  FrictionSeries(const Contact& contact, std::size_t index, int s, const Series& series);
+  /// At the beginning of a series whose u_0 and u_1 are known, u_1 where there is mass. s: direction of slip; contact
+  /// number `index`; normal: its row.
+  FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal, const Series& series);
 
   [[nodiscard]] std::size_t contact() const { return index_; }
-  /// f_0
-  [[nodiscard]] double coefficient() const { return friction_.first(); }
-  /// s sum_(j = 1..k) f_j N_(k-j); to be called for k = 0, 1, 2, ... in turn.
+  /// The tangent row that stands in the matrix.
+  [[nodiscard]] const Form& row() const { return row_; }
+  /// What a point without mass moves by at once where N has fallen so far that friction does not hold it at any rate
+  /// near its own; else zero. Unit: length.
+  [[nodiscard]] double jump() const { return jump_; }
+  /// What else of the row is known; to be called for k = 0, 1, 2, ... in turn.
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
+  void begin_massless(int s, const Form& normal, const Series& series);
   [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
 
   const Contact* contact_;
   std::size_t index_;
+  Form row_;
+  double jump_ = 0.0;
+  bool constant_ = false;  // friction's coefficient stays
   FrictionRecursion friction_;
 };
 

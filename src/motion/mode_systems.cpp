@@ -109,13 +109,11 @@ bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
   return false;
 }
 
-ModeSystemPtr ModeSystems::at_friction(const ModeSystem& system, std::span<const double> coefficients) {
+ModeSystemPtr ModeSystems::at_friction(const ModeSystem& system, std::span<const Form> tangents) {
   std::vector<Rows> rows = system.rows();
+  const std::vector<std::size_t>& by_rate = system.factorised().by_rate;
+  for (std::size_t i = 0; i < by_rate.size(); ++i) rows[by_rate[i]].tangent = tangents[i];
   FactorisedMode made = describe(system.mode(), rows);
-  for (std::size_t i = 0; i < made.by_rate.size(); ++i) {
-    const std::size_t c = made.by_rate[i];
-    rows[c].tangent.N = slip_sign(system.mode()[c].state) * coefficients[i];
-  }
   factorise(rows, made);
   if (!made.regular) return nullptr;
   return std::make_shared<const ModeSystem>(system.mode(), std::move(rows),

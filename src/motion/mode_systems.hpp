@@ -29,7 +29,7 @@ class ModeSystems {
   [[nodiscard]] ModeSystemPtr of(const Mode& mode);
   /// The same system with these coefficients of friction for the contacts `by_rate`. It is not kept: slip
   /// rates do not return. Null: singular.
-  [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const double> coefficients);
+  [[nodiscard]] ModeSystemPtr at_friction(const ModeSystem& system, std::span<const Form> tangents);
 
   /// Others that stick hold the motion along the tangent of a contact: sticking, it would hold nothing more.
   [[nodiscard]] bool held_by_others(std::size_t contact, Mode mode) const;

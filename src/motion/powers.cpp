@@ -1,5 +1,6 @@
 #include "motion/powers.hpp"
 
+#include "contact/bowl.hpp"
 #include "contact/law.hpp"
 
 namespace signorini {
@@ -13,6 +14,10 @@ void Powers::at(const Forcing& forcing, double t, const Mode& mode, const Point&
     const double slip = model_.contacts[k].own ? m.vt
                         : s == 0               ? 0.0
                                                : slip_rate(model_.contacts[k], s).value(m);
+    if (const Contact& contact = model_.contacts[k]; contact.bowl) {
+      const BodySlide slide = slide_of(contact, k, forcing, t, point.u, point.v);
+      out[0] -= bowl_force(contact, point.N(k), slide.ut) * slide.vt;
+    }
     const ContactWork power = work_on(model_.contacts[k], mode[k].state, m.N, m.T,
                                       {slip, forcing.surface(k, t, 1), m.vn, m.vn, 1.0});
     out[1] += power.damping;

@@ -27,4 +27,16 @@ struct Series {
   return contact.tangent.dot(u) - series.forcing.surface[index * series.forcing.count + k];
 }
 
+/// Coefficient k of N of a contact with the normal row N = kn g + cn g', N = -q or N = 0, where u and v have
+/// mass: known before level k is.
+[[nodiscard]] inline double normal_coefficient(const Contact& contact, std::size_t index, const Form& row,
+                                               const Series& series, std::size_t k) {
+  const double* v = series.u.data() + (k + 1) * static_cast<std::size_t>(series.u.rows());
+  ContactMotion m;
+  m.gap = gap_coefficient(contact, series, k);
+  m.vn = static_cast<double>(k + 1) / series.scale * contact.normal.dot(v);
+  m.pressing = series.forcing.pressing[index * series.forcing.count + k];
+  return -(k == 0 ? row.value(m) : row.rate(m));
+}
+
 }  // namespace signorini

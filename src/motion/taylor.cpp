@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/rounding.hpp"
+#include "contact/bowl.hpp"
 
 namespace signorini {
 
@@ -34,19 +35,43 @@ Taylor::Taylor(ModeSystems& systems)
     const double mass = model_.mass.coeff(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i));
     mobility_.push_back(mass > 0.0 ? 1.0 / mass : 0.0);
   }
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+    if (model_.contacts[c].bowl) bowls_.push_back(c);
 }
 
 /// Friction at the beginning of a series is a coefficient of its matrix.
-void Taylor::start_friction(const Series& series) {
+void Taylor::start_friction(Series& series) {
   friction_.clear();
   const std::vector<std::size_t>& by_rate = system_->factorised().by_rate;
   if (by_rate.empty()) return;
-  std::vector<double> coefficients;
+  std::vector<Form> rows;
   for (const std::size_t c : by_rate) {
-    friction_.emplace_back(model_.contacts[c], c, slip_sign(system_->mode()[c].state), series);
-    coefficients.push_back(friction_.back().coefficient());
+    friction_.emplace_back(model_.contacts[c], c, slip_sign(system_->mode()[c].state),
+                           system_->rows()[c].normal, series);
+    rows.push_back(friction_.back().row());
+    for (const auto& [dof, factor] : model_.contacts[c].tangent.terms)
+      series.u(dof, 0) += factor * friction_.back().jump();  // zero where the point has mass
   }
-  if (ModeSystemPtr at = systems_.at_friction(*system_, coefficients)) system_ = std::move(at);
+  if (ModeSystemPtr at = systems_.at_friction(*system_, rows)) system_ = std::move(at);
+}
+
+/// What curved surfaces do beside K: products of two series.
+void Taylor::add_bowls(int order, const Series& series) {
+  for (const std::size_t c : bowls_) {
+    const Contact& contact = model_.contacts[c];
+    const Form& row = system_->rows()[c].normal;
+    const auto k = static_cast<std::size_t>(order);
+    double force = 0.0;
+    for (std::size_t j = 0; j <= k; ++j) {
+      const double N = normal_coefficient(contact, c, row, series, j);
+      const double* u = series.u.data() + (k - j) * static_cast<std::size_t>(series.u.rows());
+      const double ut =
+          contact.body_tangent().dot(u) - series.forcing.surface[c * series.forcing.count + k - j];
+      // The constant that K holds counts once.
+      force += j == 0 ? bowl_force(contact, N, ut) : -N / contact.bowl->radius * ut;
+    }
+    contact.body_tangent().add_to(x_, -force);
+  }
 }
 
 double Taylor::pinned_value(const Pinned& p, int order, const Series& series) const {
@@ -119,7 +144,7 @@ void Taylor::level_dense(const Forcing& forcing, int order, Series& series) {
 }
 
 void Taylor::level(const Forcing& forcing, int order, Series& series, const Disturbance* disturbance) {
-  if (massless_ || disturbance != nullptr || !system_->factorised().dense())
+  if (massless_ || disturbance != nullptr || !bowls_.empty() || !system_->factorised().dense())
     return level_any(forcing, order, series, disturbance);
   const std::size_t masses = known_u_.size(), unknowns = x_.size();
   if (masses == 1 && unknowns == 3) return level_dense<1, 3>(forcing, order, series);
@@ -282,6 +307,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
     x_[at.normal(c)] = -r;
     x_[at.tangent(c)] = -q;
   }
+  if (!bowls_.empty()) add_bowls(order, series);
   for (FrictionSeries& friction : friction_)
     x_[at.tangent(friction.contact())] -= friction.known(order, series);
   if (disturbance != nullptr) disturb(forcing, order, *disturbance);

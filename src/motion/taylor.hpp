@@ -49,7 +49,8 @@ class Taylor {
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
-  void start_friction(const Series& series);
+  void start_friction(Series& series);
+  void add_bowls(int k, const Series& series);
   [[nodiscard]] double pinned_value(const Pinned& pinned, int k, const Series& series) const;
   void known_of_rows(std::size_t contact, int k, const Series& series, double& normal, double& tangent) const;
   void level(const Forcing& forcing, int k, Series& series, const Disturbance* disturbance);
@@ -68,6 +69,7 @@ class Taylor {
   const Structure& structure_;
   const bool massless_;
   ModeSystemPtr system_;
+  std::vector<std::size_t> bowls_;        // contacts on curved surfaces under forces that vary
   std::vector<FrictionSeries> friction_;  // of contacts whose friction depends on their slip rates
   std::vector<double> x_, work_, known_u_, known_v_, mobility_, parts_;
   Eigen::MatrixXd terms_, sizes_;  // of a disturbed series; sizes_: |u_k| and the rounding carried into it

@@ -33,13 +33,20 @@ void refuse_own_laws(const Model& model, const RunSpec& run) {
 
 void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
   refuse_own_laws(model, run);
-  for (const Contact& contact : model.contacts)
+  for (const Contact& contact : model.contacts) {
+    if (contact.bowl)
+      refuse(run,
+             fmt::format("needs stiffnesses that stay, and pendulum '{}' has one that goes with its normal "
+                         "force, which varies",
+                         contact.name),
+             ida_instead);
     if (friction_varies(contact))
       refuse(run,
              fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
                          "rate",
                          contact.name),
              ida_instead);
+  }
 }
 
 void refuse_functions(const Model& model, const RunSpec& run) {

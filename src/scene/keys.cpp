@@ -1,6 +1,7 @@
 #include "scene/keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <unordered_map>
 
@@ -35,6 +36,7 @@ constexpr Key table_of_keys[] = {
     {"", "matrices", table, "", "", "", "Mass, damping and stiffness matrices, instead of nodes and members."},
     {"", "contacts", tables, "", "", "", "Unilateral or frictional contacts."},
     {"", "stops", tables, "", "", "", "Contacts on both sides of a node: guides and line stops."},
+    {"", "pendulums", tables, "", "", "", "Bearings that slide on a curved surface: friction pendulums."},
     {"", "loads", tables, "", "", "", "Loads that vary with time."},
     {"", "base_motion", one_or_many, "", "", "", "Ground acceleration; displacements and velocities are then relative to the base."},
     {"", "output", tables, "", "", "", "Response quantities: columns of response.csv."},
@@ -209,7 +211,7 @@ constexpr Key table_of_keys[] = {
     {"contacts[]", "tangential_stiffness", positive, "force/length", "", "", "Stiffness along the contact; required for \"compliant\" with friction and without a seam; a slider without it is rigid in stick."},
     {"contacts[]", "seam", table, "", "", "", "Material between the surfaces of a compliant contact, from which its stiffnesses follow: kn = E area / thickness, kt = G area / thickness; instead of normal_stiffness and tangential_stiffness."},
     {"contacts[]", "normal_force", standing_history, "force", "", "", "Compression of a slider, positive; a number or a history."},
-    {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }."},
+    {"contacts[]", "friction", KeyType::friction, "", "0.0", "", "Coefficient of friction, or { static, kinetic }, or { slow, fast, velocity }."},
     {"contacts[]", "surface_velocity", standing_history, "length/time", "0.0", "", "Velocity of the touched surface along the tangent; a number or a history."},
     {"contacts[]", "initial_shear", number, "force", "0.0", "", "Shear force at t = 0 in the tangential stiffness."},
     {"contacts[]", "restitution", fraction, "", "0.0", "", "Newton's coefficient of restitution of a rigid contact, 0 to 1."},
@@ -222,14 +224,27 @@ constexpr Key table_of_keys[] = {
     {"contacts[].seam", "thickness", positive, "length", "required", "", "Thickness of the seam."},
     {"contacts[].seam", "area", positive, "length^2", "required", "", "Area that belongs to the contact: spacing of the nodes times width."},
 
-    {"contacts[].friction", "static", non_negative, "", "required", "", "Coefficient up to which the contact sticks."},
+    {"contacts[].friction", "static", non_negative, "", "", "", "Coefficient up to which the contact sticks; required, or slow, fast and velocity."},
     {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
     {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Stribeck's law while the contact slips, f = kinetic + (static - kinetic) exp(-|slip rate| / stribeck_velocity); contacts without tangential_stiffness, engine \"ida\"."},
+    {"contacts[].friction", "slow", positive, "", "", "", "Friction that rises with the slip rate, f = fast - (fast - slow) exp(-|slip rate| / velocity): up to slow the contact sticks, and from there slip begins without a jump; engine \"ida\"."},
+    {"contacts[].friction", "fast", positive, "", "", "", "Coefficient of fast slip, at least slow."},
+    {"contacts[].friction", "velocity", positive, "length/time", "", "", "Slip rate at which 63 % of the way from slow to fast are done."},
 
     {"stops[]", "name", name, "", "", "", "Its contacts are NAME+ and NAME-; stop1, stop2, ... where absent."},
     {"stops[]", "direction", direction, "", "required", "", "Direction of the motion that is stopped; NAME+ closes where the node moves along it, NAME- where it moves back."},
     {"stops[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state on either side."},
     {"stops[]", "gaps", numbers, "length", "", "", "Gaps [of NAME+, of NAME-] that differ, instead of gap."},
+
+    {"pendulums[]", "name", name, "", "", "", "Name of its contact, its stops are NAME+ and NAME-; pendulum1, pendulum2, ... where absent."},
+    {"pendulums[]", "node", name, "", "required", "", "Node that slides."},
+    {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
+    {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction in which the surface bears; it is made a unit vector. The tangent is (ny, -nx)."},
+    {"pendulums[]", "radius", positive, "length", "required", "", "Radius of the surface: the restoring force is N u / radius."},
+    {"pendulums[]", "normal_force", standing_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness the number that is carried at rest, the reaction of a static start where absent."},
+    {"pendulums[]", "normal_stiffness", positive, "force/length", "", "", "The bearing presses as the structure does, through this stiffness, and lifts off; engine \"ida\"."},
+    {"pendulums[]", "stop", positive, "length", "", "", "Way to the rim on either side; none where absent."},
+    {"pendulums[]", "stop_stiffness", positive, "force/length", "", "", "Stiffness of the rim; rigid where absent."},
 
     {"base_motion", "direction", direction, "", "required", "", "Direction of the ground motion; it is made a unit vector with [nodes], taken as given with [matrices]."},
     {"base_motion", "acceleration", standing_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
@@ -312,7 +327,20 @@ std::span<const Key> rows_of(std::string_view table) {
 
 std::span<const Key> all_keys() { return table_of_keys; }
 
+namespace {
+
+constexpr std::string_view of_pendulums = "pendulums[]";
+/// Keys of contacts that a pendulum has, too.
+constexpr std::array borrowed_by_pendulums = {"friction", "tangential_stiffness", "tangential_damping",
+                                              "initial_shear", "normal_damping"};
+
+}  // namespace
+
 const Key* find_key(std::string_view table, std::string_view name) {
+  const bool borrowed = std::find(borrowed_by_pendulums.begin(), borrowed_by_pendulums.end(), name) !=
+                        borrowed_by_pendulums.end();
+  if (table.starts_with(of_pendulums) && (table != of_pendulums || borrowed))
+    return find_key("contacts[]" + std::string(table.substr(of_pendulums.size())), name);
   constexpr std::string_view stops = "stops[]";
   if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {
     for (const Key& key : table_of_keys)
@@ -332,6 +360,8 @@ std::vector<std::string> key_names(std::string_view table) {
   for (const Key& key : table_of_keys) {
     if (key.table == table && key.name != "*") names.emplace_back(key.name);
   }
+  if (table == of_pendulums)
+    names.insert(names.end(), borrowed_by_pendulums.begin(), borrowed_by_pendulums.end());
   if (table == "stops[]")
     for (const std::string& name : key_names("contacts[]"))
       if (find_key(table, name) && find_key(table, name)->table != table) names.push_back(name);

@@ -127,6 +127,10 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit(c.gap, length);
   visit(c.normal_stiffness, stiffness);
   visit_optional(c.tangential_stiffness, stiffness, visit);
+  if (c.bowl) {
+    visit(c.bowl->radius, length);
+    visit(c.bowl->carried, force);
+  }
   visit(c.normal_damping, damping);
   visit(c.tangential_damping, damping);
   for (const FrictionConstant& constant : friction_constants)

@@ -5,6 +5,7 @@
 
 #include "base/history/history_internal.hpp"
 #include "base/number.hpp"
+#include "scene/contact_tables.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/readers.hpp"
 #include "scene/touched_segment.hpp"
@@ -13,19 +14,43 @@ namespace signorini {
 
 namespace {
 
+/// Of both: what stands beside the other is refused.
+void read_rising_friction(Table& table, Friction& friction) {
+  for (const char* key : {"static", "kinetic", "stribeck_velocity"})
+    if (table.has(key))
+      table.fail(key,
+                 "stands beside slow, fast or velocity, expected one law of friction: static, kinetic and "
+                 "stribeck_velocity for one that falls with the slip rate, slow, fast and velocity for one "
+                 "that rises");
+  for (const char* key : {"slow", "fast", "velocity"}) table.require(key, " (friction that rises)");
+  friction.static_ = table.number("slow");
+  friction.kinetic = table.number("fast");
+  friction.velocity = table.number("velocity");
+  if (friction.kinetic < friction.static_)
+    table.fail("fast", fmt::format("found the number {}, expected at least the slow coefficient {}",
+                                   shortest(friction.kinetic), shortest(friction.static_)));
+}
+
+void read_falling_friction(Table& table, Friction& friction) {
+  table.require("static", "");
+  friction.static_ = table.number("static");
+  friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
+  friction.stribeck_velocity = table.optional_number("stribeck_velocity");
+  if (friction.kinetic > friction.static_) {
+    table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
+                                      shortest(friction.kinetic), shortest(friction.static_)));
+  }
+}
+
+}  // namespace
+
 Friction read_friction(Table& contact) {
   Friction friction;
   const toml::node* node = contact.raw("friction");
   if (node && node->is_table()) {
     Table table = contact.child("friction");
-    friction.static_ = table.number("static");
-    friction.kinetic = table.optional_number("kinetic").value_or(friction.static_);
-    for (const FrictionConstant& constant : friction_constants)
-      friction.*constant.value = table.optional_number(std::string(constant.key));
-    if (friction.kinetic > friction.static_) {
-      table.fail("kinetic", fmt::format("found the number {}, expected at most the static coefficient {}",
-                                        shortest(friction.kinetic), shortest(friction.static_)));
-    }
+    const bool rises = table.has("slow") || table.has("fast") || table.has("velocity");
+    rises ? read_rising_friction(table, friction) : read_falling_friction(table, friction);
     table.finish();
   } else {
     const std::string expected = describe_type(*find_key("contacts[]", "friction"));
@@ -34,16 +59,17 @@ Friction read_friction(Table& contact) {
     friction = {value, value};
   }
   Record record;
-  record.set("static", toml_number(friction.static_));
-  record.set("kinetic", toml_number(friction.kinetic));
+  record.set(friction.rises() ? "slow" : "static", toml_number(friction.static_));
+  record.set(friction.rises() ? "fast" : "kinetic", toml_number(friction.kinetic));
   for (const FrictionConstant& constant : friction_constants)
     if (const auto& value = friction.*constant.value)
       record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
+  // The same at all rates: a number.
+  if (friction.rises() && friction.kinetic == friction.static_) friction.velocity.reset();
   return friction;
 }
 
-/// Refuses a compression that would pull at any time of the run.
 void check_pressing(const Table& table, const HistorySpec& spec, double t_end) {
   const History history = make_history(spec, table.path("normal_force"));
   const double t = negative_at(history, t_end);
@@ -58,6 +84,8 @@ Direction tangent_of(const Direction& normal) {
   tangent.vector = {normal.vector[1], -normal.vector[0]};
   return tangent;
 }
+
+namespace {
 
 /// Normal, tangent and gap of a contact that opens.
 void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
@@ -125,6 +153,8 @@ void read_against(Table& table, ContactSpec& contact, const Scene& scene, const 
   if (contact.tangent) contact.tangent->against = touched;
 }
 
+}  // namespace
+
 void read_elements(Table& table, ContactSpec& contact) {
   if (!table.has("seam")) contact.tangential_stiffness = table.optional_number("tangential_stiffness");
   if (contact.tangential_stiffness) {
@@ -135,14 +165,13 @@ void read_elements(Table& table, ContactSpec& contact) {
       if (table.has(key)) table.fail(key, "has no meaning without tangential_stiffness");
   }
   // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
-  for (const FrictionConstant& constant : friction_constants)
-    if (contact.tangential_stiffness && contact.friction.*constant.value)
-      table.fail(
-          "friction",
-          fmt::format("found a {}, expected none beside tangential_stiffness: the sliding "
-                      "point has no mass, so friction that falls with its rate leaves its motion undecided",
-                      constant.key));
+  if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
+    table.fail("friction",
+               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
+               "point has no mass, so friction that falls with its rate leaves its motion undecided");
 }
+
+namespace {
 
 void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {
   const bool from_normal = !space.matrices && table.has("normal");
@@ -187,13 +216,14 @@ void set_node(ContactSpec& contact, const std::string& node) {
   if (contact.tangent) contact.tangent->node = node;
 }
 
+}  // namespace
+
 Names names_of(const Scene& scene) {
   Names names;
   for (const ContactSpec& contact : scene.contacts) names.add(contact.name);
   return names;
 }
 
-/// The name that is given or that of its number, recorded.
 std::string read_contact_name(Table& table, const char* kind, std::size_t number) {
   const std::string fallback = fmt::format("{}{}", kind, number);
   if (!table.has("name")) table.record("name", toml_string(fallback));
@@ -207,6 +237,8 @@ void add_contact(Table& table, ContactSpec contact, Names& names, Scene& scene) 
   }
   scene.contacts.push_back(std::move(contact));
 }
+
+namespace {
 
 /// The other side of a stop.
 ContactSpec mirrored(ContactSpec contact) {

@@ -45,6 +45,8 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record);
 void read_contacts(Table& top, Scene& scene, RecordedScene& record);
 /// After the contacts: each makes two of them.
 void read_stops(Table& top, Scene& scene, RecordedScene& record);
+/// After the stops: each makes a contact, a spring and two stops.
+void read_pendulums(Table& top, Scene& scene, RecordedScene& record);
 void read_loads(Table& top, Scene& scene, RecordedScene& record);
 /// After all that outputs refer to.
 void read_outputs(Table& top, Scene& scene, RecordedScene& record);

@@ -28,14 +28,14 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
                 const std::string& path, std::set<double>& found) {
   if (next == rest.size()) {
     if (const auto* both = node.as_table(); both && rest.back() == "friction") {
-      for (const char* key : {"static", "kinetic"})
+      for (const char* key : {"static", "kinetic", "slow", "fast"})
         if (const auto f = (*both)[key].value<double>()) found.insert(*f);
       for (const FrictionConstant& constant : friction_constants)
         if (both->contains(constant.key))
-          fail_at(path,
-                  fmt::format("expected friction.static, friction.kinetic or friction.{}: several numbers "
-                              "make the friction",
-                              constant.key));
+          fail_at(path, fmt::format("expected friction.{}, friction.{} or friction.{}: several numbers "
+                                    "make the friction",
+                                    both->contains("slow") ? "slow" : "static",
+                                    both->contains("slow") ? "fast" : "kinetic", constant.key));
       return;
     }
     const auto number = node.value<double>();

@@ -56,11 +56,12 @@ SeriesTangents::SeriesTangents(const Model& model, ModeSystems& systems,
 
 /// Its system with friction at the slip rates at the beginning of a series.
 ModeSystemPtr SeriesTangents::system_at(const ModeSystem& system, const Series& series) const {
-  std::vector<double> coefficients;
+  std::vector<Form> rows;
   for (const std::size_t c : system.factorised().by_rate)
-    coefficients.push_back(
-        FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state), series).coefficient());
-  return systems_.at_friction(system, coefficients);
+    rows.push_back(FrictionSeries(model_.contacts[c], c, slip_sign(system.mode()[c].state),
+                                  system.rows()[c].normal, series)
+                       .row());
+  return systems_.at_friction(system, rows);
 }
 
 /// Works over [from, to] of the step; the tangent's own series begins at `begin`.

@@ -82,7 +82,8 @@ Vector Finder::closing() const {
                                                  [&](const RecordedImpulse& p) { return p.contact == k; });
       if (own == nullptr || !touches) continue;
       const double gap = rounding::of_elimination * see(c, k, record_.before).place;
-      const double friction = by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * c.friction.kinetic;
+      const double friction =
+          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, see(c, k, record_.before).dut);
       if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
       if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
         rows.add(c.tangent, own->by_t, 0.0);

@@ -190,8 +190,9 @@ void Finder::restitution_of(const RecordedImpulse& p, const Strike& strike, doub
 void Finder::friction_impulse(const RecordedImpulse& p, const Strike& strike, double greatest) {
   const Contact& c = model_.contacts[p.contact];
   const int contact = static_cast<int>(p.contact);
-  const double zero = rounding::of_elimination * greatest * (1.0 + c.friction.static_);
-  const double over = std::abs(p.tangent) - c.friction.static_ * p.normal;
+  const double most = std::max(c.friction.static_, c.friction.kinetic);
+  const double zero = rounding::of_elimination * greatest * (1.0 + most);
+  const double over = std::abs(p.tangent) - most * p.normal;
   if (over > zero) add(contact, "friction impulse", over, zero, seen::impulse, true);
   if (!c.has_friction() || c.friction.varies() || !(p.normal > zero)) return;
   const double slow = with_slow_slips * bench_.slowest(record_, p.contact) + strike.unsure;

@@ -25,6 +25,13 @@ int sign_of_slip(State state) {
   return kind_of(state) == State::slip_plus ? 1 : kind_of(state) == State::slip_minus ? -1 : 0;
 }
 
+double friction_at(const Contact& c, double slip_rate) {
+  const Friction& f = c.friction;
+  if (!f.varies()) return f.kinetic;
+  const double part = std::exp(-std::abs(slip_rate) / f.rate_of_change());
+  return f.static_ * part + f.kinetic * (1.0 - part);
+}
+
 double size_of_normal(const Contact& c, const Sight& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }

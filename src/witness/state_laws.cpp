@@ -28,7 +28,7 @@ struct HeldRows {
     double of_row = rounding::of_elimination * m.push;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
-      const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * c.friction.kinetic;
+      const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * friction_at(c, m.dut);
       columns.push_back(-response.by_n - friction * response.by_t);
       rows.push_back(&c.normal);
       asked.push_back(hold ? -m.ddg : 0.0);
@@ -115,8 +115,8 @@ void Finder::old_rows(std::size_t k) {
     check("normal force", m.N - kn * m.g - cn * m.dg);
   if (is_open(state.state) && !c.is_pressed())
     check("friction force", m.T);
-  else if (s != 0 && !c.friction.varies() && !c.shear)
-    check("friction force", m.T + s * c.friction.kinetic * m.N);
+  else if (s != 0 && !c.shear)
+    check("friction force", m.T + s * friction_at(c, m.dut) * m.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", m.T - kt * (m.ut - state.anchor));
 }
@@ -161,9 +161,10 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
   const int s = sign_of_slip(state.state);
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
-    if (c.friction.varies()) return;
-    asked = -s * c.friction.kinetic * m.N;
-    size += std::abs(asked) + c.friction.kinetic * size_of_normal(c, m);
+    if (c.friction.varies() && c.shear) return;  // its rate follows from T, it is no datum
+    const double f = friction_at(c, m.dut);
+    asked = -s * f * m.N;
+    size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
     if (c.shear || !c.tangential_stiffness) {
       const double zero = bench_.slowest(record_, k);
@@ -192,7 +193,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   Sight& m = result.m;
   const bool solved_N = c.takes_impulses() && !is_open(old.state),
              solved_T = HeldRows::holds_tangent(c, old.state);
-  const double sliding = -sign_of_slip(old.state) * c.friction.kinetic, N = m.N, T = m.T;
+  const double sliding = -sign_of_slip(old.state) * friction_at(c, m.dut), N = m.N, T = m.T;
   // What its old rows say of its forces directly, and what that does to accelerations.
   if (!solved_N)
     m.N = c.is_pressed()       ? -m.q

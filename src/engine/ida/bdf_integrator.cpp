@@ -71,9 +71,9 @@ struct BdfIntegrator::Memory {
     // Refactor at every change of cj: Newton is then exact for these linear systems, and the rows of the
     // contacts hold to roundoff (default: 3 to 4 times the error in energy and more steps, measured).
     IDASetDeltaCjLSetup(ida, 0.0);
-    // Rows of friction that depends on the slip rate hold as well as Newton's method has converged.
+    // Rows of friction that depends on the slip rate hold as well as Newton's method has converged; so do products.
     if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                    [](const Contact& c) { return friction_varies(c); }))
+                    [](const Contact& c) { return friction_varies(c) || c.bowl; }))
       IDASetNonlinConvCoef(ida, sharp_newton);
     IDASetNoInactiveRootWarn(ida);
     if (std::any_of(model.contacts.begin(), model.contacts.end(),

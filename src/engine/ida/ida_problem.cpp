@@ -5,6 +5,7 @@
 
 #include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
+#include "contact/bowl.hpp"
 #include "contact/friction.hpp"
 #include "motion/equilibrium.hpp"
 
@@ -179,6 +180,10 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     model_.contacts[k].normal.add_to(forces, y[f]);
     model_.contacts[k].tangent.add_to(forces, y[f + 1]);
     const ContactMotion m = motion(k, t, y, yp, step);
+    if (const Contact& contact = model_.contacts[k]; contact.bowl)
+      contact.body_tangent().add_to(
+          forces,
+          bowl_force(contact, y[f], contact.body_tangent().dot(y) - segment_.forcing->surface(k, t, 0)));
     r[f] = linear_.rows()[k].normal.value(m);
     r[f + 1] = linear_.rows()[k].tangent.value(m);
   }

@@ -102,6 +102,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.tangential_stiffness = spec.tangential_stiffness;
     c.normal_damping = spec.normal_damping;
     c.friction = spec.friction;
+    c.bowl = spec.bowl;
     c.initial_shear = spec.initial_shear;
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;

@@ -61,10 +61,13 @@ void check_frozen(const Scene& scene, const Model& model) {
            "not take together; leave [reduction] or beta out");
 }
 
-bool normal_needs_mass(const Contact& c) { return c.takes_impulses() || c.normal_damping > 0.0; }
+bool normal_needs_mass(const Contact& c) {
+  const bool tells_rate = c.friction.rises() && c.tangential_stiffness;
+  return c.has_gap() && (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.bowl);
+}
 
 bool tangent_needs_mass(const Contact& c, double tangential_damping) {
-  return c.sticks_rigidly() || friction_varies(c) || tangential_damping > 0.0;
+  return c.sticks_rigidly() || friction_varies(c) || tangential_damping > 0.0 || c.bowl;
 }
 
 std::vector<ActingForce> acting_forces(const Scene& scene, const Model& model) {

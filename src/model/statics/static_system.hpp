@@ -21,6 +21,7 @@ struct StaticProblem {
   const std::vector<Contact>& contacts;
   const DofMap& map;
   double firmness = 1.0;  ///< of rigid contacts' stiffness, in units of the structure's own
+  bool forces = false;    ///< asked for: what holds loose motions must bear nothing of other forces
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return contacts[k].has_gap(); }

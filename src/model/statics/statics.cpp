@@ -160,7 +160,7 @@ std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
 Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                              const std::vector<Contact>& contacts, const DofMap& map,
                              const SourcePlace& place, const Units& units, const EquilibriumSearch& search) {
-  StaticProblem problem{stiffness, load, contacts, map};
+  StaticProblem problem{stiffness, load, contacts, map, 1.0, search.mechanisms};
   std::vector<bool> all(contacts.size(), false);
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = problem.is_support(k);
   if (!search.mechanisms) refuse_mechanisms(problem, all, place, search.key);

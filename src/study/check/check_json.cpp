@@ -29,6 +29,32 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
   return json;
 }
 
+Json run_json(const Scene& scene, const CheckReport& report) {
+  Json json = {{"t_end", scene.run.t_end},
+               {"rtol", scene.run.rtol},
+               {"engine", to_string(report.method.engine)},
+               {"engine_reason", report.method.engine_reason()},
+               {"max_order", report.method.max_order},
+               {"max_order_reason", report.method.max_order_reason},
+               {"rows", report.rows},
+               {"unknowns", report.cost.unknowns},
+               {"omega_max", report.cost.omega_max}};
+  if (report.cost.effort.steps > 0.0) {
+    json["steps_about"] = report.cost.effort.steps;
+    json["seconds_about"] = report.cost.effort.seconds;
+    const Effort& effort = report.cost.effort;
+    if (effort.by_series > 0.0) json["seconds_by_series_about"] = effort.by_series;
+    if (effort.by_modes > 0.0) json["seconds_in_modes_about"] = effort.by_modes;
+    if (report.cost.exact) json["seconds_with_exact_about"] = *report.cost.exact;
+  }
+  for (const Trial& trial : report.cost.trials) {
+    Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
+    if (trial.cutoff > 0.0) row["cutoff_frequency"] = trial.cutoff;
+    json["expected"].push_back(std::move(row));
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string check_json(const Scene& scene, const Model& model, const CheckReport& report) {
@@ -64,28 +90,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
   for (const Discontinuity& d : report.discontinuities)
     json["discontinuities"].push_back({{"t", d.t}, {"kind", d.jump ? "jump" : "kink"}, {"what", d.what}});
   if (model.reduction) json["reduction"] = reduction_json(*model.reduction, nullptr);
-  json["run"] = {{"t_end", scene.run.t_end},
-                 {"rtol", scene.run.rtol},
-                 {"engine", to_string(report.method.engine)},
-                 {"engine_reason", report.method.engine_reason()},
-                 {"max_order", report.method.max_order},
-                 {"max_order_reason", report.method.max_order_reason},
-                 {"rows", report.rows},
-                 {"unknowns", report.cost.unknowns},
-                 {"omega_max", report.cost.omega_max}};
-  if (report.cost.effort.steps > 0.0) {
-    json["run"]["steps_about"] = report.cost.effort.steps;
-    json["run"]["seconds_about"] = report.cost.effort.seconds;
-    const Effort& effort = report.cost.effort;
-    if (effort.by_series > 0.0) json["run"]["seconds_by_series_about"] = effort.by_series;
-    if (effort.by_modes > 0.0) json["run"]["seconds_in_modes_about"] = effort.by_modes;
-    if (report.cost.exact) json["run"]["seconds_with_exact_about"] = *report.cost.exact;
-  }
-  for (const Trial& trial : report.cost.trials) {
-    Json row = {{"engine", to_string(trial.engine)}, {"seconds", trial.seconds}};
-    if (trial.cutoff > 0.0) row["cutoff_frequency"] = trial.cutoff;
-    json["run"]["expected"].push_back(std::move(row));
-  }
+  json["run"] = run_json(scene, report);
   Json columns = {"t"};
   for (const Column& column : model.columns) columns.push_back(column.name);
   json["columns"] = std::move(columns);

@@ -120,6 +120,7 @@ TEST_CASE("forces of springs, members, heat and contacts on a body: sum F . r by
       "[sections.s]\nEA = 1000.0\nmass_per_length = 0.2\n" +
       member("r, w", "type = \"bar\"\nthermal_expansion = 1e-5\ntemperature = 40.0\n") +
       member("l, f", "type = \"bar\"\n") + spring("b", "[1.0, 0.0]", 60.0) + spring("l", "[0.0, 1.0]", 45.0) +
+      "preload = 2.5\n" +
       "[[springs]]\nnode = \"b\"\nrotation_stiffness = 500.0\n"
       "[[contacts]]\nname = \"stop\"\nnode = \"t\"\nlaw = \"compliant\"\nnormal = [0.0, "
       "-1.0]\nnormal_stiffness = 80.0\ngap = -0.01\n" +
@@ -142,13 +143,22 @@ TEST_CASE("forces of springs, members, heat and contacts on a body: sum F . r by
     k += fx * (px - 0.1) + fy * (py - 0.2);
   };
   add(1.2, -0.3, bar + 0.3 * 0.3, -9.81 * 0.3);  // half of the bar's weight, 0.6 t
-  add(-1.0, 0.4, 0.3 * 0.3, rope - 9.81 * 0.3 - 45.0 * uy(-1.0));
+  add(-1.0, 0.4, 0.3 * 0.3, rope - 9.81 * 0.3 - 45.0 * uy(-1.0) - 2.5);
   add(0.2, 0.9, 1.3 * 0.6, 1.3 * 0.8 + 80.0 * std::min(0.0, -0.01 - uy(0.2)));
   const Model model = built(text);
   REQUIRE(model.geometric->forces.bodies.size() == 1);
   CHECK(model.geometric->forces.bodies[0].stiffness == doctest::Approx(k).epsilon(1e-10));
   CHECK(model.geometric->forces.elements[0].at_from == doctest::Approx(bar + 0.3 * 0.3).epsilon(1e-10));
   CHECK(model.geometric->forces.elements[0].at_to == doctest::Approx(bar - 0.3 * 0.3).epsilon(1e-10));
+}
+
+TEST_CASE("a body at the end of a bend that is more flexible than its section: W at the arm of the end") {
+  const std::string text = heavy(0.0, -9.81, from_static) + "[nodes]\nA = [0.0, 0.0]\nB = [2.0, 2.0]\n" +
+                           section(4e4, 500.0, 0.0) +
+                           member("A, B", "elements = 6\nbend = { radius = 2.0, flexibility = 3.7 }\n") +
+                           fixed("A", "ux, uy, rz") + body("b", "[2.3, 1.6]", "B", 0.5, 0.4);
+  const Model model = built(text);
+  CHECK(model.geometric->forces.bodies[0].stiffness == doctest::Approx(9.81 * 0.5 * 0.4).epsilon(1e-9));
 }
 
 TEST_CASE("a rigid bar between two members is a stiff one: the same stiffness by other means") {

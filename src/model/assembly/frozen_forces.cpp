@@ -48,7 +48,7 @@ class Gathering {
     for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) forces.elements.push_back(element(i));
     for (const PointMass& m : scene_.masses)
       add(m.node, {weight_ * m.mass * scene_.gravity[0], weight_ * m.mass * scene_.gravity[1]}, 1.0);
-    for (const Spring& spring : scene_.springs) add_spring(spring);
+    for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
     for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(k);
     for (std::size_t i = 0; i < scene_.rigid.size(); ++i)
       forces.bodies.push_back({scene_.rigid[i].name, body(i)});
@@ -116,7 +116,7 @@ class Gathering {
     const bool bar = e.type == MemberType::bar;
     const Eigen::Matrix<double, 6, 1> ends =
         (bar ? bar_stiffness(l * axis.c, l * axis.s, section.EA)
-             : beam_stiffness(l * axis.c, l * axis.s, section.EA, section.EI)) *
+             : beam_stiffness(l * axis.c, l * axis.s, section.EA, section.EI / e.flexibility)) *
         u;
     const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member)) +
                           value_of(true, name_of_strain(LoadKind::initial_strain, e.member));
@@ -132,7 +132,8 @@ class Gathering {
     return result;
   }
 
-  void add_spring(const Spring& spring) {
+  void add_spring(std::size_t i) {
+    const Spring& spring = scene_.springs[i];
     const Plane d = unit_of(spring.direction);
     double elongation = 0.0;
     const auto take = [&](const std::string& node, double sign) {
@@ -142,8 +143,9 @@ class Gathering {
     };
     take(spring.node, 1.0);
     if (!spring.against.empty()) take(spring.against, -1.0);
-    add(spring.node, d, -spring.stiffness * elongation);
-    if (!spring.against.empty()) add(spring.against, d, spring.stiffness * elongation);
+    const double force = value_of(false, name_of_preload(i)) + spring.stiffness * elongation;
+    add(spring.node, d, -force);
+    if (!spring.against.empty()) add(spring.against, d, force);
   }
 
   void add_contact(std::size_t k) {

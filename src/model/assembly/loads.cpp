@@ -138,8 +138,7 @@ void add_preloads(const Scene& scene, const DofMap& map, std::vector<Load>& load
     const double length = std::hypot(d[0], d[1]);
     Direction pull{spring.node, {-d[0] / length, -d[1] / length}, {}, spring.place, {}};
     if (!spring.against.empty()) pull.against.emplace_back(spring.against, 1.0);
-    Load load{fmt::format("preload of spring {}", i + 1),
-              combination(map, pull, fmt::format("springs.{}", i + 1), false),
+    Load load{name_of_preload(i), combination(map, pull, fmt::format("springs.{}", i + 1), false),
               History::constant(spring.preload), true};
     load.kind = LoadKind::preload;
     loads.push_back(std::move(load));
@@ -230,6 +229,8 @@ std::string rate_of(const std::string& support_motion) {
 std::string name_of(const LoadSpec& load, std::size_t number) {
   return load.name.empty() ? fmt::format("load {}", number) : load.name;
 }
+
+std::string name_of_preload(std::size_t spring) { return fmt::format("preload of spring {}", spring + 1); }
 
 std::string name_of_strain(LoadKind kind, int member) {
   return fmt::format("{} of member {}", kind == LoadKind::temperature ? "temperature" : "initial strain",

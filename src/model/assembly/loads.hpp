@@ -23,6 +23,8 @@ namespace signorini {
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
 /// Of a strain of a member, temperature or initial strain.
 [[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
+/// Of the preload of a spring, counted from 0.
+[[nodiscard]] std::string name_of_preload(std::size_t spring);
 /// Load::of_history.
 [[nodiscard]] Unit unit_of_history(LoadType type);
 /// Gravity first (when it acts), then the loads in the order of the file, strains of members, the motion of

@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "behaviour/engines.hpp"
@@ -189,10 +188,7 @@ TEST_CASE("a block rocks: quarter period, ten impacts and their rates in closed 
     CAPTURE(engine);
     const Scene scene =
         parse_scene(block.scene(10.0), "test.toml", {{"run.engine", engine}, {"run.rtol", "1e-10"}});
-    const auto begin = std::chrono::steady_clock::now();
     const Result result = simulate(build_model(scene), scene.run);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    MESSAGE(engine << ": " << result.events.size() << " events in " << taken.count() << " s");
     CHECK(result.report.outcome.reason == "");
     CHECK(result.report.witness.violations.empty());
     double t = std::acosh(1.0 / (1.0 - block.tilt / share)) / p;

@@ -7,7 +7,10 @@
 #include "behaviour/outputs.hpp"
 #include "study/check/check.hpp"
 
-namespace signorini::tests::outputs {
+namespace signorini::tests::bends {
+
+using namespace outputs;
+
 namespace {
 
 constexpr double EI = 700.0, EA = 9e4, force = 3.0;
@@ -166,4 +169,4 @@ TEST_CASE("check: mass and centre of a half circle") {
 
 TEST_SUITE_END();
 
-}  // namespace signorini::tests::outputs
+}  // namespace signorini::tests::bends

@@ -12,7 +12,10 @@
 #include "differential/metamorphic.hpp"
 #include "study/verify/verify.hpp"
 
-namespace signorini::tests::outputs {
+namespace signorini::tests::hangers {
+
+using namespace outputs;
+
 namespace {
 
 /// 2 t in a spring along a direction at an odd angle, which gravity points along.
@@ -246,4 +249,4 @@ TEST_CASE("verify: envelopes, stresses of both fibres and forces with a preload 
 
 TEST_SUITE_END();
 
-}  // namespace signorini::tests::outputs
+}  // namespace signorini::tests::hangers

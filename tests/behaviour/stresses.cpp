@@ -7,7 +7,10 @@
 #include "behaviour/engines.hpp"
 #include "behaviour/outputs.hpp"
 
-namespace signorini::tests::outputs {
+namespace signorini::tests::stresses {
+
+using namespace outputs;
+
 namespace {
 
 std::string stress(const std::string& name, double station, const std::string& more,
@@ -357,4 +360,4 @@ TEST_CASE("envelope of a motion by ida: the member force at the place that it te
 
 TEST_SUITE_END();
 
-}  // namespace signorini::tests::outputs
+}  // namespace signorini::tests::stresses

@@ -1,12 +1,13 @@
 // thinned.hpp: few rows whose straight lines stand for many.
 //
 //   lines:   a row is left out where the straight line between the rows kept beside it passes each of its quantities q
-//            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-9
-//   bins:    where that is not enough, of each bin [i w, (i + 1) w) of time the rows with the least and the greatest of
-//            each quantity, in their order;   w = duration / 10000, doubled as often as needed up to duration / 1250
+//            within c (max q - min q);   c = 2^-12, doubled as often as needed up to 2^-10
+//   bins:    where that is not enough, of each bin [i w, (i + 1) w) of time the first and the last row, and those with the
+//            least and the greatest of each quantity, in their order (M4: Jugel, Jerzak, Hackenbroich, Markl 2014; lines
+//            between bins are those of all rows);   w = duration / 10000, doubled as often as needed up to duration / 1250
 //
-// Rows are looked at once for each c, and once more at the end: what is left out is at most 3 c, 0.6 % of the range,
-// off the lines, or is reached by them within a bin. A pixel of a panel of 170 has 0.6 %; the widest picture
+// Rows are looked at once for each c, and once more at the end: what is left out is at most 3 c, 0.3 % of the range,
+// off the lines, or is reached by them within a bin. Half a pixel of a panel of 170 has 0.3 %; the widest picture
 // has a panel of 1234 pixels.
 #pragma once
 
@@ -81,9 +82,9 @@ class Thinned {
   }
 
  private:
-  static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 512.0;
+  static constexpr double finest = 1.0 / 4096.0, coarsest = 1.0 / 1024.0;
   static constexpr double first_bins = 10000.0, pixels = 1250.0;
-  static constexpr std::size_t most_of_bins = 2 * drawn * static_cast<std::size_t>(pixels) + 2;
+  static constexpr std::size_t most_of_bins = (2 * drawn + 2) * (static_cast<std::size_t>(pixels) + 1);
 
   /// Rows held before they are thinned to so many: each is then looked at nine times, and a record is no longer than
   /// what it keeps and an eighth more.
@@ -164,8 +165,8 @@ class Thinned {
       std::ptrdiff_t n = 0;
       while (end < rows_.size() && std::floor(rows_[end].t / width_) == bin) ++end;
       const auto choose = [&](std::size_t j) { chosen[static_cast<std::size_t>(n++)] = j; };
-      if (begin == 0) choose(0);
-      if (end == rows_.size()) choose(end - 1);
+      choose(begin);
+      choose(end - 1);
       for (std::size_t i = 0; i < drawn; ++i) {
         std::size_t least = begin, greatest = begin;
         for (std::size_t j = begin + 1; j < end; ++j) {

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "base/rounding.hpp"
+#include "run/row_spacing.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
-constexpr double most_intervals = 16000.0;  // of the run: no more than twice as close as the rows of contacts
 constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
 // Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
 constexpr double least_rise = 1e-3;
@@ -65,12 +65,12 @@ std::vector<int> CurveRecord::dofs() const {
   return list;
 }
 
-bool CurveRecord::needs(double t) const { return t - last_ >= t_end_ / most_intervals || t >= t_end_; }
+bool CurveRecord::needs(double t) const { return t - last_ >= closest_rows * t_end_ || t >= t_end_; }
 
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
   if (!wanted()) return;
   last_ = t;
-  bend_ = 0.0;
+  asked_ = std::numeric_limits<double>::infinity();
   const bool plain = model_.is_physical();
   const Vector physical = plain ? Vector() : model_.physical(u, t, 0);
   const Vector& shown = plain ? u : physical;
@@ -91,7 +91,7 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     second = point;
     return;
   }
-  bend_ = std::max(bend_, bend_at(curve, point));
+  asked_ = std::min(asked_, asked_by(curve, point) / model_.unit.time);
   // The balance is rounding: a parabola through it says nothing.
   const std::optional<CurvePoint> peak =
       curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
@@ -104,17 +104,19 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
 }
 
 /// What is rounding beside other curves of its kind bends nothing; nor does the balance, which is rounding.
-double CurveRecord::bend_at(const Curve& curve, const CurvePoint& point) {
+double CurveRecord::asked_by(const Curve& curve, const CurvePoint& point) {
+  constexpr double any = std::numeric_limits<double>::infinity();
   const auto& [first, second] = curve.before;
   double& greatest = greatest_[static_cast<std::size_t>(curve.kind)];
   greatest = std::max(greatest, std::abs(point.value));
   if (curve.kind == Kind::balance || !(point.t > second.t && second.t > first.t) || !std::isfinite(first.t))
-    return 0.0;
+    return any;
   const double floor = std::max(greatest, curve.kind == Kind::angle ? turn : 0.0);
   const double range = curve.points.range();
-  if (!(range > rounding::of_elimination * floor)) return 0.0;
-  const double part = (second.t - first.t) / (point.t - first.t);
-  return std::abs(second.value - first.value - part * (point.value - first.value)) / range;
+  if (!(range > rounding::of_elimination * floor)) return any;
+  const double left = second.t - first.t, right = point.t - second.t, part = left / (left + right);
+  return spacing_for(left, right, std::abs(second.value - first.value - part * (point.value - first.value)),
+                     range);
 }
 
 void CurveRecord::write(Recorder& recorder) {

@@ -28,8 +28,8 @@ class CurveRecord {
   [[nodiscard]] std::vector<int> dofs() const;
   /// Does a line need a row at t, where nothing happens?
   [[nodiscard]] bool needs(double t) const;
-  /// How far the rows before the last ones are off the lines through their neighbours, beside the ranges of their curves.
-  [[nodiscard]] double bend() const { return bend_; }
+  /// How close rows must be, as the last three tell (row_spacing.hpp).
+  [[nodiscard]] double asked() const { return asked_; }
   /// Time of the last row; infinite where none is wanted.
   [[nodiscard]] double last() const { return last_; }
   /// u: of the model that is computed. In the scene's units from here on.
@@ -54,10 +54,11 @@ class CurveRecord {
     bool begun = false;
   };
   void add(Curve& curve, const CurvePoint& point);
-  [[nodiscard]] double bend_at(const Curve& curve, const CurvePoint& point);
+  [[nodiscard]] double asked_by(const Curve& curve, const CurvePoint& point);
 
   const Model& model_;
-  double t_end_, last_, bend_ = 0.0;
+  double t_end_, last_;
+  double asked_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> greatest_{};  // of each kind
   bool wanted_;
   std::vector<Curve> curves_;  // displacements, energies, the balance

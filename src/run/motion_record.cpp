@@ -7,6 +7,7 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/parts.hpp"
+#include "run/row_spacing.hpp"
 
 namespace signorini {
 namespace {
@@ -15,12 +16,9 @@ namespace {
 constexpr std::size_t most_in_all = 40000, most_of_one = 8000, fewest_of_one = 400;
 constexpr double fewest_intervals = 250.0;  // so that what stands still has rows, too
 constexpr std::size_t most_drawn = 24;      // contacts with a picture of their own
-// A pixel of the widest picture is 1/1250 of the run: eight rows a pixel where the motion bends and after an instant, where
-// it may, else hardly two.
-constexpr double pieces_of_run = 2000.0, most_pieces_of_run = 10000.0;
-// Of the range. 25 rows a period bend by 0.016 of it and miss a peak by 0.004; lines leave out 0.006 (base/thinned.hpp).
-constexpr double bends = 0.015, hardly_bends = 0.003;
-constexpr double closer = 0.5, wider = 1.25;  // from one row to the next; chosen
+// A pixel of the widest picture is 1/1250 of the run: hardly two rows a pixel where nothing bends.
+constexpr double pieces_of_run = 2000.0;
+constexpr double growth = 0.2;  // of the distance to the next row, in what passes between two; chosen
 
 }  // namespace
 
@@ -60,12 +58,10 @@ std::optional<MotionRecord::Moment> MotionRecord::next() {
   return Moment{at_, turn <= line};
 }
 
-void MotionRecord::adapt(double bend) {
-  const double most = std::max(bend, std::exchange(bend_, 0.0));
-  if (most > bends)
-    spacing_ = std::max(closer * spacing_, t_end_ / most_pieces_of_run);
-  else if (most < hardly_bends)
-    spacing_ = std::min(wider * spacing_, t_end_ / pieces_of_run);
+void MotionRecord::adapt(double t, double asked) {
+  asked = std::min(asked, std::exchange(asked_, std::numeric_limits<double>::infinity()));
+  const double wider = spacing_ + growth * std::max(0.0, t - std::exchange(adapted_, t));
+  spacing_ = std::clamp(std::min(asked, wider), closest_rows * t_end_, t_end_ / pieces_of_run);
 }
 
 bool MotionRecord::needs(double t) const {
@@ -81,7 +77,7 @@ void MotionRecord::add(double t, const Auditor& auditor, const Forcing& forcing,
     if (!track.drawn && !rows.empty() && t < t_end_ && t - rows.back().t < t_end_ / pieces_of_run) continue;
     const MotionRow row{t, auditor.sample(k, forcing, t, mode[k], point)};
     keep(track, row);
-    if (track.drawn) bend_ = std::max(bend_, bend_at(track, row));
+    if (track.drawn) asked_ = std::min(asked_, asked_by(track, row));
   }
   last_ = t;
 }
@@ -112,7 +108,7 @@ void MotionRecord::after(double t, const Auditor& auditor, const Forcing& forcin
     keep(track, row);
     track.last[1] = row;
     track.lasts = 1;
-    if (track.drawn && reached_[track.part]) spacing_ = t_end_ / most_pieces_of_run;
+    if (track.drawn && reached_[track.part]) spacing_ = closest_rows * t_end_;
   }
   if (all) last_ = t;
 }
@@ -124,19 +120,19 @@ void MotionRecord::keep(Track& track, const MotionRow& row) {
   length_ = std::max({length_, std::abs(row.sample.gap), std::abs(row.sample.ut)});
 }
 
-/// How far the row before is off the line through its neighbours, beside the range; what is rounding beside other contacts
-/// bends nothing.
-double MotionRecord::bend_at(Track& track, const MotionRow& row) const {
+/// What is rounding beside other contacts bends nothing.
+double MotionRecord::asked_by(Track& track, const MotionRow& row) const {
+  double asked = std::numeric_limits<double>::infinity();
   const auto [first, second] = std::exchange(track.last, {track.last[1], row});
-  if (++track.lasts < 3 || !(row.t > second.t && second.t > first.t)) return 0.0;
+  if (++track.lasts < 3 || !(row.t > second.t && second.t > first.t)) return asked;
   const auto a = Drawn{}(first), b = Drawn{}(second), c = Drawn{}(row);
-  const double part = (second.t - first.t) / (row.t - first.t);
-  double most = 0.0;
+  const double left = second.t - first.t, right = row.t - second.t, part = left / (left + right);
   for (std::size_t i = 0; i < 4; ++i) {
     const double range = track.rows.range(i), least = rounding::of_elimination * (i < 2 ? force_ : length_);
-    if (range > least) most = std::max(most, std::abs(b[i] - a[i] - part * (c[i] - a[i])) / range);
+    if (range > least)
+      asked = std::min(asked, spacing_for(left, right, std::abs(b[i] - a[i] - part * (c[i] - a[i])), range));
   }
-  return most;
+  return asked;
 }
 
 void MotionRecord::write(Recorder& recorder) {

@@ -3,8 +3,8 @@
 //   rows of a contact: both sides of every instant that reaches it, turning points, and ends and insides of
 //   steps as many as a line needs; thinned (base/thinned.hpp) by N, T, gap and ut
 //
-// Rows are closer where three of them bend: y_1 is far off the line from y_0 to y_2, beside its range. A contact that swings by
-// A, N rows a period, bends by A (1 - cos(2 pi / N)), and lines between its rows miss its peak by A (1 - cos(pi / N)) at most.
+// How close rows are follows from how the last three bend (row_spacing.hpp), of contacts and curves together; a distance
+// that nothing asks for grows by a quarter of what passes.
 //
 // So a short run is drawn in full, and of a long one what a picture can show of its rows; of contacts that
 // no picture is drawn of by itself, what a number of rows can show. An
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,8 +37,8 @@ class MotionRecord {
   void step(double begin, double end, const std::vector<double>& turning_points);
   /// They ascend; nothing: there is no other.
   [[nodiscard]] std::optional<Moment> next();
-  /// How far the last rows of curves bend beside their range; with those of the contacts it tells how close rows must be.
-  void adapt(double bend);
+  /// At t, the time of the last row: how close rows must be for curves; with those of the contacts it is how close they are.
+  void adapt(double t, double asked);
   /// Does a line need a row at t, the end of a step?
   [[nodiscard]] bool needs(double t) const;
   /// A row of every contact; times ascend, and may repeat.
@@ -69,14 +70,15 @@ class MotionRecord {
     int lasts = 0;
   };
   void keep(Track& track, const MotionRow& row);
-  [[nodiscard]] double bend_at(Track& track, const MotionRow& row) const;
+  [[nodiscard]] double asked_by(Track& track, const MotionRow& row) const;
 
   double t_end_;
   double spacing_;  // of rows that nothing but a line needs
   bool wanted_;
-  double last_ = 0.0, bend_ = 0.0;
-  double force_ = 0.0, length_ = 0.0;  // greatest of all contacts that are drawn
-  double at_ = 0.0, end_ = 0.0;        // of the step
+  double last_ = 0.0, adapted_ = 0.0;
+  double asked_ = std::numeric_limits<double>::infinity();  // by the rows since the last adapt()
+  double force_ = 0.0, length_ = 0.0;                       // greatest of all contacts that are drawn
+  double at_ = 0.0, end_ = 0.0;                             // of the step
   std::vector<double> turns_;
   std::size_t turn_ = 0;  // the next of them
   std::vector<Track> tracks_;

@@ -220,7 +220,7 @@ class Loop {
       if (moment->turns) witness_.passes(moment->t, forcing_, point_);
       motion_.add(moment->t, auditor_, forcing_, decision_.mode, point_);
       if (curves_.needs(moment->t)) add_curves(moment->t, step.end);
-      motion_.adapt(curves_.bend());
+      motion_.adapt(moment->t, curves_.asked());
     }
     t_ = step.end;
     engine_->evaluate(t_, point_);
@@ -228,7 +228,7 @@ class Loop {
       motion_.add(t_, auditor_, forcing_, decision_.mode, point_);
     if (step.kind != Step::Kind::event && curves_.needs(t_)) {
       add_curves(t_, t_);
-      motion_.adapt(curves_.bend());
+      motion_.adapt(t_, curves_.asked());
     }
   }
 

@@ -54,7 +54,7 @@ class DirectoryWitness {
                                  follows_low_flights(model_, told_.engine))),
         witness_(model_, engine_.limits),
         motion_(model_, engine_.sums_over_modes),
-        rows_(model_, engine_, witness_) {
+        rows_(model_, engine_, witness_, told_.stopped) {
     result_.complete = told_.ended;
     for (Event& event : told_events(directory, model_)) events_.push_back(std::move(event));
     result_.events = static_cast<long>(events_.size());

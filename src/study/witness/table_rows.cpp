@@ -32,10 +32,11 @@ Violation violation(const char* file, double t, std::size_t contact, const char*
 
 }  // namespace
 
-TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness)
+TableRows::TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped)
     : model_(model),
       engine_(engine),
       witness_(witness),
+      stopped_(stopped),
       sizes_(model.contacts.size()),
       peaks_(model.contacts.size()) {}
 
@@ -160,6 +161,8 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
 }
 
 void TableRows::reach(const Row& row) {
+  // A run that stopped has rows of a step that leads to no instant: no peak takes part in it.
+  if (stopped_ && !states_.empty() && row.t > states_.back().t) return;
   Peak& peak = peaks_[row.contact];
   const Size& size = sizes_[row.contact];
   const Contact& c = model_.contacts[row.contact];

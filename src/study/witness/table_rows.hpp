@@ -1,7 +1,7 @@
 // table_rows.hpp: contacts.csv and motion.csv before the witness.
 //
 //   state of a row = that after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
-//   contacts.csv: every contact has a row at every time;   peaks of summary.json >= rows
+//   contacts.csv: every contact has a row at every time;   peaks of summary.json >= rows up to the last instant of a run that stopped
 //
 //   TableRows rows(model, engine, witness);
 //   for each instant: rows.instant(record);
@@ -23,8 +23,8 @@ class TableRows {
  public:
   using Found = std::function<void(Violation)>;
 
-  /// All must outlive it.
-  TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness);
+  /// All must outlive it. stopped: the run ended before t_end, by itself.
+  TableRows(const Model& model, const WitnessedEngine& engine, const Witness& witness, bool stopped);
   /// In the order of time.
   void instant(const InstantRow& row, const InstantRecord& record);
   /// complete: all contacts have a row at each time. Returns how many rows there were. Errors: FileError.
@@ -56,6 +56,7 @@ class TableRows {
   const Model& model_;
   const WitnessedEngine& engine_;
   const Witness& witness_;
+  bool stopped_;
   std::vector<States> states_;
   std::vector<Size> sizes_;
   std::vector<Peak> peaks_;

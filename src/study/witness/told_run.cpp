@@ -133,6 +133,7 @@ ToldSummary told_summary(const std::filesystem::path& directory, const Model& mo
       told.flow = settings->value("flow", "");
     if (!told.ended) return told;
     told.t = outcome.at("t").get<double>();
+    told.stopped = outcome.value("kind", "") != "done";
     told.events_by_type = json["events"].at("by_type").get<std::map<std::string, long>>();
     told.peaks.resize(model.contacts.size());
     const Json& contacts = json.at("contacts");

@@ -13,9 +13,10 @@ namespace signorini {
 
 struct ToldSummary {
   Engine engine = Engine::ida;
-  std::string flow;   ///< of exact: "modal" or "taylor"
-  bool ended = true;  ///< false: it is still being written, or was killed
-  double t = 0.0;     ///< reached
+  std::string flow;      ///< of exact: "modal" or "taylor"
+  bool ended = true;     ///< false: it is still being written, or was killed
+  bool stopped = false;  ///< before t_end
+  double t = 0.0;        ///< reached
   std::map<std::string, long> events_by_type;
   std::vector<std::optional<Peak>> peaks;  ///< one a contact
 };

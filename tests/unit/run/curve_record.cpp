@@ -7,14 +7,11 @@
 #include <string>
 
 #include "signorini/simulate.hpp"
+#include "unit/run/drawn.hpp"
 
 using namespace signorini;
 
 namespace {
-
-struct Line {
-  std::vector<double> t, y;
-};
 
 class CurveKeeper : public Result {
  public:
@@ -41,45 +38,6 @@ CurveKeeper curves_of(const std::string& model, const std::vector<Override>& cha
   return keeper;
 }
 
-/// On straight lines between the rows, after a jump at t.
-double at(const Line& line, double t) {
-  const auto next = std::upper_bound(line.t.begin(), line.t.end(), t);
-  const auto i = static_cast<std::size_t>(next - line.t.begin());
-  if (i == 0) return line.y.front();
-  if (i == line.t.size()) return line.y.back();
-  return line.y[i - 1] + (line.y[i] - line.y[i - 1]) * (t - line.t[i - 1]) / (line.t[i] - line.t[i - 1]);
-}
-
-struct Span {
-  double least, greatest;
-};
-
-/// What a line reaches from a to b.
-Span span(const Line& line, double a, double b) {
-  Span s{at(line, a), at(line, a)};
-  const auto see = [&](double y) { s = {std::min(s.least, y), std::max(s.greatest, y)}; };
-  see(at(line, b));
-  const auto first = std::lower_bound(line.t.begin(), line.t.end(), a);
-  for (auto i = static_cast<std::size_t>(first - line.t.begin()); i < line.t.size() && line.t[i] <= b; ++i)
-    see(line.y[i]);
-  return s;
-}
-
-/// How far the line is off the motion at worst, of the motion's range, where a pixel of time beside is as good.
-double off(const Line& line, const Line& motion) {
-  const double pixel = motion.t.back() / 900.0;  // of a panel on a screen
-  const auto [low, high] = std::minmax_element(motion.y.begin(), motion.y.end());
-  const double range = *high - *low;
-  if (range <= 1e-9 * std::max(std::abs(*low), std::abs(*high))) return 0.0;
-  double worst = 0.0;
-  for (std::size_t i = 0; i < motion.t.size(); ++i) {
-    if (std::abs(at(line, motion.t[i]) - motion.y[i]) <= 0.005 * range) continue;
-    const Span s = span(line, motion.t[i] - pixel, motion.t[i] + pixel);
-    worst = std::max({worst, s.least - motion.y[i], motion.y[i] - s.greatest});
-  }
-  return worst / range;
-}
-
 /// Every curve of a run beside its rows at 20000 times.
 void check_pictures(const std::string& model) {
   CAPTURE(model);
@@ -91,25 +49,16 @@ void check_pictures(const std::string& model) {
   CurveKeeper run;
   run.report = simulate(built, scene.run, run);
   const auto motion = [&](const auto& value) {
-    Line line;
-    for (const Result::Row& row : run.rows) {
-      line.t.push_back(row.t);
-      line.y.push_back(value(row));
-    }
+    tests::drawn::Line line;
+    for (const Result::Row& row : run.rows) line.add(row.t, value(row));
     return line;
   };
   const auto look = [&](const std::string& name, const auto& value) {
     if (std::find(run.kept.names.begin(), run.kept.names.end(), name) == run.kept.names.end()) return;
-    Line line;
-    for (const CurvePoint& point : run.curve(name)) {
-      line.t.push_back(point.t);
-      line.y.push_back(point.value);
-    }
+    tests::drawn::Line line;
+    for (const CurvePoint& point : run.curve(name)) line.add(point.t, point.value);
     CAPTURE(name);
-    // Known defect: piping's vertical displacements are drawn up to 2.4 % off.
-    const double drawn_off = off(line, motion(value));
-    WARN(drawn_off <= 0.01);
-    CHECK(drawn_off <= (name.find('P') == 0 ? 0.03 : 0.01));
+    CHECK(tests::drawn::off(line, motion(value)) <= 0.01);
   };
   for (const Column& column : built.columns)
     if (!column.velocity && column.dof >= 0)

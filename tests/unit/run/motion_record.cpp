@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "signorini/simulate.hpp"
+#include "unit/run/drawn.hpp"
 
 using namespace signorini;
 
@@ -31,6 +32,33 @@ Keeper kept(const std::string& file, std::vector<Override> changes) {
 }
 
 const std::string pipeline = SIGNORINI_MODELS "/pipeline.toml";
+
+/// N, T, gap, ut and slip of the contacts with a picture of their own beside their rows at 20000 times.
+void check_contacts(const std::string& name, std::vector<Override> changes = {}) {
+  CAPTURE(name);
+  const std::string file = SIGNORINI_MODELS "/" + name + ".toml";
+  changes.push_back({"run.output_dt", std::to_string(read_scene(file, changes).run.t_end / 20000.0)});
+  const Keeper run = kept(file, changes);
+  REQUIRE(!run.tracks.empty());
+  for (const auto& [quantity, member] :
+       {std::pair{"N", &ContactSample::N}, std::pair{"T", &ContactSample::T},
+        std::pair{"gap", &ContactSample::gap}, std::pair{"ut", &ContactSample::ut},
+        std::pair{"slip", &ContactSample::slip}}) {
+    CAPTURE(quantity);
+    const bool force = member == &ContactSample::N || member == &ContactSample::T;
+    double size = 0.0;
+    for (const Result::Row& row : run.rows)
+      for (const ContactSample& c : row.contacts)
+        size = std::max({size, std::abs(force ? c.N : c.gap), std::abs(force ? c.T : c.ut)});
+    for (std::size_t k = 0; k < std::min<std::size_t>(run.tracks.size(), 24); ++k) {
+      CAPTURE(k);
+      tests::drawn::Line line, motion;
+      for (const MotionRow& row : run.tracks[k]) line.add(row.t, row.sample.*member);
+      for (const Result::Row& row : run.rows) motion.add(row.t, row.contacts[k].*member);
+      CHECK(tests::drawn::off(line, motion, size) <= 0.01);
+    }
+  }
+}
 
 }  // namespace
 
@@ -111,6 +139,19 @@ TEST_CASE("a run of many steps is kept evenly: no part of it is thinned more tha
   CHECK(widest < 12.0 / 200.0);
 }
 
+TEST_CASE("what pictures draw of contacts is the motion, within 1 % or a pixel") {
+  for (const char* model : {"oscillator", "matrices", "pipeline", "rigid-frame", "chain", "belt", "lift-off"})
+    check_contacts(model);
+}
+
+TEST_CASE("what pictures draw of contacts is the motion, whatever the engine's steps are") {
+  for (const char* engine : {"exact", "ida", "newmark"}) {
+    CAPTURE(engine);
+    check_contacts("matrices", {{"run.engine", engine}, {"run.dt", "5e-4"}, {"run.t_end", "3.0"}});
+    check_contacts("pipeline", {{"run.engine", engine}, {"run.dt", "2e-5"}, {"run.t_end", "0.3"}});
+  }
+}
+
 TEST_CASE("an event of one body is no row of another, a jump of the load is one of all") {
   const std::string text = R"(schema = 1
 units = { force = "N", mass = "kg", length = "m", time = "s" }
@@ -169,6 +210,14 @@ history = { type = "step", start = 4.5 }
   CHECK(beside < hits);
   CHECK(at(0, 4.5) == 2);
   CHECK(at(1, 4.5) == 2);
+}
+
+TEST_SUITE_END();
+
+TEST_SUITE_BEGIN("slow/run/motion_record");
+
+TEST_CASE("what pictures draw of contacts is the motion, within 1 % or a pixel: a rack in an earthquake") {
+  check_contacts("piping");
 }
 
 TEST_SUITE_END();

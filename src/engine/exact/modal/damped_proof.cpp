@@ -13,7 +13,7 @@ constexpr double quarter_of_guard = 0.25;          // that fast modes may take t
 constexpr double noise_beside_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
 constexpr std::size_t highest_degree = 30;
-constexpr double fine_ripple = 1e-4;  // of the range of what a peak is looked for in
+constexpr double fine_ripple = rounding::of_elimination;  // of the range of what a peak is looked for in
 constexpr double slow_rounding = 1.0 + 1e-12;
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
 #include "engine/exact/modal/settle_guard.hpp"
@@ -13,8 +14,8 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_degree = 30;
-constexpr double fine =
-    1e-4;  // of the range of what a peak is looked for in: ripple that is left aside where it turns
+// Of the range of what a peak is looked for in: ripple that is left aside where it turns.
+constexpr double fine = rounding::of_elimination;
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 //   steps as many as a line needs; thinned (base/thinned.hpp) by N, T, gap and ut
 //
 // How close rows are follows from how the last three bend (row_spacing.hpp), of contacts and curves together; a distance
-// that nothing asks for grows by a quarter of what passes.
+// that nothing asks for grows by a fifth of what passes.
 //
 // So a short run is drawn in full, and of a long one what a picture can show of its rows; of contacts that
 // no picture is drawn of by itself, what a number of rows can show. An

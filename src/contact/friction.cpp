@@ -18,12 +18,15 @@ double next_of_exponential(const std::vector<double>& g, const std::vector<doubl
 double sliding_friction(const Contact& contact, double along) {
   const Friction& f = contact.friction;
   if (!f.varies()) return f.kinetic;
+  // Past the end of slip what rises goes on straight: the exponential would leave all bounds there.
+  if (f.rises() && along < 0.0) return f.static_ + (f.kinetic - f.static_) * along / f.rate_of_change();
   return f.kinetic + (f.static_ - f.kinetic) * std::exp(-along / f.rate_of_change());
 }
 
 double sliding_friction_slope(const Contact& contact, double along) {
   const Friction& f = contact.friction;
   if (!f.varies()) return 0.0;
+  if (f.rises() && along < 0.0) return (f.kinetic - f.static_) / f.rate_of_change();
   return (f.kinetic - sliding_friction(contact, along)) / f.rate_of_change();
 }
 

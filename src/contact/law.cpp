@@ -168,6 +168,11 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);
+    if (contact.shear && contact.friction.rises()) {  // it tells the rate, and is known better
+      result[1].form = {};
+      result[1].form.N = static_friction(contact);
+      result[1].form.T = s;
+    }
   }
   return result;
 }

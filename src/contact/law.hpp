@@ -13,6 +13,7 @@
 //              closed  -N
 //              stick   -N, -fs N - T, -fs N + T
 //              slip s  -N, s p'
+//                      -N, s T + fs N   where a massless sliding point's friction rises: of one sign with s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element

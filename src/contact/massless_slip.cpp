@@ -19,6 +19,8 @@ double rate_of_saturation(const Friction& friction) {
 std::optional<double> massless_slip_rate(const Friction& friction, double pull, double damping,
                                          double pressed) {
   const double slow = friction.static_, fast = friction.kinetic, v = friction.rate_of_change();
+  // Below slow |N| friction goes on straight (contact/friction.cpp).
+  if (pull <= slow * pressed) return (pull - slow * pressed) / (damping + (fast - slow) / v * pressed);
   if (!(damping > 0.0)) {
     const double rest = (fast * pressed - pull) / ((fast - slow) * pressed);
     if (!(rest > saturated)) return std::nullopt;

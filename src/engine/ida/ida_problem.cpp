@@ -20,6 +20,9 @@ constexpr double local_part = 0.2;
 // within the rounding of kn g cannot be met. Chosen; changing it moves where rtol 1e-13 ends (docs/theory.md,
 // limits).
 constexpr double rounding_floor = 20.0 * rounding::eps;
+// T of an element beside friction of its rate is the rounding of ut - p, and of ut' - p' of a step, all along; Newton's
+// method asks for a thousandth of the tolerance there (bdf_integrator.cpp).
+constexpr double above_sharp_newton = 100.0;
 
 /// r = y' - v,  u = y - step r
 SIGNORINI_WIDE_LANES void shift_back(std::size_t n, double step, const double* y, const double* v,
@@ -120,6 +123,8 @@ void IdaProblem::start(const Segment& segment, const Watch& watch) {
   nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     if (slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state)) nonlinear_.push_back(k);
+  knee_ = std::any_of(nonlinear_.begin(), nonlinear_.end(),
+                      [&](std::size_t k) { return model_.contacts[k].friction.rises(); });
 }
 
 void IdaProblem::linearise(double t, const double* y, const double* yp) {
@@ -213,6 +218,11 @@ void IdaProblem::weights(const double* y, double rate, double* w) const {
     };
     limit(layout_.force(k), contact.normal_stiffness * gap);
     limit(layout_.force(k) + 1, contact.tangential_stiffness.value_or(0.0) * ut);
+    if (contact.shear && contact.friction.rises()) {
+      const ShearElement& element = *contact.shear;
+      limit(layout_.force(k) + 1, above_sharp_newton * (element.stiffness + element.damping * rate) *
+                                      (element.body.magnitude(y) + contact.tangent.magnitude(y)));
+    }
   }
   for (const Stop& stop : stops_) {
     const auto i = static_cast<std::size_t>(stop.force);
@@ -258,9 +268,10 @@ void IdaProblem::guards(double t, const double* y, const double* yp, double* g) 
         continue;
       }
       // O(1), so that IDA's products of guard values do not underflow
-      const double unit = guard.kind == Guard::closing   ? scale.displacement
-                          : guard.kind == Guard::sliding ? scale.velocity
-                                                         : scale.force;
+      const bool of_rate = guard.kind == Guard::sliding && guard.form.T == 0.0;
+      const double unit = guard.kind == Guard::closing ? scale.displacement
+                          : of_rate                    ? scale.velocity
+                                                       : scale.force;
       g[slot] = guard.form.value(m) / unit;
     }
   }

@@ -38,6 +38,9 @@ class IdaProblem {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] std::size_t slots() const { return guard_count(model_.contacts.size()); }
 
+  /// A contact slips whose friction rises with its rate.
+  [[nodiscard]] bool has_knee() const { return knee_; }
+
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
  private:
@@ -96,6 +99,7 @@ class IdaProblem {
   };
   std::vector<Stop> stops_;
   std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
+  bool knee_ = false;
   Momentum momentum_;
   std::vector<double> forces_;  // of all degrees of freedom, where some have no mass
   std::vector<double> u_;       // displacements in a residual

@@ -6,6 +6,10 @@
 namespace signorini {
 namespace {
 
+// Towards the solution along a knee of friction: each iteration is one scale of slip rates nearer, and beyond this many
+// friction is at its limit to the last digit. Elsewhere none is needed.
+constexpr int most_towards = 40;
+
 StepNewton& newton_of(SUNNonlinearSolver solver) { return *static_cast<StepNewton*>(solver->content); }
 
 }  // namespace
@@ -73,8 +77,10 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
   void* data = nullptr;
   IDAGetNonlinearSystemData(ida_, &t, &y_predicted, &yp_predicted, &y, &yp, &r, &cj, &data);
   double* const change = NV_DATA_S(change_);
-  for (iteration_ = 0; iteration_ < most_iterations_; ++iteration_) {
-    const bool first = iteration_ == 0;
+  bool near = !problem_.has_knee();
+  iteration_ = 0;
+  for (int i = 0; iteration_ < most_iterations_ && i < most_iterations_ + most_towards; ++i) {
+    const bool first = i == 0;
     if (!first) {
       N_VLinearSum(1.0, y_predicted, 1.0, e, y);
       N_VLinearSum(1.0, yp_predicted, cj, e, yp);
@@ -90,13 +96,22 @@ int StepNewton::iterate(N_Vector e, N_Vector weights, double tolerance, bool set
       if (const int result = setup_(doubtful ? SUNTRUE : SUNFALSE, &current, memory);
           result != SUN_NLS_SUCCESS)
         return result;
+    } else if (problem_.has_knee()) {
+      problem_.linearise(t, NV_DATA_S(at), NV_DATA_S(slope));
+      problem_.linear().set_cj(cj);
+      if (!problem_.linear().factor()) return SUN_NLS_CONV_RECVR;
     }
     problem_.linear().solve(change, change);
     ++iterations_;
     N_VLinearSum(1.0, e, -1.0, change_, e);
+    if (!near) {
+      near = N_VWrmsNorm(change_, weights) < 1.0;
+      continue;
+    }
     if (const int result = test_(solver_, e, change_, tolerance, weights, test_data_);
         result != SUN_NLS_CONTINUE)
       return result;
+    ++iteration_;
   }
   return SUN_NLS_CONV_RECVR;
 }

@@ -5,7 +5,9 @@
 // With e = 0 F is taken at the predictor itself: SUNDIALS' own method adds the zero to both vectors first, keeps
 // a copy of F, turns its sign, and clears and copies what is solved for. One iteration is the rule, as J is made
 // anew with every c_j. J and its factors: engine/ida/ida_linear_solver.hpp; retries, counts and the test as in
-// SUNDIALS (sunnonlinsol_newton.c).
+// SUNDIALS (sunnonlinsol_newton.c). Where friction rises with a slip rate J is made anew with every iteration, too, and
+// IDA's test, which takes corrections that do not shrink for divergence, is asked from where one is within the tolerance: on
+// the way there they are one scale of slip rates each.
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>

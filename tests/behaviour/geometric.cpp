@@ -141,6 +141,13 @@ TEST_CASE("the frequency of a loaded column: f0 sqrt(1 - P / P_cr), at order 4, 
   }
 }
 
+TEST_CASE("damping beta K is that of the elastic stiffness") {
+  const std::string text = column(fixed("A", "ux, uy, rz"), 3, 0.6 * euler(2.0)) + "[damping]\nbeta = 0.01\n";
+  const Model loaded = built(text), plain = built(text, {{"run.geometric", "false"}});
+  CHECK(SparseMatrix(loaded.stiffness - plain.stiffness).norm() > 0.1);
+  CHECK(SparseMatrix(loaded.damping - plain.damping).norm() < 1e-13 * plain.damping.norm());
+}
+
 TEST_CASE("bars in a row on springs: all load factors, however the row is turned") {
   // k x = P / l (2 x_j - x_(j-1) - x_(j+1)):   P_j = k l / (2 - 2 cos(j pi / n))
   const double k = 11.0, l = 0.7, P = 1.3;

@@ -110,6 +110,22 @@ TEST_CASE("an inverted pendulum on a spring: factor k/(m g h) and frequency; wit
                        doctest::Contains("0.75 times"), SceneError);
 }
 
+TEST_CASE("the reaction of a pendulum that leans: what pushes it, whatever its weight does") {
+  const double m = 1.7, g = 9.81, arm = 0.8, k = 21.0, H = 0.3;
+  const std::string text =
+      heavy(0.0, -g, from_static) + "[nodes]\nA = [0.0, 0.0]\nB = [0.0, 0.8]\n" + fixed("A", "ux, uy") +
+      body("b", "\"B\"", "A", m, 0.23) +
+      fmt::format(
+          "[[springs]]\nnode = \"A\"\nrotation_stiffness = {}\n[[loads]]\nnode = \"B\"\ndirection = "
+          "[1.0, 0.0]\namplitude = {}\n",
+          k, H) +
+      "[[output]]\nname = \"R\"\nkind = \"reaction\"\nat = \"A\"\ndirection = [1.0, 0.0]\n";
+  const Scene scene = parse_scene(text, "test.toml");
+  const Model model = build_model(scene);
+  CHECK(model.u0[0] == doctest::Approx(-H * arm / (k - m * g * arm)).epsilon(1e-12));
+  CHECK(simulate(model, scene.run).responses.back().values[0] == doctest::Approx(-H).epsilon(1e-10));
+}
+
 TEST_CASE("forces of springs, members, heat and contacts on a body: sum F . r by hand") {
   // A body pressed by a spring that a support strains, by a hot bar, by loads and through a stop.
   const std::string points =

@@ -13,7 +13,8 @@ constexpr double quarter_of_guard = 0.25;          // that fast modes may take t
 constexpr double noise_beside_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
 constexpr std::size_t highest_degree = 30;
-constexpr double fine_ripple = rounding::of_elimination;  // of the range of what a peak is looked for in
+// Of the range of what a peak is looked for in: as in modal_slow.cpp.
+constexpr double fine = rounding::of_elimination, coarse = 1e-4;
 constexpr double slow_rounding = 1.0 + 1e-12;
 
 }  // namespace
@@ -203,15 +204,16 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
   return safe * x_end;
 }
 
-/// The contacts' motion from a point on, with ripples that are small beside those ranges; returns for how long.
-double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
+/// A step with ripples up to that share of the ranges; returns its length.
+double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
+                                  double remaining) {
   amplitude_ = at.y.cwiseAbs();
   const Eigen::Index n = size_.size();
   Eigen::Index first = 0;
   for (std::size_t c = 0; c < series_.size(); ++c)
     for (std::size_t f = 0; f < 4; ++f) {
       const TurningPoints::Range& range = known.range(c, TurningPoints::watched[f]);
-      first = slow_for(*shown(c)[f], first, fine_ripple * (range.greatest - range.least));
+      first = slow_for(*shown(c)[f], first, share * (range.greatest - range.least));
     }
   double h = remaining;
   if (n > 0 && size_[std::min(first, n - 1)] > 0.0)
@@ -219,6 +221,18 @@ double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& kno
   for (const double w : motion_.time().omega()) h = std::min(h, turn_of_step / w);
   set_step(h, first == n);
   expand(at);
+  return h_;
+}
+
+/// For how long from a point on no peak exceeds all before, as far as slow modes tell.
+double DampedProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  const double step = expand_beside(at, known, coarse, remaining);
+  return step > 0.0 ? within(at, known, step / h_) * h_ : 0.0;
+}
+
+/// The contacts' motion from a point on, with ripples that are rounding beside those ranges; returns for how long.
+double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  expand_beside(at, known, fine, remaining);
   for (std::size_t c = 0; c < series_.size(); ++c) {
     series_[c].reset(count_ - 1);
     for (std::size_t f = 0; f < 4; ++f) {
@@ -252,7 +266,14 @@ void DampedProof::find_turns(const ModalPoint& from, double begin, double length
   double done = x * h_;
   ModalPoint point, next;
   motion_.advance(from, done, point);
+  const auto go = [&](double step) {
+    motion_.advance(point, step, next);
+    std::swap(point, next);
+    done += step;
+  };
   while (done < length) {
+    go(look_ahead(point, turning, length - done));
+    if (!(done < length)) return;
     const double step = expand_finely(point, turning, length - done);
     if (!(step > 0.0)) return;
     Series clock;
@@ -261,9 +282,7 @@ void DampedProof::find_turns(const ModalPoint& from, double begin, double length
     const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
     turning.find(series_, clock, step / h_, ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
-    motion_.advance(point, step, next);
-    std::swap(point, next);
-    done += step;
+    go(step);
   }
 }
 

@@ -53,6 +53,8 @@ class DampedProof {
   [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
   void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
   [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
+  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
+  [[nodiscard]] double look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining);
   [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
 
   const DampedMotion& motion_;

@@ -46,7 +46,9 @@ class ModalProof {
   [[nodiscard]] double within(const TurningPoints& known, double x_end) const;
   /// Peaks between two passages of a step.
   void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
-  /// The contacts' slow parts from a point on, with ripples that are small beside those ranges; returns for
+  /// For how long from a point on no peak exceeds all before, as far as slow modes tell.
+  [[nodiscard]] double look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining);
+  /// The contacts' slow parts from a point on, with ripples that are rounding beside those ranges; returns for
   /// how long.
   [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
   /// The slow parts of the contacts at the last passage or expansion, in units of `unit` of time.
@@ -71,6 +73,7 @@ class ModalProof {
     double place = 0.0, rate = 0.0;
   };
   using Watch4 = std::array<double, 4>;  // N, T, g and ut, as in TurningPoints::watched
+  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
   [[nodiscard]] Watch4 ripples(std::size_t contact, bool of_rate) const;
   [[nodiscard]] Watch4 one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const Segment& segment, const StateModes& state);

@@ -14,8 +14,9 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_degree = 30;
-// Of the range of what a peak is looked for in: ripple that is left aside where it turns.
-constexpr double fine = rounding::of_elimination;
+// Of the range of what a peak is looked for in: ripple that is left aside where it turns, and where it is only asked
+// whether it may. The second is chosen: more is asked again sooner, less takes shorter steps.
+constexpr double fine = rounding::of_elimination, coarse = 1e-4;
 
 }  // namespace
 
@@ -115,7 +116,18 @@ void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& tur
   }
 }
 
+double ModalProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  const double step = expand_beside(at, known, coarse, remaining);
+  return step > 0.0 ? within(known, step / h_) * h_ : 0.0;
+}
+
 double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
+  return expand_beside(at, known, fine, remaining);
+}
+
+/// With ripples up to that share of the ranges; returns the length of the step.
+double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
+                                 double remaining) {
   measure_amplitudes(at);
   const std::size_t n = amplitude_.size();
   std::size_t first = 0;
@@ -123,7 +135,7 @@ double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& know
     const ForceLaw& law = laws_[c];
     const auto allowed = [&](ContactSeries::Field field, double factor) {
       const TurningPoints::Range& range = known.range(c, field);
-      return factor == 0.0 ? never : fine * (range.greatest - range.least) / std::abs(factor);
+      return factor == 0.0 ? never : share * (range.greatest - range.least) / std::abs(factor);
     };
     const double normal = std::min({allowed(ContactSeries::gap, 1.0), allowed(ContactSeries::N, law.N_gap),
                                     allowed(ContactSeries::T, law.T_gap)});

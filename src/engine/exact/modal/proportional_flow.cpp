@@ -45,7 +45,14 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
   double done = x * proof_.unit();
   ModalPoint point, next;
   oscillators_.advance(from, forces_, done, point);
+  const auto go = [&](double step) {
+    oscillators_.advance(point, forces_, step, next);
+    std::swap(point, next);
+    done += step;
+  };
   while (done < length) {
+    go(proof_.look_ahead(point, turning, length - done));
+    if (!(done < length)) return;
     const double step = proof_.expand_finely(point, turning, length - done);
     if (!(step > 0.0)) return;
     Series clock;
@@ -54,9 +61,7 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
     const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
     turning.find(proof_.slow(), clock, step / proof_.unit(), ends);
     for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
-    oscillators_.advance(point, forces_, step, next);
-    std::swap(point, next);
-    done += step;
+    go(step);
   }
 }
 

@@ -226,7 +226,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a contact that is hit in passing slips from its first touch on, and energy is kept") {
-  for (const std::string& damping : {"", "tangential_damping = 40.0\n"}) {
+  for (const std::string damping : {"", "tangential_damping = 40.0\n"}) {
     CAPTURE(damping);
     const std::string text = matrix_scene(
         "t_end = 0.4\noutput_dt = 0.01\ninitial = { u = [0.0, 0.01], v = [0.5, -0.3] }",

@@ -10,7 +10,7 @@ using namespace signorini;
 
 namespace {
 
-Contact rising() {
+Contact rising_beside_spring() {
   Contact c;
   c.law = Law::slider;
   c.friction = {0.04, 0.11, {}, 0.05};
@@ -22,7 +22,7 @@ Contact rising() {
 TEST_SUITE_BEGIN("unit/contact/massless_slip");
 
 TEST_CASE("massless_slip_rate() is where friction takes the pull that the dashpot leaves") {
-  const Contact c = rising();
+  const Contact c = rising_beside_spring();
   const double pressed = 800.0;
   for (const double damping : {0.0, 3.0, 700.0, 1e5})
     for (const double pull : {1.0, 31.9, 32.1, 33.0, 60.0, 87.99, 87.999999}) {
@@ -36,7 +36,7 @@ TEST_CASE("massless_slip_rate() is where friction takes the pull that the dashpo
 }
 
 TEST_CASE("massless_slip_rate(): beyond what friction reaches only a dashpot tells the rate") {
-  const Contact c = rising();
+  const Contact c = rising_beside_spring();
   CHECK_FALSE(massless_slip_rate(c.friction, 88.0, 0.0, 800.0));
   CHECK_FALSE(massless_slip_rate(c.friction, 90.0, 0.0, 800.0));
   const double nearly = 88.0 - 0.07 * 800.0 * saturated;

@@ -13,8 +13,6 @@ constexpr double quarter_of_guard = 0.25;          // that fast modes may take t
 constexpr double noise_beside_guard = 1.0 / 16.0;  // of the bound that the decision uses
 constexpr double turn_of_step = 4.0;               // |l| h of the fastest slow mode
 constexpr std::size_t highest_degree = 30;
-// Of the range of what a peak is looked for in: as in modal_slow.cpp.
-constexpr double fine = rounding::of_elimination, coarse = 1e-4;
 constexpr double slow_rounding = 1.0 + 1e-12;
 
 }  // namespace
@@ -226,13 +224,13 @@ double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& kno
 
 /// For how long from a point on no peak exceeds all before, as far as slow modes tell.
 double DampedProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  const double step = expand_beside(at, known, coarse, remaining);
+  const double step = expand_beside(at, known, coarse_ripple, remaining);
   return step > 0.0 ? within(at, known, step / h_) * h_ : 0.0;
 }
 
 /// The contacts' motion from a point on, with ripples that are rounding beside those ranges; returns for how long.
 double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  expand_beside(at, known, fine, remaining);
+  expand_beside(at, known, fine_ripple, remaining);
   for (std::size_t c = 0; c < series_.size(); ++c) {
     series_[c].reset(count_ - 1);
     for (std::size_t f = 0; f < 4; ++f) {

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "base/rounding.hpp"
 #include "base/wide_lanes.hpp"
 #include "engine/exact/modal/modal_proof.hpp"
 #include "engine/exact/modal/settle_guard.hpp"
@@ -14,9 +13,6 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_degree = 30;
-// Of the range of what a peak is looked for in: ripple that is left aside where it turns, and where it is only asked
-// whether it may. The second is chosen: more is asked again sooner, less takes shorter steps.
-constexpr double fine = rounding::of_elimination, coarse = 1e-4;
 
 }  // namespace
 
@@ -117,12 +113,12 @@ void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& tur
 }
 
 double ModalProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  const double step = expand_beside(at, known, coarse, remaining);
+  const double step = expand_beside(at, known, coarse_ripple, remaining);
   return step > 0.0 ? within(known, step / h_) * h_ : 0.0;
 }
 
 double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  return expand_beside(at, known, fine, remaining);
+  return expand_beside(at, known, fine_ripple, remaining);
 }
 
 /// With ripples up to that share of the ranges; returns the length of the step.

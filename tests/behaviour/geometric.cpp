@@ -326,7 +326,7 @@ TEST_CASE("a frictional start: K_g grows at its end, and the state is an equilib
   }
 }
 
-TEST_CASE("in other units and mirrored: the same factors; supports that both move strain nothing") {
+TEST_CASE("in other units: the same factors; supports that both move strain nothing") {
   const double P = 0.4 * euler(1.0);
   const std::string text = column(fixed("A", "ux, uy") + fixed("B", "ux"), 5, P);
   const double factor = first_factor(text);

@@ -10,6 +10,7 @@
 #include "behaviour/engines.hpp"
 #include "behaviour/halves.hpp"
 #include "behaviour/scene_parts.hpp"
+#include "behaviour/seen_otherwise.hpp"
 #include "own_folder.hpp"
 #include "signorini/simulate.hpp"
 
@@ -306,6 +307,29 @@ TEST_CASE("a block at rest on its feet stands, and rocks on springs as its stiff
   const double square = (2.0 * kn * block.b * block.b - block.m * block.g * block.h) /
                         (block.inertia() + block.m * block.h * block.h);
   CHECK(model.omega1 == doctest::Approx(std::sqrt(square)).epsilon(1e-6));
+}
+
+TEST_SUITE_END();
+
+TEST_SUITE_BEGIN("slow/behaviour/geometric_bodies");
+
+TEST_CASE("a portal with a rigid girder that leans on a stop: turned, mirrored, permuted, in other units") {
+  const std::string text =
+      heavy(0.0, -9.81, from_static) +
+      "[nodes]\nA = [0.0, 0.0]\nB = [0.3, 3.2]\nC = [4.1, 3.3]\nD = [4.3, 0.1]\n" + section(5e4, 6.4, 0.01) +
+      member("A, B", "elements = 3\n") + member("D, C", "elements = 3\n") + fixed("A, D", "ux, uy, rz") +
+      body("girder", "[2.0, 3.6]", "B, C", 0.5, 0.6) +
+      "[[springs]]\nnode = \"girder\"\ndirection = [0.2, 1.0]\nstiffness = 3.0\npreload = 0.7\n"
+      "[[contacts]]\nname = \"stop\"\nnode = \"C\"\nlaw = \"compliant\"\nnormal = [-1.0, 0.1]\ngap = "
+      "0.01\nnormal_stiffness = 800.0\ntangential_stiffness = 500.0\nfriction = 0.3\n"
+      "[[loads]]\nnode = \"girder\"\ndirection = [1.0, 0.0]\namplitude = 0.4\nhistory = { type = "
+      "\"harmonic\", "
+      "omega = 5.0 }\n";
+  const Scene scene = parse_scene(text, "test.toml", {{"run.t_end", "6.0"}});
+  const Model model = build_model(scene), plain = built(text, {{"run.geometric", "false"}});
+  CHECK(model.geometric->load_factors.front() < 5.0);
+  CHECK(model.omega1 < 0.95 * plain.omega1);
+  check_seen_otherwise(scene, 11);
 }
 
 TEST_SUITE_END();

@@ -3,7 +3,7 @@
 //   rows at a, b, c:   y_b is off the line from y_a to y_c by   d = |y''| (b - a) (c - b) / 2
 //   rows h apart:      h^2 = (b - a) (c - b) bend R / d         they are off by bend R, lines between them by a quarter of it
 //
-// R: the range of y. A curve that swings by A = R / 2 has 44 rows a period where it turns. h follows from whatever rows there
+// R: the range of y. A curve that swings by A = R / 2 has 47 rows a period where it turns. h follows from whatever rows there
 // are: those of contacts and of curves need not be equally close.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace signorini {
 
 /// Of the range. Half of a curve's first bend goes by before rows tell of it, and thinned rows leave out 0.3 %
 /// (base/thinned.hpp): chosen, "what pictures draw of contacts is the motion" moves when it does.
-inline constexpr double most_bend = 0.005;
+inline constexpr double most_bend = 0.0045;
 /// Of the run: thirteen rows a pixel of the widest picture.
 inline constexpr double closest_rows = 1.0 / 16000.0;
 

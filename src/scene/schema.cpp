@@ -71,6 +71,13 @@ std::string below(const Key& key) {
   return (key.table.empty() ? "" : std::string(key.table) + ".") + std::string(key.name);
 }
 
+/// Of one law or the other.
+Json friction_table(const std::string& path) {
+  const Json falls = {{"required", Json::array({"static"})}};
+  const Json rises = {{"required", Json::array({"slow", "fast", "velocity"})}};
+  return {{"allOf", Json::array({reference(path), any_of(falls, rises)})}};
+}
+
 Json table_type(const Key& key) {
   switch (key.type) {
     case KeyType::tables:
@@ -80,7 +87,7 @@ Json table_type(const Key& key) {
     case KeyType::initial:
       return any_of(one_of_words({"static", "frictional"}), reference(below(key)));
     case KeyType::friction:
-      return any_of(number_type(KeyType::non_negative), reference(below(key)));
+      return any_of(number_type(KeyType::non_negative), friction_table(below(key)));
     case KeyType::term:
       return any_of(number_type(KeyType::number), reference(below(key)));
     case KeyType::history:

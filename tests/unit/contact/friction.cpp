@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace signorini;
 
@@ -22,6 +23,10 @@ Contact rising() {
   c.friction = {0.2, 0.5, {}, 0.7};
   return c;
 }
+
+/// Coefficients of ut' of slip in direction s, and of N beside it.
+std::vector<double> slip_rates(int s) { return {s * 0.4, s * -0.9, s * 0.35, s * 0.2, s * -0.1}; }
+const std::vector<double> pressed{-12.0, 3.0, 1.5, -0.7, 0.2};
 
 }  // namespace
 
@@ -72,16 +77,16 @@ TEST_CASE("the tangent of the row of slip is its derivative, in both directions"
 }
 
 TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") {
-  const std::vector<double> rate{0.4, -0.9, 0.35, 0.2, -0.1}, N{-12.0, 3.0, 1.5, -0.7, 0.2};
   for (const Contact& c : {stribeck(), rising()})
     for (const int s : {1, -1}) {
       CAPTURE(s);
+      const std::vector<double> rate = slip_rates(s);
       FrictionRecursion friction;
       friction.begin(c, s, rate[0]);
-      std::vector<double> T{-s * friction.first() * N[0]};
+      std::vector<double> T{-s * friction.first() * pressed[0]};
       for (std::size_t k = 1; k < rate.size(); ++k)
-        T.push_back(-friction.next(rate[k], [&](std::size_t i) { return N[i]; }) -
-                    s * friction.first() * N[k]);
+        T.push_back(-friction.next(rate[k], [&](std::size_t i) { return pressed[i]; }) -
+                    s * friction.first() * pressed[k]);
       // Against the product itself near x = 0: the difference is of order x^5.
       const auto at = [](const std::vector<double>& a, double x) {
         double sum = 0.0;
@@ -90,7 +95,7 @@ TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") 
       };
       double last = 0.0;
       for (const double x : {0.02, 0.01}) {
-        const double error = std::abs(at(T, x) + s * sliding_friction(c, s * at(rate, x)) * at(N, x));
+        const double error = std::abs(at(T, x) + s * sliding_friction(c, s * at(rate, x)) * at(pressed, x));
         CHECK(error < 40.0 * std::pow(x, 5));
         if (last > 0.0) CHECK(last / error > 28.0);
         last = error;
@@ -100,14 +105,14 @@ TEST_CASE("the series of T = -s f(s p') N has the coefficients of the product") 
 
 TEST_CASE("where the rate is an unknown of its level the recursion takes it afterwards") {
   const Contact c = rising();
-  const std::vector<double> rate{0.4, -0.9, 0.35, 0.2, -0.1}, N{-12.0, 3.0, 1.5, -0.7, 0.2};
-  const auto pressing = [&](std::size_t i) { return N[i]; };
+  const auto pressing = [&](std::size_t i) { return pressed[i]; };
   for (const int s : {1, -1}) {
+    const std::vector<double> rate = slip_rates(s);
     FrictionRecursion before, after;
     before.begin(c, s, rate[0]);
     after.begin(c, s, rate[0]);
     ContactMotion m;
-    m.N = N[0];
+    m.N = pressed[0];
     m.vt = rate[0];
     const double slope = sliding_row_tangent(c, s, m).vt;
     for (std::size_t k = 1; k < rate.size(); ++k) {

@@ -177,6 +177,7 @@ TEST_SUITE("unit/scene/schema") {
           Wrong{contact + "\"rigid\"\nrestitution = 1.5\n", "scene.contacts[].restitution"},
           Wrong{contact + "\"rigid\"\nnormal_stiffness = 0\n", "scene.contacts[].normal_stiffness"},
           Wrong{contact + "\"rigid\"\nfriction = { kinetic = 0.1 }\n", "scene.contacts[].friction"},
+          Wrong{contact + "\"rigid\"\nfriction = { slow = 0.1, fast = 0.2 }\n", "scene.contacts[].friction"},
           Wrong{contact + "\"rigid\"\nfriction = { statik = 0.1 }\n", "scene.contacts[].friction"},
           Wrong{"[[contacts]]\nnode = \"A\"\n", "scene.contacts[]: misses law"},
           Wrong{"[[stops]]\nlaw = \"rigid\"\n", "scene.stops[]: misses direction"},

@@ -270,6 +270,8 @@ void DampedProof::find_turns(const ModalPoint& from, double begin, double length
     done += step;
   };
   while (done < length) {
+    // What went one way up to here may turn at this very point.
+    see_begin(point, begin + done, turning, turns);
     go(look_ahead(point, turning, length - done));
     if (!(done < length)) return;
     const double step = expand_finely(point, turning, length - done);

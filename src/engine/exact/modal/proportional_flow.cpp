@@ -51,6 +51,8 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
     done += step;
   };
   while (done < length) {
+    // What went one way up to here may turn at this very point.
+    proof_.see_begin(point, begin + done, turning, turns);
     go(proof_.look_ahead(point, turning, length - done));
     if (!(done < length)) return;
     const double step = proof_.expand_finely(point, turning, length - done);

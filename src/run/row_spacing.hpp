@@ -16,7 +16,7 @@ namespace signorini {
 /// (base/thinned.hpp): chosen, "what pictures draw of contacts is the motion" moves when it does.
 inline constexpr double most_bend = 0.0045;
 /// Of the run: thirteen rows a pixel of the widest picture.
-inline constexpr double closest_rows = 1.0 / 16000.0;
+inline constexpr double closest_rows = 1.0 / 32000.0;
 
 /// h of one curve; left, right: b - a and c - b, off: d. Infinite where it does not bend.
 [[nodiscard]] inline double spacing_for(double left, double right, double off, double range) {

@@ -61,6 +61,7 @@ class Doubts {
 
  private:
   void idle_loads() {
+    if (scene_.run.geometric) return;  // what supports hold may press members and bodies
     for (const Load& load : model_.loads) {
       if (load.kind == LoadKind::weight || load.kind == LoadKind::base || load.kind == LoadKind::support ||
           load.kind == LoadKind::support_rate)

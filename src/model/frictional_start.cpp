@@ -24,11 +24,12 @@ std::string word_of(LoadKind kind) {
       return "preload";
     case LoadKind::support:
       return "supports";
+    case LoadKind::base:
+      return "base motion";
     case LoadKind::force:
     case LoadKind::moment:
     case LoadKind::distributed:
     case LoadKind::weight:
-    case LoadKind::base:
     case LoadKind::support_rate:
       break;
   }
@@ -94,6 +95,16 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector
   return stages;
 }
 
+/// What supports hold presses members and bodies.
+bool presses(const StageSpec& spec, const Model& model) {
+  return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
+    const auto named = [&](const std::string& name) {
+      return name == load.name || name == word_of(load.kind);
+    };
+    return load.history.value(0.0) != 0.0 && std::any_of(spec.loads.begin(), spec.loads.end(), named);
+  });
+}
+
 }  // namespace
 
 void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
@@ -106,10 +117,10 @@ void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
   FrictionalEquilibrium found =
       frictional_equilibrium(model.stiffness, model.contacts, stages, map, scene.initial.place);
   if (scene.run.geometric) found = stiffened_end(scene, acts, std::move(found), map, model);
-  for (const Stage& stage : stages)
-    if (!scene.initial.stages.empty() && stage.load.isZero(0.0))
+  for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
+    if (stages[i].load.isZero(0.0) && !(scene.run.geometric && presses(scene.initial.stages[i], model)))
       found.start.doubts.push_back(
-          fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stage.name));
+          fmt::format("stage '{}' loads nothing: what it names is zero at t = 0", stages[i].name));
   model.u0 = std::move(found.u);
   model.v0 = Vector::Zero(model.size());
   model.static_start = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/history/history_internal.hpp"
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
@@ -209,6 +210,19 @@ double thrown(const Model& model, const DofMap& map, double t_end) {
          0.5 * acceleration * t_end * t_end;
 }
 
+/// What solves leave of an answer that contacts hold wholly: rounding of what the force does to the stiffest degree of
+/// freedom. Rotations over the length of the structure.
+double least_answer(const Model& model, const DofMap& map, double force) {
+  const double arm = length_of(map);
+  double stiffest = 0.0;
+  for (int i = 0; i < model.size(); ++i) {
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    const double k = std::abs(model.stiffness.coeff(i, i));
+    stiffest = std::max(stiffest, turns && arm > 0.0 ? k / (arm * arm) : k);
+  }
+  return stiffest > 0.0 ? rounding::of_elimination * force / stiffest : 0.0;
+}
+
 /// What the force does to the softest spring that there is.
 double spring_answer(const Model& model, double force) {
   double softest = 0.0;
@@ -241,6 +255,9 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   const auto [held, gripped] = answer_to(loads, model, map, holding);
   displacement = std::max(displacement, held > 0.0 ? held : answer_to(loads, model, map, rested).held);
   if (displacement < only_rounding * gripped) displacement = gripped;
+  const double least = least_answer(model, map, force);
+  const auto answers = [&](double x) { return usable(x) && x > least; };
+  if (!answers(displacement)) displacement = 0.0;
   // A free motion that is held by roundoff alone, or hardly, answers without bound.
   if (const double farthest = thrown(model, map, t_end); usable(farthest))
     displacement = std::min(displacement, farthest);
@@ -249,7 +266,7 @@ Scales find_scales(const Model& model, const DofMap& map, const std::vector<bool
   // What only friction moves goes as far as its limit bends the structure.
   if (!usable(displacement))
     displacement = answer_to(limits_of_friction(model, t_end), model, map, rested).held;
-  if (!usable(displacement)) displacement = spring_answer(model, force);
+  if (!answers(displacement)) displacement = spring_answer(model, force);
   if (!usable(displacement) && omega > 0.0) displacement = v0 / omega;
   if (!usable(displacement))
     for (const Contact& c : model.contacts) displacement = std::max(displacement, std::abs(c.gap));

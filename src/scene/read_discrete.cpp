@@ -78,6 +78,9 @@ void read_hanger(Table& table, Spring& spring) {
         "expected two of cold, travel and the spring's stiffness beside hot: cold = hot + stiffness travel");
   spring.hot_load = hot;
   spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
+  if (!stiff && *travel == 0.0)
+    hanger.fail("travel",
+                "found 0, expected a travel that is not zero, over which the load goes from cold to hot");
   if (!stiff) spring.stiffness = (*cold - hot) / *travel;
   if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
     table.fail("hanger",

@@ -9,6 +9,7 @@
 
 #include "behaviour/engines.hpp"
 #include "behaviour/halves.hpp"
+#include "behaviour/one_mass.hpp"
 #include "behaviour/scene_parts.hpp"
 #include "behaviour/seen_otherwise.hpp"
 #include "own_folder.hpp"
@@ -109,6 +110,43 @@ TEST_CASE("an inverted pendulum on a spring: factor k/(m g h) and frequency; wit
       fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {:.17g}\n", 0.75 * m * g * arm);
   CHECK_THROWS_WITH_AS(static_cast<void>(built(heavy(0.0, -g, from_static) + up + weak)),
                        doctest::Contains("0.75 times"), SceneError);
+}
+
+TEST_CASE("a base that accelerates from a stage on is weight the other way, at every angle") {
+  const double m = 1.7, inertia = 0.23, g = 9.81, arm = 0.8, k = 21.0;
+  const std::string stages =
+      "initial = \"frictional\"\n[[run.stages]]\nname = \"weight\"\nloads = [\"gravity\"]\n[[run.stages]]\n"
+      "name = \"lift\"\nloads = [\"base motion\"]\n";
+  for (const double angle : {0.0, 0.9, 4.0}) {
+    const double x = std::sin(angle), y = std::cos(angle);  // the way up
+    const auto lifted = [&](double a) {
+      return fmt::format("[[base_motion]]\ndirection = [{:.17g}, {:.17g}]\nacceleration = {:.17g}\n", x, y,
+                         a);
+    };
+    const Model model = built(
+        heavy(-0.6 * g * x, -0.6 * g * y, stages) +
+        fmt::format("[nodes]\nA = [0.1, 0.2]\nB = [{:.17g}, {:.17g}]\n", 0.1 + arm * x, 0.2 + arm * y) +
+        fixed("A", "ux, uy") + body("b", "\"B\"", "A", 0.7 * m, inertia) + point_mass("B", 0.3 * m, 0.0) +
+        fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {}\n", k) + lifted(0.25 * g) +
+        lifted(0.15 * g));
+    REQUIRE(model.size() == 1);
+    CHECK(model.stiffness.coeff(0, 0) == doctest::Approx(k - m * g * arm).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a stage's loads that supports hold wholly are known, and press what stands on them") {
+  const double m = 1.7, g = 9.81, arm = 0.8, k = 21.0, P = 5.5;
+  const std::string stages =
+      "initial = \"frictional\"\n[[run.stages]]\nname = \"a\"\nloads = [\"gravity\"]\n[[run.stages]]\nname = "
+      "\"b\"\nloads = [\"load 1\"]\n";
+  const Model model = built(
+      heavy(0.0, -g, stages) + "[nodes]\nA = [0.0, 0.0]\nB = [0.0, 0.8]\n" + fixed("A", "ux, uy") +
+      body("b", "\"B\"", "A", m, 0.23) +
+      fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {}\n[[loads]]\nnode = \"B\"\ndirection = "
+                  "[0.0, -1.0]\namplitude = {}\n",
+                  k, P));
+  CHECK(model.stiffness.coeff(0, 0) == doctest::Approx(k - (m * g + P) * arm).epsilon(1e-13));
+  CHECK(model.warnings.empty());
 }
 
 TEST_CASE("the reaction of a pendulum that leans: what pushes it, whatever its weight does") {
@@ -222,6 +260,46 @@ TEST_CASE("a block rocks: quarter period, ten impacts and their rates in closed 
       ++impacts;
     }
     CHECK(impacts == 10);
+  }
+}
+
+TEST_CASE("a block on rigid feet starts with friction under inclined gravity: its feet bear by statics") {
+  for (const double lean : {0.0, 0.13, -0.2}) {
+    const Block block;
+    const double gx = block.g * std::sin(lean), gy = -block.g * std::cos(lean);
+    std::string text = block.scene(0.1);
+    text = heavy(gx, gy, "initial = \"frictional\"\n") + text.substr(text.find("[nodes]"));
+    const Model model = built(text);
+    const double share = 0.5 * block.m * gx * block.h / block.b;  // from the left foot to the right one
+    REQUIRE(model.statics.stages.size() >= 1);
+    const StageEnd& end = model.statics.stages.back();
+    CHECK(-end.N[0] == doctest::Approx(-0.5 * block.m * gy - share).epsilon(1e-10));
+    CHECK(-end.N[1] == doctest::Approx(-0.5 * block.m * gy + share).epsilon(1e-10));
+    CHECK(std::abs(std::abs(end.T[0] + end.T[1]) - std::abs(block.m * gx)) < 1e-9);
+    CHECK(model.u0.cwiseAbs().maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("what contacts hold wholly has no scale of its own, and ida follows the block as exact does") {
+  for (const double size : {6.0, 6.06, 6.1}) {
+    std::string text = Block{.m = 2880.0, .b = 0.3, .h = 1.0}.scene(6.0);
+    text.replace(text.find("initial"), text.find('\n', text.find("initial")) - text.find("initial"),
+                 "initial = \"static\"");
+    text += fmt::format(
+        "[base_motion]\ndirection = [1.0, 0.0]\nacceleration = {{ type = \"half_sine\", amplitude = {}, "
+        "start = "
+        "0.0, duration = 0.3 }}\n",
+        size);
+    const Model model = built(text);
+    CHECK(model.scales.displacement > 1e-3);
+    const Result exact = run_text(text, "exact"), ida = run_text(text, "ida");
+    REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(ida.report.outcome.kind == Outcome::Kind::done);
+    REQUIRE(exact.events.size() > 10);
+    for (std::size_t i = 0; i < 10; ++i) {
+      CHECK(ida.events[i].contact == exact.events[i].contact);
+      CHECK(std::abs(ida.events[i].t - exact.events[i].t) < 1e-6);
+    }
   }
 }
 

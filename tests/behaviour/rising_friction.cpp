@@ -226,6 +226,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "the smaller the velocity of the law, the nearer to Coulomb's with fast: no slip that goes on "
+    "backwards") {
+  const auto scene = [](const std::string& friction) {
+    return matrix_scene("t_end = 5.0\noutput_dt = 0.05\ninitial = { u = [0.0], v = [0.0] }",
+                        "mass = [[10.0]]\nstiffness = [[50.0]]",
+                        "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 100.0\n" + friction,
+                        "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 15.0\nhistory = { type = "
+                        "\"harmonic\", omega = 3.0 }\n");
+  };
+  const double coulomb = run_text(scene("friction = 0.1\n"), "exact", "1e-10").rows.back().u[0];
+  for (const std::string v : {"1e-5", "1e-6", "1e-7"}) {
+    CAPTURE(v);
+    const Result result =
+        run_text(scene("friction = { slow = 0.04, fast = 0.1, velocity = " + v + " }\n"), "ida", "1e-8");
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(std::abs(result.rows.back().u[0] - coulomb) < 1e-4);
+    CHECK(result.report.audit.friction.value < 1e-3 * result.report.audit.force_scale);
+  }
+}
+
 TEST_CASE("a contact that is hit in passing slips from its first touch on, and energy is kept") {
   for (const std::string damping : {"", "tangential_damping = 40.0\n"}) {
     CAPTURE(damping);

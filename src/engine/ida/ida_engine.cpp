@@ -202,10 +202,14 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
 
 /// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks
 /// at its limit, on its own spring). How deep it sinks then is what the steps were off: each by one tolerance
-/// at most. A gap that opened and comes back to zero is a landing, however short its flight was.
+/// at most. A gap that opened and comes back to zero is a landing, however short its flight was. Where friction
+/// rises with the slip rate, what sinks goes on against friction that has turned round: nothing brings it back.
 bool IdaEngine::only_touches(std::size_t slot, double x) const {
   const GuardStart& guard = segment_.decision->guards[slot];
   if (guard.kind == Guard::closing || !guard.at_zero || !watch_.armed(slot)) return false;
+  const std::size_t contact = contact_of_guard(slot);
+  if (model_.contacts[contact].friction.rises() && slip_sign(segment_.decision->mode[contact].state) != 0)
+    return false;
   const Bernstein p = history_.polynomial(slot), slope = p.derivative();
   const double value = std::min(p.value(x), 0.0), rate = slope.value(x), bend = slope.derivative().value(x);
   if (!(bend > 0.0)) return false;

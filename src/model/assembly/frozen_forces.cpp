@@ -32,13 +32,22 @@ class Gathering {
       : scene_(scene), map_(map), standing_(standing), on_node_(map.mesh.nodes.size(), Plane{0.0, 0.0}) {
     for (std::size_t i = 0; i < map.supports.size(); ++i)
       supports_.push_back(motion_of_support(scene, map, static_cast<int>(i)).value(0.0));
+    double weight = 1.0;  // how much of it acts
+    std::vector<double> bases;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
       const double value = standing.acts[i] ? load.history.value(0.0) : 0.0;
       if (load.kind == LoadKind::weight)
-        weight_ = value;
+        weight = value;
+      else if (load.kind == LoadKind::base)
+        bases.push_back(value);
       else
         values_[{is_strain(load.kind), load.name}] += value;
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+      pull_[c] = weight * scene.gravity[c];
+      for (std::size_t i = 0; i < bases.size(); ++i)
+        pull_[c] += bases[i] * scene.base_motion[i].direction.vector[c];
     }
   }
 
@@ -46,8 +55,7 @@ class Gathering {
     spread_loads();
     FrozenForces forces;
     for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) forces.elements.push_back(element(i));
-    for (const PointMass& m : scene_.masses)
-      add(m.node, {weight_ * m.mass * scene_.gravity[0], weight_ * m.mass * scene_.gravity[1]}, 1.0);
+    for (const PointMass& m : scene_.masses) add(m.node, pull_, m.mass);
     for (std::size_t i = 0; i < scene_.springs.size(); ++i) add_spring(i);
     for (std::size_t k = 0; k < scene_.contacts.size(); ++k) add_contact(k);
     for (std::size_t i = 0; i < scene_.rigid.size(); ++i)
@@ -101,7 +109,7 @@ class Gathering {
     Plane &at_a = on_node_[static_cast<std::size_t>(e.a)], &at_b = on_node_[static_cast<std::size_t>(e.b)];
     Plane along = uniform_[i];  // between the ends; a lumped weight lies at them
     for (std::size_t c = 0; c < 2; ++c) {
-      const double weight = weight_ * section.mass_per_length * scene_.gravity[c];
+      const double weight = section.mass_per_length * pull_[c];
       const double half = 0.5 * l * (uniform_[i][c] + weight);
       at_a[c] += half;
       at_b[c] += half;
@@ -214,7 +222,7 @@ class Gathering {
   const StandingForces& standing_;
   std::vector<Plane> on_node_, uniform_;                   // a node; an element: force per length that acts
   std::vector<double> supports_;                           // where those that move are
-  double weight_ = 1.0;                                    // how much of it acts
+  Plane pull_{0.0, 0.0};                                   // on a unit of mass: of gravity, and of the base
   std::map<std::pair<bool, std::string>, double> values_;  // of loads and strains, by name
 };
 

@@ -155,7 +155,7 @@ void add_base(const Scene& scene, const Assembly& assembly, std::vector<Load>& l
     load.kind = LoadKind::base;
     load.of_direction = unit::mass;
     load.of_history = unit::acceleration;
-    if (!load.direction.terms.empty()) loads.push_back(std::move(load));
+    if (!load.direction.terms.empty() || scene.run.geometric) loads.push_back(std::move(load));
   }
 }
 
@@ -249,7 +249,9 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   gravity.kind = LoadKind::weight;
   gravity.of_direction = unit::force;
   gravity.of_history = unit::plain;
-  if (!gravity.direction.terms.empty()) loads.push_back(std::move(gravity));
+  // Where supports hold all of it, it still stiffens and softens.
+  const bool stiffens = scene.run.geometric && (scene.gravity[0] != 0.0 || scene.gravity[1] != 0.0);
+  if (!gravity.direction.terms.empty() || stiffens) loads.push_back(std::move(gravity));
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     loads.push_back(given_load(scene.loads[i], map, i + 1));
   add_strains(scene, map, loads);

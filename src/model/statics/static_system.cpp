@@ -19,6 +19,7 @@ namespace {
 
 constexpr double fair_share = 1e-3;  // of a row's greatest entry, so that it may be its pivot
 constexpr double holds = 1e-6;  // of a tangent on a motion of size 1: with less a contact does not hold it
+constexpr double firmly = 4.0;  // times what pushes, so that it is held when two share a row
 constexpr double weak_share = 1e-10;  // of the diagonal: leaves six digits and holds what is loose
 constexpr double undriven = 1e-9;     // of the greatest load times motion: less work drives no free motion
 constexpr int together_up_to = 300;   // degrees of freedom; above, part by part
@@ -70,7 +71,11 @@ double own_stiffness(const SparseMatrix& k, const Combination& form) {
   for (const auto& [i, a] : form.terms) sum += a * a * std::abs(k.coeff(i, i));
   double length = 0.0;
   for (const auto& [i, a] : form.terms) length += a * a;
-  if (sum > 0.0) return sum / (length * length);
+  // What K pushes away the row holds, were it alone: a block on its feet, whose weight would topple it.
+  double against = 0.0;
+  for (const auto& [i, a] : form.terms)
+    if (a != 0.0) against = std::max(against, -firmly * k.coeff(i, i) / (a * a));
+  if (sum > 0.0) return std::max(sum / (length * length), against);
   const double largest = k.diagonal().cwiseAbs().maxCoeff();  // nothing there: any of the structure's
   return largest > 0.0 ? largest / length : 1.0 / length;
 }

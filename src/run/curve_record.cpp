@@ -13,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
-constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
+constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500, fewest_of_part = 250;
 // Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
 constexpr double least_rise = 1e-3;
 constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
@@ -32,20 +32,30 @@ std::optional<CurvePoint> vertex(const CurvePoint& a, const CurvePoint& b, const
 
 }  // namespace
 
-CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recorder)
-    : model_(model),
-      t_end_(t_end),
-      last_(recorder.wants_motion() ? 0.0 : std::numeric_limits<double>::infinity()),
-      wanted_(recorder.wants_motion()) {
-  if (!wanted_) return;
+std::vector<Column> drawn_columns(const Model& model) {
   std::map<std::string, std::size_t> of_kind;
   std::vector<Column> columns;
   for (const Column& column : model.columns)
     if (!column.velocity && ++of_kind[column.name.substr(column.name.rfind('.') + 1)] <= most_of_a_kind)
       columns.push_back(column);
+  return columns;
+}
+
+CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share)
+    : model_(model),
+      t_end_(t_end),
+      last_(recorder.wants_motion() ? 0.0 : std::numeric_limits<double>::infinity()),
+      wanted_(recorder.wants_motion()) {
+  if (!wanted_) return;
+  const std::vector<Column> columns = drawn_columns(model);
+  const std::size_t shown = share.whole() ? columns.size() : share.columns;
   const std::size_t most =
-      std::clamp(most_values / (columns.size() + energy_columns.size() + 1), fewest_points, most_points);
+      std::clamp(most_values / (shown + energy_columns.size() + 1), fewest_points, most_points);
   const Thinned<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
+  // Those of all parts are added up (run/summed_curves.hpp).
+  const Thinned<CurvePoint, 1, ValueOf> part(
+      t_end * model.unit.time,
+      {.most = std::max(most / share.parts, fewest_of_part), .crowded = !share.whole()});
   for (const Column& column : columns) {
     const bool turns =
         column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
@@ -54,8 +64,8 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
   }
   const double unit = factor_of(unit::energy, model.unit);
   for (const EnergyColumn& column : energy_columns)
-    curves_.push_back({column.name, Kind::energy, -1, unit, none});
-  curves_.push_back({balance_column, Kind::balance, -1, unit, none});
+    curves_.push_back({column.name, Kind::energy, -1, unit, part});
+  curves_.push_back({balance_column, Kind::balance, -1, unit, part});
 }
 
 std::vector<int> CurveRecord::dofs() const {

@@ -13,15 +13,19 @@
 #include <vector>
 
 #include "base/thinned.hpp"
+#include "run/part_share.hpp"
 #include "signorini/model.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
 
+/// Displacements that a picture shows.
+[[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
+
 class CurveRecord {
  public:
   /// Both must outlive the record. Nothing is kept where the recorder does not want it.
-  CurveRecord(const Model& model, double t_end, const Recorder& recorder);
+  CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   [[nodiscard]] bool wanted() const { return wanted_; }
   /// Entries of u that rows are made of, where u is the physical one.

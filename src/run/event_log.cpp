@@ -12,7 +12,6 @@
 namespace signorini {
 namespace {
 
-constexpr int most_warnings = 5;  // of pairs of events without an order
 // Of the time reached. Chosen: data are rarely known so well; changing it moves tests/behaviour/awkward.cpp.
 constexpr double coincidence = 1e-9;
 
@@ -120,7 +119,7 @@ void EventLog::see_hits(const Instant& now) {
     const double apart = now.t - last_hit_.t;
     if (!last_hit_.moves.empty() && last_hit_.moves[k] && apart > now.resolution &&
         apart < coincidence * now.t)
-      warn_of_order(
+      order_.warn(
           fmt::format("the hits of '{}' at {:.12g} and of '{}' {:.2g} later, which act on each other,",
                       model_.contacts[last_hit_.contact].name, last_hit_.t * model_.unit.time,
                       model_.contacts[k].name, apart * model_.unit.time));
@@ -137,9 +136,7 @@ void EventLog::see_hits(const Instant& now) {
 
 void EventLog::finish() {
   report_.counters.time_events = load_jumps_;
-  if (unordered_ > most_warnings)
-    report_.warnings.push_back(
-        fmt::format("{} more pairs of events whose order is not determined", unordered_ - most_warnings));
+  order_.finish();
 }
 
 /// A row of its own, without a contact.
@@ -149,9 +146,7 @@ void EventLog::load_jump(const Instant& now) {
   Event event;
   event.t = now.t;
   recorder_.event(event);
-  if (last_.contact >= 0 && now.t - last_.t < *last_.t_uncertainty)
-    warn_of_order(fmt::format("the event of '{}' at {:.12g} and the jump of a load at {:.12g}",
-                              name_of_last(), last_.t * model_.unit.time, now.t * model_.unit.time));
+  if (whole_) order_.load_jump(now.t);
 }
 
 void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
@@ -176,24 +171,7 @@ void EventLog::add_conditioning(const Instant& now, const Stepper& stepper, std:
   const double unseen = now.unseen.empty() ? 0.0 : now.unseen[k];
   if (!off && !(unseen > 0.0)) return;
   event.t_uncertainty = std::max({off.value_or(0.0), now.resolution, unseen});
-  if (last_.contact >= 0 && last_.contact != event.contact && event.t - last_.t > now.resolution &&
-      event.t - last_.t < *last_.t_uncertainty + *event.t_uncertainty)
-    warn_of_order(fmt::format("the events of '{}' at {:.12g} and of '{}' at {:.12g}", name_of_last(),
-                              last_.t * model_.unit.time, model_.contacts[k].name,
-                              event.t * model_.unit.time));
-  last_ = event;
-}
-
-void EventLog::warn_of_order(const std::string& which) {
-  if (++unordered_ <= most_warnings)
-    report_.warnings.push_back(
-        fmt::format("the order of {} is not determined at this precision ({} in "
-                    "events.csv)",
-                    which, event_column(&Event::t_uncertainty)));
-}
-
-const std::string& EventLog::name_of_last() const {
-  return model_.contacts[static_cast<std::size_t>(last_.contact)].name;
+  if (whole_) order_.event(event, now.resolution);
 }
 
 }  // namespace signorini

@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "engine/stepper.hpp"
+#include "run/event_order.hpp"
 
 namespace signorini {
 
@@ -31,9 +32,10 @@ namespace signorini {
 /// model.
 class EventLog {
  public:
-  /// Counts by type and warnings go to the report.
-  EventLog(const Model& model, Recorder& recorder, Report& report)
-      : model_(model), recorder_(recorder), report_(report) {}
+  /// Counts by type and warnings go to the report. whole: else what is logged are the events of a part, whose order among
+  /// others it does not know.
+  EventLog(const Model& model, Recorder& recorder, Report& report, bool whole)
+      : model_(model), recorder_(recorder), report_(report), order_(model, report), whole_(whole) {}
 
   struct Instant {
     double t = 0.0, resolution = 0.0;
@@ -55,21 +57,19 @@ class EventLog {
   void contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper);
   void add_conditioning(const Instant& now, const Stepper& stepper, std::size_t k, Event& event);
   void see_hits(const Instant& now);
-  void warn_of_order(const std::string& which);
-  [[nodiscard]] const std::string& name_of_last() const;
 
   const Model& model_;
   Recorder& recorder_;
   Report& report_;
   std::vector<Event> latest_;
-  Event last_;  // with a contact whose guard fell
   struct Hit {
     double t = 0.0;
     std::size_t contact = 0;
     std::vector<bool> moves;  ///< whose normal velocities it changed; empty: there is none
   } last_hit_;
   long load_jumps_ = 0;
-  int unordered_ = 0;
+  EventOrder order_;
+  bool whole_;
 };
 
 }  // namespace signorini

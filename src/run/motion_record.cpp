@@ -22,13 +22,16 @@ constexpr double growth = 0.2;  // of the distance to the next row, in what pass
 
 }  // namespace
 
-MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder)
+MotionRecord::MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share)
     : t_end_(t_end), spacing_(t_end / pieces_of_run), wanted_(recorder.wants_motion()) {
   if (!recorder.wants_motion() || model.contacts.empty()) return;
   const std::size_t count = model.contacts.size();
-  const std::size_t most = std::clamp(most_in_all / count, fewest_of_one, most_of_one);
-  for (std::size_t k = 0; k < count; ++k)
-    tracks_.push_back({{t_end, {most, k >= most_drawn, true, t_end / fewest_intervals}}, k < most_drawn});
+  const std::size_t in_all = share.whole() ? count : share.contacts;
+  const std::size_t most = std::clamp(most_in_all / in_all, fewest_of_one, most_of_one);
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool drawn = share.number(k) < most_drawn;
+    tracks_.push_back({{t_end, {most, !drawn, true, t_end / fewest_intervals}}, drawn});
+  }
   const auto parts = coupled_contacts(model);
   reached_.resize(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i)

@@ -19,6 +19,7 @@
 
 #include "base/thinned.hpp"
 #include "run/audit.hpp"
+#include "run/part_share.hpp"
 #include "signorini/result.hpp"
 
 namespace signorini {
@@ -26,7 +27,7 @@ namespace signorini {
 class MotionRecord {
  public:
   /// Both must outlive the record. Nothing is kept where the recorder does not want it.
-  MotionRecord(const Model& model, double t_end, const Recorder& recorder);
+  MotionRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share = {});
 
   /// A time inside of a step.
   struct Moment {

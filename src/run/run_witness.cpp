@@ -13,8 +13,6 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t most_violations = 100;  // that are kept; all are counted
-
 /// The guard's rate in the units that are computed in, which its row has not.
 RecordedEvent recorded(const Event& event, const Decision& decision) {
   RecordedEvent result = recorded_event(event);

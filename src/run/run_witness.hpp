@@ -11,6 +11,8 @@
 
 namespace signorini {
 
+inline constexpr std::size_t most_violations = 100;  // of a run, that are kept; all are counted
+
 /// Where a contact was at the start, and the farthest that it was seen from there.
 struct PassedPeak {
   double g0 = 0.0, ut0 = 0.0, place = 0.0;  // place: Sight

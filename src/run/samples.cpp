@@ -7,14 +7,14 @@ namespace signorini {
 
 double Samples::next() const {
   constexpr double never = std::numeric_limits<double>::infinity();
-  return std::min(next_row_ < grid_.size() ? grid_[next_row_] : never,
+  return std::min(next_row_ < grid_->size() ? (*grid_)[next_row_] : never,
                   next_frame_ < frames_.size() ? frames_[next_frame_] : never);
 }
 
 void Samples::emit(double t, const Works& ahead, const Forcing& forcing, const Mode& mode,
                    const Point& point) {
   const Sample now = sample(t, ahead, forcing, mode, point);
-  if (next_row_ < grid_.size() && grid_[next_row_] == t) {
+  if (next_row_ < grid_->size() && (*grid_)[next_row_] == t) {
     recorder_.sample(now);
     ++next_row_;
   }

@@ -3,6 +3,8 @@
 //   for (double t = samples.next(); t < step.end; t = samples.next()) samples.emit(t, state at t)
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "run/audit.hpp"
@@ -12,8 +14,14 @@ namespace signorini {
 class Samples {
  public:
   /// All of them must outlive the samples.
-  Samples(const Model& model, const RunSpec& run, Auditor& auditor, Recorder& recorder)
-      : model_(model), frames_(run.frames), auditor_(auditor), recorder_(recorder), grid_(run.grid()) {}
+  /// grid: that of the run where several have it; null: their own.
+  Samples(const Model& model, const RunSpec& run, Auditor& auditor, Recorder& recorder,
+          std::shared_ptr<const std::vector<double>> grid = nullptr)
+      : model_(model),
+        frames_(run.frames),
+        auditor_(auditor),
+        recorder_(recorder),
+        grid_(grid ? std::move(grid) : std::make_shared<const std::vector<double>>(run.grid())) {}
 
   /// The next time of the grid or of a frame; infinity after the last.
   [[nodiscard]] double next() const;
@@ -28,7 +36,7 @@ class Samples {
   const std::vector<double>& frames_;
   Auditor& auditor_;
   Recorder& recorder_;
-  std::vector<double> grid_;
+  std::shared_ptr<const std::vector<double>> grid_;
   std::size_t next_row_ = 0, next_frame_ = 0;
   Vector physical_u_, physical_v_;  // of a model with other unknowns
 };

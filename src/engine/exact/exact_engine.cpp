@@ -340,26 +340,43 @@ void ExactEngine::evaluate(double t, Point& point) {
   evaluate_at((t - series_.t) / series_.scale, point);
 }
 
-void ExactEngine::evaluate_at(double x, Point& point) const {
+void ExactEngine::glimpse(double t, Point& point) {
+  if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
+  point.a.resize(0);
+  place_at((t - series_.t) / series_.scale, point);
+}
+
+/// All but accelerations.
+void ExactEngine::place_at(double x, Point& point) const {
   const auto n = static_cast<std::size_t>(series_.u.rows());
   point.u.setZero(series_.u.rows());
   point.v.setZero(series_.u.rows());
-  point.a.setZero(series_.u.rows());
   point.forces.setZero(series_.forces.rows());
-  double *u = point.u.data(), *v = point.v.data(), *a = point.a.data(), *f = point.forces.data();
+  double *u = point.u.data(), *v = point.v.data(), *f = point.forces.data();
   const auto forces = static_cast<std::size_t>(series_.forces.rows());
   for (std::size_t k = degree_ + 1; k-- > 0;) {
     const double* c0 = series_.u.data() + k * n;
-    const double *c1 = c0 + n, *c2 = c1 + n;
+    const double* c1 = c0 + n;
     const double first = static_cast<double>(k + 1) / series_.scale;
-    const double second = first * static_cast<double>(k + 2) / series_.scale;
     for (std::size_t i = 0; i < n; ++i) {
       u[i] = u[i] * x + c0[i];
       v[i] = v[i] * x + first * c1[i];
-      a[i] = a[i] * x + second * c2[i];
     }
     const double* g = series_.forces.data() + k * forces;
     for (std::size_t i = 0; i < forces; ++i) f[i] = f[i] * x + g[i];
+  }
+}
+
+void ExactEngine::evaluate_at(double x, Point& point) const {
+  place_at(x, point);
+  const auto n = static_cast<std::size_t>(series_.u.rows());
+  point.a.setZero(series_.u.rows());
+  double* a = point.a.data();
+  for (std::size_t k = degree_ + 1; k-- > 0;) {
+    const double* c2 = series_.u.data() + (k + 2) * n;
+    const double first = static_cast<double>(k + 1) / series_.scale;
+    const double second = first * static_cast<double>(k + 2) / series_.scale;
+    for (std::size_t i = 0; i < n; ++i) a[i] = a[i] * x + second * c2[i];
   }
 }
 

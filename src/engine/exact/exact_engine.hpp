@@ -32,6 +32,8 @@ class ExactEngine final : public Stepper {
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
   void evaluate(double t, Point& point) override;
+  /// Without accelerations.
+  void glimpse(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
@@ -67,6 +69,7 @@ class ExactEngine final : public Stepper {
   [[nodiscard]] std::string hindrance(double scale) const;
   [[nodiscard]] Step failed(std::string reason);
   void evaluate_at(double x, Point& point) const;
+  void place_at(double x, Point& point) const;
 
   const Model& model_;
   const Structure& structure_;

@@ -1,0 +1,182 @@
+#include "model/assembly/part_models.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "model/assembly/parts.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t most_pieces = 2000000;  // of histories in all copies: some 300 MB
+
+/// All that a contact acts on, one a contact.
+std::vector<Combination> reaches(const Model& model) {
+  std::vector<Combination> forms;
+  for (const Contact& contact : model.contacts) {
+    auto& terms = forms.emplace_back(contact.normal).terms;
+    terms.insert(terms.end(), contact.tangent.terms.begin(), contact.tangent.terms.end());
+    if (contact.shear)
+      terms.insert(terms.end(), contact.shear->body.terms.begin(), contact.shear->body.terms.end());
+  }
+  return forms;
+}
+
+std::size_t pieces_of(const Model& model) {
+  std::size_t count = 0;
+  for (const Load& load : model.loads) count += load.history.pieces().size();
+  return count;
+}
+
+/// Which part has what, and what it is called there.
+class Split {
+ public:
+  explicit Split(const Model& model) : model_(model), part_of_(model.dofs.size()), place_(model.dofs.size()) {
+    const std::vector<Combination> forms = reaches(model);
+    const Parts coupled({&model.mass, &model.damping, &model.stiffness}, forms);
+    std::vector<std::size_t> part_of_set(coupled.count(), none);
+    for (std::size_t k = 0; k < forms.size(); ++k) {
+      // What acts on nothing goes with the first degree of freedom.
+      const int dof = forms[k].terms.empty() ? 0 : forms[k].terms.front().first;
+      std::size_t& part = part_of_set[coupled.part_of(dof)];
+      if (part == none) {
+        part = parts_.size();
+        parts_.emplace_back();
+      }
+      parts_[part].contacts.push_back(k);
+    }
+    with_contacts_ = parts_.size();
+    for (std::size_t i = 0; i < part_of_.size(); ++i) {
+      std::size_t part = part_of_set[coupled.part_of(static_cast<int>(i))];
+      if (part == none) {
+        part = with_contacts_;
+        if (parts_.size() == part) parts_.emplace_back();
+      }
+      part_of_[i] = part;
+      place_[i] = static_cast<int>(parts_[part].dofs.size());
+      parts_[part].dofs.push_back(static_cast<int>(i));
+    }
+  }
+
+  /// Parts that have contacts.
+  [[nodiscard]] std::size_t with_contacts() const { return with_contacts_; }
+  [[nodiscard]] std::size_t count() const { return parts_.size(); }
+
+  [[nodiscard]] std::vector<PartModel> models() {
+    for (PartModel& part : parts_) part.model = common();
+    divide_motion();
+    divide_loads();
+    for (PartModel& part : parts_) {
+      part.model.mass = block(model_.mass, part.dofs);
+      part.model.damping = block(model_.damping, part.dofs);
+      part.model.stiffness = block(model_.stiffness, part.dofs);
+      for (const std::size_t k : part.contacts) add_contact(k, part.model);
+    }
+    for (auto own : model_.columns) {
+      std::size_t part = 0;
+      if (own.dof >= 0) {
+        part = part_of_[static_cast<std::size_t>(own.dof)];
+        own.dof = place_[static_cast<std::size_t>(own.dof)];
+      }
+      parts_[part].model.columns.push_back(std::move(own));
+    }
+    return std::move(parts_);
+  }
+
+ private:
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+  [[nodiscard]] Model common() const {
+    Model model;
+    model.units = model_.units;
+    model.unit = model_.unit;
+    model.machine = model_.machine;
+    model.static_start = model_.static_start;
+    model.scales = model_.scales;
+    model.alpha = model_.alpha;
+    model.beta = model_.beta;
+    model.omega1 = model_.omega1;
+    model.omega_max = model_.omega_max;
+    return model;
+  }
+
+  void divide_motion() {
+    for (PartModel& part : parts_) {
+      const auto n = static_cast<Eigen::Index>(part.dofs.size());
+      part.model.u0.resize(n);
+      part.model.v0.resize(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const int from = part.dofs[static_cast<std::size_t>(i)];
+        part.model.dofs.push_back(model_.dofs[static_cast<std::size_t>(from)]);
+        part.model.u0[i] = model_.u0[from];
+        part.model.v0[i] = model_.v0[from];
+      }
+    }
+  }
+
+  void divide_loads() {
+    std::vector<std::size_t> last(parts_.size(), none);  // load that the part was given
+    for (std::size_t i = 0; i < model_.loads.size(); ++i) {
+      const Load& load = model_.loads[i];
+      const auto give = [&](std::size_t part) -> Load& {
+        std::vector<Load>& loads = parts_[part].model.loads;
+        if (std::exchange(last[part], i) != i) {
+          Load own = without_direction(load);
+          loads.push_back(std::move(own));
+        }
+        return loads.back();
+      };
+      for (const auto& [dof, factor] : load.direction.terms)
+        give(part_of_[static_cast<std::size_t>(dof)])
+            .direction.terms.emplace_back(place_[static_cast<std::size_t>(dof)], factor);
+      if (load.direction.terms.empty()) give(0);
+    }
+  }
+
+  [[nodiscard]] static Load without_direction(const Load& load) {
+    return {load.name, {}, load.history, load.is_static, load.kind, load.of_direction, load.of_history};
+  }
+
+  void renumber(Combination& form) const {
+    for (auto& [dof, factor] : form.terms) dof = place_[static_cast<std::size_t>(dof)];
+  }
+
+  void add_contact(std::size_t k, Model& model) const {
+    Contact contact = model_.contacts[k];
+    renumber(contact.normal);
+    renumber(contact.tangent);
+    if (contact.shear) renumber(contact.shear->body);
+    model.contacts.push_back(std::move(contact));
+    if (!model_.continues.empty()) model.continues.push_back(model_.continues[k]);
+  }
+
+  [[nodiscard]] SparseMatrix block(const SparseMatrix& a, const std::vector<int>& dofs) const {
+    const auto n = static_cast<int>(dofs.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int column = 0; column < n; ++column)
+      for (SparseMatrix::InnerIterator it(a, dofs[static_cast<std::size_t>(column)]); it; ++it)
+        if (it.value() != 0.0)
+          entries.emplace_back(place_[static_cast<std::size_t>(it.row())], column, it.value());
+    SparseMatrix result(n, n);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+
+  const Model& model_;
+  std::vector<PartModel> parts_;
+  std::vector<std::size_t> part_of_;  // one a degree of freedom
+  std::vector<int> place_;            // its number in its part
+  std::size_t with_contacts_ = 0;
+};
+
+}  // namespace
+
+std::vector<PartModel> part_models(const Model& model) {
+  if (model.size() == 0 || !model.is_physical() || !model.outputs.empty() || !model.reaction_sums.empty())
+    return {};
+  Split split(model);
+  if (split.with_contacts() < 2 || split.count() * pieces_of(model) > most_pieces) return {};
+  return split.models();
+}
+
+}  // namespace signorini

@@ -1,0 +1,216 @@
+#include "run/apart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "run/choose_flow.hpp"
+#include "run/joined_report.hpp"
+#include "run/part_rows.hpp"
+
+namespace signorini {
+namespace {
+
+/// Of t_end: rows of so much wait for parts that are behind, and an interrupted run is as far behind. Chosen.
+constexpr double stages = 32.0;
+constexpr double most_waiting = 8e6;  // numbers in these rows
+
+/// The way of the whole: its flow is not chosen again.
+RunSpec as_chosen(RunSpec spec, const Method& method) {
+  if (spec.engine == Engine::exact) spec.flow = method.flow == "modal" ? Flow::modal : Flow::taylor;
+  return spec;
+}
+
+/// What pictures draw of the whole, and no more.
+void keep_drawn(const Model& whole, std::vector<PartModel>& parts) {
+  std::set<std::string> drawn;
+  for (const Column& column : drawn_columns(whole)) drawn.insert(column.name);
+  for (PartModel& part : parts) {
+    std::vector<Column>& columns = part.model.columns;
+    columns.erase(std::remove_if(columns.begin(), columns.end(),
+                                 [&](const Column& c) { return drawn.count(c.name) == 0; }),
+                  columns.end());
+  }
+}
+
+class Apart {
+ public:
+  Apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec, const EngineRow& engine,
+        Method method, Recorder& recorder)
+      : whole_(whole),
+        parts_(std::move(parts)),
+        spec_(as_chosen(spec, method)),
+        engine_(engine),
+        recorder_(recorder),
+        grid_(std::make_shared<const std::vector<double>>(spec_.grid())),
+        rows_(whole, parts_, recorder, report_),
+        progress_([this] { return recorder_.progress(told_); }) {
+    report_.method = std::move(method);
+    keep_drawn(whole, parts_);
+    columns_ = drawn_columns(whole).size();
+    for (PartModel& part : parts_) {
+      recorders_.push_back(std::make_unique<PartRecorder>(part, recorder.wants_motion(), progress_));
+      rows_.add(*recorders_.back());
+      loops_.push_back(loop_of(part, spec_, *recorders_.back(), grid_));
+    }
+  }
+
+  Ending run() {
+    for (const auto& loop : loops_) loop->begin();
+    see_stops();
+    const long count = stage_count();
+    for (long i = 1; i <= count && !over(); ++i)
+      stage(i == count ? spec_.t_end : spec_.t_end * static_cast<double>(i) / static_cast<double>(count));
+    return ending();
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, Recorder& recorder,
+                                              std::shared_ptr<const std::vector<double>> grid) const {
+    return std::make_unique<Loop>(
+        part.model, spec, engine_, report_.method, recorder, Company{},
+        PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid)});
+  }
+
+  [[nodiscard]] long stage_count() const {
+    const double numbers =
+        static_cast<double>(grid_->size()) *
+        static_cast<double>(2 * whole_.size() + 8 * static_cast<int>(whole_.contacts.size()));
+    return static_cast<long>(std::max(stages, std::ceil(numbers / most_waiting)));
+  }
+
+  [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
+
+  void stage(double until) {
+    const double from = told_;
+    for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
+      told_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
+      loops_[i]->on(std::min(until, end_));
+      see_stops(i);
+    }
+    told_ = until;
+    if (!over()) rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+  }
+
+  /// The time to which all have come.
+  [[nodiscard]] double reached() const {
+    double t = spec_.t_end;
+    for (const auto& loop : loops_) t = std::min(t, loop->t());
+    return t;
+  }
+
+  void see_stops() {
+    for (std::size_t i = 0; i < loops_.size(); ++i) see_stops(i);
+  }
+
+  void see_stops(std::size_t i) {
+    const Outcome& outcome = loops_[i]->outcome();
+    if (outcome.kind == Outcome::Kind::interrupted) interrupted_ = true;
+    if (outcome.kind != Outcome::Kind::stopped || !(loops_[i]->t() < end_)) return;
+    end_ = loops_[i]->t();
+    stopped_ = &parts_[i];
+  }
+
+  /// A step may have gone far beyond the stage in which it found that its part stops.
+  void catch_up() {
+    for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
+      loops_[i]->on(end_);
+      see_stops(i);
+    }
+  }
+
+  Ending ending() {
+    if (stopped_ != nullptr && begun()) catch_up();
+    Ending result;
+    std::vector<Ending> endings;
+    std::vector<PartRecorder*> drawn;
+    std::vector<std::unique_ptr<PartRecorder>> again;
+    const double end = interrupted_ ? reached() : std::min(end_, spec_.t_end);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const bool beyond = !interrupted_ && stopped_ != nullptr && loops_[i]->t() > end;
+      drawn.push_back(recorders_[i].get());
+      if (beyond) {
+        again.push_back(std::make_unique<PartRecorder>(parts_[i], recorder_.wants_motion(), progress_));
+        drawn.back() = again.back().get();
+      }
+      endings.push_back(beyond ? until(end, parts_[i], *again.back()) : loops_[i]->end());
+      if (&parts_[i] == stopped_) result.grave = endings.back().grave;
+    }
+    if (over() && begun()) rows_.pass_on(end, true);
+    rows_.finish();
+    rows_.pass_on_motion(drawn);
+    result.energy_rounding = join(whole_, parts_, endings, report_);
+    tell_outcome(end, endings);
+    result.report = std::move(report_);
+    return result;
+  }
+
+  /// Nothing was refused at the start. Where something is, there are no rows.
+  [[nodiscard]] bool begun() const {
+    return std::all_of(loops_.begin(), loops_.end(), [](const auto& loop) { return loop->begun(); });
+  }
+
+  /// A part once more, to an earlier end: what it has found until then, without its rows.
+  [[nodiscard]] Ending until(double end, PartModel& part, PartRecorder& recorder) const {
+    RunSpec spec = spec_;
+    spec.t_end = end;
+    spec.output_times = std::vector<double>{0.0};
+    spec.frames.clear();
+    const std::unique_ptr<Loop> loop = loop_of(part, spec, recorder, nullptr);
+    loop->begin();
+    loop->on(end);
+    return loop->end();
+  }
+
+  void tell_outcome(double end, const std::vector<Ending>& endings) {
+    report_.outcome.t = end;
+    if (interrupted_) {
+      report_.outcome.kind = Outcome::Kind::interrupted;
+      report_.outcome.reason = "interrupted";
+      return;
+    }
+    if (stopped_ == nullptr) return;
+    const auto i = static_cast<std::size_t>(stopped_ - parts_.data());
+    report_.outcome = endings[i].report.outcome;
+    for (std::size_t& contact : report_.outcome.refusal.contacts) contact = stopped_->contacts[contact];
+  }
+
+  const Model& whole_;
+  std::vector<PartModel> parts_;
+  const RunSpec spec_;
+  const EngineRow& engine_;
+  Recorder& recorder_;
+  const std::shared_ptr<const std::vector<double>> grid_;
+  Report report_;
+  PartRows rows_;
+  const std::function<bool()> progress_;
+  std::size_t columns_ = 0;
+  std::vector<std::unique_ptr<PartRecorder>> recorders_;
+  std::vector<std::unique_ptr<Loop>> loops_;
+  double told_ = 0.0;                                     // of progress
+  double end_ = std::numeric_limits<double>::infinity();  // where the first part stops
+  const PartModel* stopped_ = nullptr;
+  bool interrupted_ = false;
+};
+
+}  // namespace
+
+Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
+                 const EngineRow& engine, Method method, Recorder& recorder) {
+  return Apart(whole, std::move(parts), spec, engine, std::move(method), recorder).run();
+}
+
+std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec, const Method& method,
+                                    const Recorder& recorder, const Company& company) {
+  if (!company.none() || recorder.steers() || recorder.wants_instants()) return {};
+  std::vector<PartModel> parts = part_models(model);
+  if (spec.engine == Engine::exact && method.flow == "modal")
+    for (const PartModel& part : parts)
+      if (!modal_kind(part.model).objection.empty()) return {};
+  return parts;
+}
+
+}  // namespace signorini

@@ -1,0 +1,86 @@
+// part_rows.hpp: rows of parts that run apart, merged into those of the whole.
+//
+//   events:  ascending in t; of one time: that of a load first, then by the parts' order, a part's own in its order
+//   rows:    at a time of the grid u, v and contacts of all parts, energies added up
+//
+//   PartRows rows(whole, parts, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
+//
+// All in the units of the whole. A jump of a load is one row, however many parts it acts on.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "model/assembly/part_models.hpp"
+#include "run/event_order.hpp"
+#include "signorini/result.hpp"
+
+namespace signorini {
+
+/// What a part has recorded and nobody has taken yet; contacts by their numbers in the whole.
+class PartRecorder final : public Recorder {
+ public:
+  struct Row {
+    double t = 0.0;
+    Vector u, v;
+    std::vector<ContactSample> contacts;
+    Energy energy;
+  };
+
+  PartRecorder(const PartModel& part, bool wants_motion, const std::function<bool()>& progress)
+      : part_(part), wants_motion_(wants_motion), progress_(progress) {}
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override { rows.push_back(row_of(sample)); }
+  void frame(const Sample& sample) override { frames.push_back(row_of(sample)); }
+  [[nodiscard]] bool wants_motion() const override { return wants_motion_; }
+  void motion(int contact, const std::vector<MotionRow>& drawn_rows) override;
+  void curves(const Curves& curves) override { drawn = curves; }
+  bool progress(double /*t*/) override { return progress_(); }
+
+  std::deque<Event> events;
+  std::deque<Row> rows, frames;
+  std::vector<std::vector<MotionRow>> motions;  ///< one a contact of the part
+  Curves drawn;
+
+ private:
+  [[nodiscard]] static Row row_of(const Sample& sample);
+
+  const PartModel& part_;
+  bool wants_motion_;
+  const std::function<bool()>& progress_;
+};
+
+class PartRows {
+ public:
+  /// All must outlive it. The report is told of events by type, of jumps of loads, and of what has no order.
+  PartRows(const Model& whole, const std::vector<PartModel>& parts, Recorder& recorder, Report& report)
+      : whole_(whole), parts_(parts), recorder_(recorder), report_(report), order_(whole, report) {}
+
+  /// In the order of the parts.
+  void add(PartRecorder& recorder) { of_.push_back(&recorder); }
+  /// Hands on rows up to t, and events before it, with `last` those at t, too.
+  void pass_on(double t, bool last = false);
+  /// After the last of them.
+  void finish() { order_.finish(); }
+  /// Hands on what pictures need, once, from these recorders in the order of the parts.
+  void pass_on_motion(const std::vector<PartRecorder*>& from);
+
+ private:
+  using Rows = std::deque<PartRecorder::Row> PartRecorder::*;
+  void pass_on_events(double t, bool last);
+  void pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
+  [[nodiscard]] Curves curves_of(const std::vector<PartRecorder*>& from) const;
+
+  const Model& whole_;
+  const std::vector<PartModel>& parts_;
+  Recorder& recorder_;
+  Report& report_;
+  std::vector<PartRecorder*> of_;
+  EventOrder order_;
+  double jumped_ = -1.0;  // when a load did
+};
+
+}  // namespace signorini

@@ -1,0 +1,23 @@
+// part_share.hpp: what a run that computes a part of a model has in common with those of the others.
+//
+//   rows a contact, points a curve:   as if all parts were one
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace signorini {
+
+/// As it is: the whole.
+struct PartShare {
+  std::size_t parts = 1;
+  std::size_t contacts = 0, columns = 0;                      ///< of the whole; columns: that are drawn
+  std::vector<std::size_t> numbers = {};                      ///< in the whole, one a contact
+  std::shared_ptr<const std::vector<double>> grid = nullptr;  ///< of output times; null: its own
+
+  [[nodiscard]] bool whole() const { return parts == 1; }
+  [[nodiscard]] std::size_t number(std::size_t k) const { return whole() ? k : numbers[k]; }
+};
+
+}  // namespace signorini

@@ -264,17 +264,47 @@ TEST_CASE("where one part stops the others end, with what they have done until t
     CHECK(result.report.audit.friction_work[1] == doctest::Approx(0.4 * way).epsilon(1e-11));
     CHECK(result.report.audit.final.friction == doctest::Approx(0.4 * way + 0.5 * 2.4 * 2.4).epsilon(1e-11));
     CHECK(result.report.events_by_type.at("reversal") == 2);
+    CHECK(result.report.audit.initial.kinetic == doctest::Approx(0.5 * 2.4 * 2.4));
+    CHECK(result.report.audit.initial.elastic == doctest::Approx(0.5 * 5.0 * 100.0));
   }
 }
 
 TEST_CASE("what is refused at the start leaves no rows and no events of other parts") {
-  std::string text = oscillators(true);
-  text.replace(text.find("2.4"), 3, "0.0");  // it sticks at once
-  const Result result = run_text(text, "exact");
+  // The second hits its ground at 0.
+  const Result result = run_text(
+      matrix_scene(
+          "t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [0.0, -1.0] }",
+          "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+          "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4",
+          "[[contacts]]\nname = \"ground\"\nlaw = \"rigid\"\nnormal = { d1 = 1.0 }\nrestitution = 0.5\n"
+          "[[contacts]]\nname = \"other\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\n"
+          "normal_force = 1.0\nfriction = 0.4\n"),
+      "exact");
   CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
   CHECK(result.report.outcome.t == 0.0);
   CHECK(result.rows.empty());
   CHECK(result.events.empty());
+}
+
+TEST_CASE("a load that jumps on two parts is one row, before those of the contacts whose forces jump") {
+  const Result result =
+      run_text(matrix_scene("t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+                            "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+                            "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4",
+                            "[[contacts]]\nname = \"other\"\nlaw = \"slider\"\ntangent = { d1 = 1.0 }\n"
+                            "normal_force = 1.0\nfriction = 0.4\n"
+                            "[[loads]]\ndirection = { d0 = 1.0, d1 = -0.5 }\namplitude = 0.2\n"
+                            "history = { type = \"step\", start = 0.4 }\n"),
+               "exact");
+  REQUIRE(result.events.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(result.events[i].t == 0.4);
+    CHECK(result.events[i].type == EventType::time);
+    CHECK(result.events[i].contact == static_cast<int>(i) - 1);
+  }
+  CHECK(result.events[1].T_after == doctest::Approx(0.2));
+  CHECK(result.events[2].T_after == doctest::Approx(-0.1));
+  CHECK(result.report.events_by_type.at("time") == 1);
 }
 
 TEST_CASE("an interrupted run has rows and events up to a time that all parts have reached") {

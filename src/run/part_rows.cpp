@@ -49,6 +49,7 @@ void PartRows::pass_on_events(double t, bool last) {
   std::stable_sort(all.begin(), all.end(), [](const Event& a, const Event& b) {
     return std::pair(a.t, a.contact >= 0) < std::pair(b.t, b.contact >= 0);
   });
+  events_ += all.size();
   for (const Event& event : all) {
     if (event.contact < 0) {
       if (std::exchange(jumped_, event.t) == event.t) continue;

@@ -63,6 +63,8 @@ class PartRows {
   void add(PartRecorder& recorder) { of_.push_back(&recorder); }
   /// Hands on rows up to t, and events before it, with `last` those at t, too.
   void pass_on(double t, bool last = false);
+  /// Handed on so far, those that were left out as the same jump of a load among them.
+  [[nodiscard]] std::size_t events() const { return events_; }
   /// After the last of them.
   void finish() { order_.finish(); }
   /// Hands on what pictures need, once, from these recorders in the order of the parts.
@@ -81,6 +83,7 @@ class PartRows {
   std::vector<PartRecorder*> of_;
   EventOrder order_;
   double jumped_ = -1.0;  // when a load did
+  std::size_t events_ = 0;
 };
 
 }  // namespace signorini

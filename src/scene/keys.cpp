@@ -57,7 +57,7 @@ constexpr Key table_of_keys[] = {
     {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
     {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
     {"run", "max_order", tolerance_order, "", "\"auto\"", "", "Greatest order of IDA's formulas, 1 to 5, or \"auto\"."},
-    {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops; bodies that nothing couples count each for themselves."},
+    {"run", "max_events_at_once", count, "", "100", "", "Rounds of state changes at one instant before the run stops; bodies that run apart (theory.md) count each for themselves."},
     {"run", "dt", positive, "time", "", "", "Time step of engines whose steps have a given length (newmark, friction-iteration), which need it; with step = \"doubling\" the greatest one."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "Engine newmark, time of an event: \"root\" redoes the step until the guard at its end is zero; \"linear\" redoes it once, to the interpolated time (contacts without stiffness: as \"root\")."},
     {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: every step is dt, or the one at which doubling it changes the result by less than the tolerance."},

@@ -37,8 +37,7 @@ std::vector<double> cutoffs_of(const std::string& text) {
 
 ExitCode check_scene(const CheckOptions& options) {
   std::vector<Override> changes = overrides_of(options.settings);
-  if (!options.engine.empty())
-    changes.push_back({"run.engine", options.engine, "--engine " + options.engine});
+  if (!options.engine.empty()) changes.push_back(engine_override(options.engine, "--engine"));
   const Scene scene = read_scene(options.scene, changes);
   const Model model = build_model(scene);
   print_patterns(options.scene, options.settings);

@@ -104,8 +104,7 @@ std::string what_is_quicker(const Scene& scene, const Model& model, double secon
 
 ExitCode run(const RunOptions& options, const std::vector<std::string>& command_line) {
   std::vector<Override> changes = overrides_of(options.settings);
-  if (!options.engine.empty())
-    changes.push_back({"run.engine", options.engine, "--engine " + options.engine});
+  if (!options.engine.empty()) changes.push_back(engine_override(options.engine, "--engine"));
   if (options.certify) changes.push_back({"run.certify", "true", "--certify"});
   const TableStyle style = table_style_of(options.table, options);
   const bool plain = style == TableStyle::plain;

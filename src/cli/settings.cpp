@@ -101,6 +101,8 @@ std::vector<Override> overrides_for(const std::vector<std::string>& settings,
   return changes;
 }
 
-Override engine_override(const std::string& engine) { return {"run.engine", engine, "--engines " + engine}; }
+Override engine_override(const std::string& engine, const std::string& option) {
+  return {"run.engine", engine, option + " " + engine};
+}
 
 }  // namespace signorini::cli

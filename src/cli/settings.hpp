@@ -47,6 +47,6 @@ void print_patterns(const std::string& scene, const std::vector<std::string>& se
                                                   const std::string& engine);
 
 /// The engine that --engines chose.
-[[nodiscard]] Override engine_override(const std::string& engine);
+[[nodiscard]] Override engine_override(const std::string& engine, const std::string& option = "--engines");
 
 }  // namespace signorini::cli

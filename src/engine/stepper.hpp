@@ -2,7 +2,7 @@
 //
 //   start(segment) -> advance() -> advance() ... -> an event or segment.end -> start(next segment)
 //
-// The loop (run/simulate.cpp) decides, applies and records; a stepper advances, finds the instant at
+// The loop (run/loop.hpp) decides, applies and records; a stepper advances, finds the instant at
 // which the first guard falls, and integrates works over what it has passed.
 #pragma once
 

@@ -48,6 +48,11 @@ std::string word_of(LoadKind kind) {
                    fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
 }
 
+/// A stage names loads one by one, or all of a kind.
+bool is_called(const Load& load, const std::string& name) {
+  return name == load.name || name == word_of(load.kind);
+}
+
 /// Adds the loads of one stage, and counts how often each was taken.
 Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::vector<int>& taken) {
   const std::string key = fmt::format("run.stages.{}.loads", number);
@@ -56,7 +61,7 @@ Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::v
     bool any = false;
     for (std::size_t i = 0; i < model.loads.size(); ++i) {
       const Load& load = model.loads[i];
-      if (spec.loads[j] != load.name && spec.loads[j] != word_of(load.kind)) continue;
+      if (!is_called(load, spec.loads[j])) continue;
       any = true;
       if (++taken[i] > 1)
         throw SceneError(
@@ -98,10 +103,9 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector
 /// What supports hold presses members and bodies.
 bool presses(const StageSpec& spec, const Model& model) {
   return std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
-    const auto named = [&](const std::string& name) {
-      return name == load.name || name == word_of(load.kind);
-    };
-    return load.history.value(0.0) != 0.0 && std::any_of(spec.loads.begin(), spec.loads.end(), named);
+    return load.history.value(0.0) != 0.0 &&
+           std::any_of(spec.loads.begin(), spec.loads.end(),
+                       [&](const std::string& name) { return is_called(load, name); });
   });
 }
 

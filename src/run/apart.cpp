@@ -16,11 +16,11 @@ namespace {
 
 /// Of t_end: rows of so much at most wait for parts that are behind, and an interrupted run is as far behind. Chosen.
 constexpr double stages = 32.0;
-/// Pictures of energies are sums of thinned lines, and may miss peaks by more than the 1 % that pictures promise. Chosen.
-constexpr std::size_t few = 16;
 constexpr double most_waiting = 8e6;  // numbers in these rows
 constexpr std::size_t most_events =
-    2000;  // that wait: with more the next stage is shorter; less than a megabyte
+    2000;  // that wait, less than a megabyte: with more the next stage is shorter
+/// With fewer parts pictures of energies, sums of thinned lines, may miss peaks by more than the 1 % that pictures promise.
+constexpr std::size_t fewest_drawn = 17;
 
 /// The way of the whole: its flow is not chosen again.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
@@ -65,12 +65,10 @@ class Apart {
   Ending run() {
     for (const auto& loop : loops_) loop->begin();
     see_stops();
-    const double longest = spec_.t_end / stage_count();
+    const double longest = longest_stage();
     double length = longest / stages;  // how dense events are, nobody knows yet
     while (told_ < spec_.t_end && !over()) {
-      const std::size_t before = rows_.events();
-      stage(told_ + length < spec_.t_end ? told_ + length : spec_.t_end);
-      const std::size_t found = rows_.events() - before;
+      const std::size_t found = stage(told_ + length < spec_.t_end ? told_ + length : spec_.t_end);
       length = found > most_events ? 0.5 * length : std::min(longest, 2.0 * length);
     }
     return ending();
@@ -84,16 +82,17 @@ class Apart {
         PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid)});
   }
 
-  [[nodiscard]] double stage_count() const {
+  [[nodiscard]] double longest_stage() const {
     const double numbers =
         static_cast<double>(grid_->size()) *
         static_cast<double>(2 * whole_.size() + 8 * static_cast<int>(whole_.contacts.size()));
-    return std::max(stages, std::ceil(numbers / most_waiting));
+    return spec_.t_end / std::max(stages, std::ceil(numbers / most_waiting));
   }
 
   [[nodiscard]] bool over() const { return interrupted_ || stopped_ != nullptr; }
 
-  void stage(double until) {
+  /// Returns how many events it passed on.
+  std::size_t stage(double until) {
     const double from = told_;
     for (std::size_t i = 0; i < loops_.size() && !interrupted_; ++i) {
       told_ = from + (until - from) * static_cast<double>(i) / static_cast<double>(loops_.size());
@@ -101,7 +100,7 @@ class Apart {
       see_stops(i);
     }
     told_ = until;
-    if (!over()) rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+    return over() ? 0 : rows_.pass_on(until == spec_.t_end ? until : reached(), until == spec_.t_end);
   }
 
   /// The time to which all have come.
@@ -215,8 +214,7 @@ Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec
 std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec, const Method& method,
                                     const Recorder& recorder, const Company& company) {
   if (!company.none() || recorder.steers() || recorder.wants_instants()) return {};
-  std::vector<PartModel> parts = part_models(model);
-  if (recorder.wants_motion() && parts.size() <= few) return {};
+  std::vector<PartModel> parts = part_models(model, recorder.wants_motion() ? fewest_drawn : 2);
   if (spec.engine == Engine::exact && method.flow == "modal")
     for (const PartModel& part : parts)
       if (!modal_kind(part.model).objection.empty()) return {};

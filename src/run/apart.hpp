@@ -6,7 +6,7 @@
 // A part's steps and events ask for what is its own only: n parts that are alike take n times as long as one, where together
 // each event of one would cost a sweep over all. What decides (scales, velocities below which rebounds rest) is of
 // the whole. Where a part stops, the others end at that time, too. Whoever follows a run from inside, steers it, or keeps
-// both sides of its instants sees one motion: then parts run together (simulate.cpp).
+// both sides of its instants sees one motion: then parts run together (parts_to_run).
 #pragma once
 
 #include "model/assembly/part_models.hpp"

@@ -34,13 +34,14 @@ PartRecorder::Row PartRecorder::row_of(const Sample& sample) {
   return {sample.t, *sample.u, *sample.v, sample.contacts, sample.energy};
 }
 
-void PartRows::pass_on(double t, bool last) {
-  pass_on_events(t, last);
+std::size_t PartRows::pass_on(double t, bool last) {
+  const std::size_t events = pass_on_events(t, last);
   pass_on_rows(t, &PartRecorder::rows, &Recorder::sample);
   pass_on_rows(t, &PartRecorder::frames, &Recorder::frame);
+  return events;
 }
 
-void PartRows::pass_on_events(double t, bool last) {
+std::size_t PartRows::pass_on_events(double t, bool last) {
   std::vector<Event> all;
   for (PartRecorder* part : of_)
     for (; !part->events.empty() && (part->events.front().t < t || (last && part->events.front().t == t));
@@ -49,7 +50,6 @@ void PartRows::pass_on_events(double t, bool last) {
   std::stable_sort(all.begin(), all.end(), [](const Event& a, const Event& b) {
     return std::pair(a.t, a.contact >= 0) < std::pair(b.t, b.contact >= 0);
   });
-  events_ += all.size();
   for (const Event& event : all) {
     if (event.contact < 0) {
       if (std::exchange(jumped_, event.t) == event.t) continue;
@@ -61,6 +61,7 @@ void PartRows::pass_on_events(double t, bool last) {
     if (event.contact < 0 || event.type != EventType::time) ++report_.events_by_type[to_string(event.type)];
     recorder_.event(event);
   }
+  return all.size();
 }
 
 void PartRows::pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&)) {

@@ -61,10 +61,9 @@ class PartRows {
 
   /// In the order of the parts.
   void add(PartRecorder& recorder) { of_.push_back(&recorder); }
-  /// Hands on rows up to t, and events before it, with `last` those at t, too.
-  void pass_on(double t, bool last = false);
-  /// Handed on so far, those that were left out as the same jump of a load among them.
-  [[nodiscard]] std::size_t events() const { return events_; }
+  /// Hands on rows up to t, and events before it, with `last` those at t, too. Returns how many events these were, those
+  /// left out as the same jump of a load among them.
+  std::size_t pass_on(double t, bool last = false);
   /// After the last of them.
   void finish() { order_.finish(); }
   /// Hands on what pictures need, once, from these recorders in the order of the parts.
@@ -72,7 +71,7 @@ class PartRows {
 
  private:
   using Rows = std::deque<PartRecorder::Row> PartRecorder::*;
-  void pass_on_events(double t, bool last);
+  std::size_t pass_on_events(double t, bool last);
   void pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
   [[nodiscard]] Curves curves_of(const std::vector<PartRecorder*>& from) const;
 
@@ -83,7 +82,6 @@ class PartRows {
   std::vector<PartRecorder*> of_;
   EventOrder order_;
   double jumped_ = -1.0;  // when a load did
-  std::size_t events_ = 0;
 };
 
 }  // namespace signorini

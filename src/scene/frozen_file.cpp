@@ -1,6 +1,7 @@
 #include "scene/frozen_file.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
@@ -26,7 +27,8 @@ std::optional<FrozenForces> read_frozen_forces(const std::filesystem::path& path
   };
   std::vector<std::string> cells;
   if (!read_csv_row(in, cells) || cells != frozen_heading())
-    fail("found no heading \"what,from,to,N_from,N_to,stiffness\", expected the frozen forces of a run");
+    fail(fmt::format("found no heading \"{}\", expected the frozen forces of a run",
+                     fmt::join(frozen_heading(), ",")));
   const auto number = [&](const std::string& cell) {
     const auto value = parse_number(cell);
     if (!value || !std::isfinite(*value)) fail(fmt::format("found \"{}\", expected a number", excerpt(cell)));

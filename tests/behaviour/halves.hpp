@@ -50,6 +50,32 @@ inline void shift(Scene& scene, double t) {
   for (BaseMotionSpec& base : scene.base_motion) earlier(base.acceleration);
 }
 
+/// One run in memory and in a directory, without what pictures need: as the half that goes on, which is kept in memory,
+/// it is made of parts where nothing couples them. Together their roundings are others, and grow for all of the run.
+class Kept final : public Result {
+ public:
+  Kept(const std::filesystem::path& folder, const Scene& scene, const Model& model)
+      : directory_(folder, scene, model, {true, {"test"}}) {}
+
+  void event(const Event& event) override {
+    Result::event(event);
+    directory_.event(event);
+  }
+  void sample(const Sample& sample) override {
+    Result::sample(sample);
+    directory_.sample(sample);
+  }
+  void response(double t, const std::vector<double>& values) override {
+    Result::response(t, values);
+    directory_.response(t, values);
+  }
+  void frame(const Sample& sample) override { directory_.frame(sample); }
+  void finish() { static_cast<void>(directory_.finish(report)); }
+
+ private:
+  RunDirectory directory_;
+};
+
 struct Sizes {
   double u = 0.0, v = 0.0, force = 0.0;
 };
@@ -129,11 +155,9 @@ inline Difference split_scene(const Reader& read, const std::vector<Override>& s
   whole.run.output_times = times;
 
   const Model model = build_model(whole);
-  const Result all = simulate(model, whole.run);
-  {
-    RunDirectory directory(folder, whole, model, {true, {"test"}});
-    static_cast<void>(directory.finish(simulate(model, whole.run, directory)));
-  }
+  Kept all(folder, whole, model);
+  all.report = simulate(model, whole.run, all);
+  all.finish();
   std::vector<Override> on = settings;
   on.push_back({"run.initial", fmt::format("{{ run = \"{}\", t = {} }}", folder.string(), t)});
   Scene second = read(on);

@@ -153,10 +153,6 @@ struct Builder {
   }
 };
 
-}  // namespace
-
-namespace {
-
 Builder begun(const Scene& scene, const DofMap& map) {
   const Vector zero = Vector::Zero(map.size());
   return {scene,

@@ -9,6 +9,9 @@
 // the first contact in file order that can. One that the loads drive is refused. Sliders carry nothing
 // here, but can hold a free motion. A contact whose normal carries nothing is open where the structure does not
 // reach it, whichever way rounding turns its reaction.
+//
+// With geometric stiffness (run.geometric) K may have negative energy where contacts are open, and Newton's method has
+// no minimum to find. So it begins with the contacts that are closed without it.
 #pragma once
 
 #include <vector>
@@ -18,9 +21,6 @@
 
 namespace signorini {
 
-//
-// With geometric stiffness (run.geometric) K may have negative energy where contacts are open, and Newton's method has
-// no minimum to find. So it begins with the contacts that are closed without it.
 struct Equilibrium {
   Vector u;                  ///< n
   StaticStart start;         ///< reactions -N >= 0 a contact, names of free motions

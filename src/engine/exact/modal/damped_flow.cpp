@@ -1,5 +1,7 @@
 #include "engine/exact/modal/damped_flow.hpp"
 
+#include "engine/exact/modal/passage_turns.hpp"
+
 namespace signorini {
 
 std::string DampedFlow::start(const Segment& segment, const Vector& q, const Vector& rate, ModalPoint& now) {
@@ -7,6 +9,14 @@ std::string DampedFlow::start(const Segment& segment, const Vector& q, const Vec
   proof_.start();
   works_.start();
   return {};
+}
+
+void DampedFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
+                            TurningPoints& turning, LastTurns& turns) {
+  const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
+    motion_.advance(at, step, to);
+  };
+  find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
 void DampedFlow::forces(const ModalPoint& at, Point& point) const {

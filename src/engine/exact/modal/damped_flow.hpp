@@ -36,9 +36,7 @@ class DampedFlow final : public ModalFlow {
     return proof_.magnitude(slot, at);
   }
   void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
-                  LastTurns& turns) override {
-    proof_.find_turns(from, begin, length, observed, turning, turns);
-  }
+                  LastTurns& turns) override;
   void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
     works_.add(from, to, works);
   }

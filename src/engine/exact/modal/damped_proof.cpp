@@ -179,8 +179,6 @@ std::array<const ModalQuantity*, 4> DampedProof::shown(std::size_t c) const {
   return {&own.N, &own.T, &own.gap, &own.ut};
 }
 
-/// The part of [0, x_end] of the last step on which N, T, g and ut of no contact turn beyond what they ranged
-/// over: they stay within it, or go one way.
 double DampedProof::within(const ModalPoint& at, const TurningPoints& known, double x_end) const {
   std::vector<double> room(count_), rate(count_ - 1);
   double safe = 1.0;
@@ -202,7 +200,6 @@ double DampedProof::within(const ModalPoint& at, const TurningPoints& known, dou
   return safe * x_end;
 }
 
-/// A step with ripples up to that share of the ranges; returns its length.
 double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
                                   double remaining) {
   amplitude_ = at.y.cwiseAbs();
@@ -222,15 +219,7 @@ double DampedProof::expand_beside(const ModalPoint& at, const TurningPoints& kno
   return h_;
 }
 
-/// For how long from a point on no peak exceeds all before, as far as slow modes tell.
-double DampedProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  const double step = expand_beside(at, known, coarse_ripple, remaining);
-  return step > 0.0 ? within(at, known, step / h_) * h_ : 0.0;
-}
-
-/// The contacts' motion from a point on, with ripples that are rounding beside those ranges; returns for how long.
-double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  expand_beside(at, known, fine_ripple, remaining);
+const std::vector<ContactSeries>& DampedProof::series(const ModalPoint& at) {
   for (std::size_t c = 0; c < series_.size(); ++c) {
     series_[c].reset(count_ - 1);
     for (std::size_t f = 0; f < 4; ++f) {
@@ -238,7 +227,7 @@ double DampedProof::expand_finely(const ModalPoint& at, const TurningPoints& kno
       std::copy(part.p.begin(), part.p.end(), series_[c].place(TurningPoints::watched[f]));
     }
   }
-  return h_;
+  return series_;
 }
 
 /// What rose up to the end of the passage before and falls from there on has its peak between them.
@@ -254,36 +243,6 @@ void DampedProof::see_begin(const ModalPoint& at, double time, TurningPoints& tu
       if (const auto turn = turning.begins(c, TurningPoints::watched[f], value, rate, time))
         turns[turn->kind] = turn->time;
     }
-}
-
-void DampedProof::find_turns(const ModalPoint& from, double begin, double length, bool observed,
-                             TurningPoints& turning, LastTurns& turns) {
-  if (!observed) see_begin(from, begin, turning, turns);
-  const double x_end = length / h_, x = within(from, turning, x_end);
-  if (x >= x_end) return;
-  double done = x * h_;
-  ModalPoint point, next;
-  motion_.advance(from, done, point);
-  const auto go = [&](double step) {
-    motion_.advance(point, step, next);
-    std::swap(point, next);
-    done += step;
-  };
-  while (done < length) {
-    // What went one way up to here may turn at this very point.
-    see_begin(point, begin + done, turning, turns);
-    go(look_ahead(point, turning, length - done));
-    if (!(done < length)) return;
-    const double step = expand_finely(point, turning, length - done);
-    if (!(step > 0.0)) return;
-    Series clock;
-    clock.t = begin + done;
-    clock.scale = h_;
-    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
-    turning.find(series_, clock, step / h_, ends);
-    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
-    go(step);
-  }
 }
 
 }  // namespace signorini

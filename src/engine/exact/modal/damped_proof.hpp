@@ -21,8 +21,13 @@ class DampedProof {
   void rearm(const ModalPoint& at);
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] double slope(std::size_t slot, const ModalPoint& at) const;
-  void find_turns(const ModalPoint& from, double begin, double length, bool observed, TurningPoints& turning,
-                  LastTurns& turns);
+
+  // As passage_turns.hpp asks.
+  [[nodiscard]] double unit() const { return h_; }
+  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
+  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
+  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] const std::vector<ContactSeries>& series(const ModalPoint& at);
 
  private:
   struct Watched {
@@ -51,11 +56,6 @@ class DampedProof {
   [[nodiscard]] bool settle(const Watched& guard, const ModalPoint& at, Passage& passage, double& limit,
                             double& event);
   [[nodiscard]] std::array<const ModalQuantity*, 4> shown(std::size_t contact) const;
-  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
-  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
-  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
-  [[nodiscard]] double look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining);
-  [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
 
   const DampedMotion& motion_;
   Arming arming_;

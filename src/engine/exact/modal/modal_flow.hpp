@@ -25,10 +25,6 @@ struct Passage {
   std::vector<std::size_t> touches;  ///< slots whose guards touch zero within rounding
 };
 
-/// Of the range of what a peak is looked for in: what fast modes may add to it where it turns, and where it is only asked
-/// whether it may. The second is chosen: with more it is asked again sooner, with less in shorter steps.
-inline constexpr double fine_ripple = rounding::of_elimination, coarse_ripple = 1e-4;
-
 /// Of one kind the last turn counts: see TurningPoints::Turn.
 using LastTurns = std::map<std::size_t, double>;
 

@@ -41,19 +41,13 @@ class ModalProof {
   [[nodiscard]] double magnitude(std::size_t slot, const ModalPoint& at) const;
   [[nodiscard]] Shown shown(std::size_t contact, const ModalPoint& at) const;
   [[nodiscard]] ForceLaw law(std::size_t contact) const { return laws_[contact]; }
-  /// The part of [0, x_end] of the last passage up to which N, T, g and ut of no contact turn beyond what they
-  /// ranged over: they stay within it, or go one way; x_end: in all of it.
-  [[nodiscard]] double within(const TurningPoints& known, double x_end) const;
-  /// Peaks between two passages of a step.
-  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
-  /// For how long from a point on no peak exceeds all before, as far as slow modes tell.
-  [[nodiscard]] double look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining);
-  /// The contacts' slow parts from a point on, with ripples that are rounding beside those ranges; returns for
-  /// how long.
-  [[nodiscard]] double expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining);
-  /// The slow parts of the contacts at the last passage or expansion, in units of `unit` of time.
-  [[nodiscard]] const std::vector<ContactSeries>& slow() const { return slow_; }
+
+  // As passage_turns.hpp asks.
   [[nodiscard]] double unit() const { return h_; }
+  [[nodiscard]] double within(const ModalPoint& at, const TurningPoints& known, double x_end) const;
+  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
+  void see_begin(const ModalPoint& at, double time, TurningPoints& turning, LastTurns& turns) const;
+  [[nodiscard]] const std::vector<ContactSeries>& series(const ModalPoint& /*at*/) const { return slow_; }
 
  private:
   static constexpr double turn = 4.0;           // rad of the fastest slow mode in a step
@@ -73,7 +67,6 @@ class ModalProof {
     double place = 0.0, rate = 0.0;
   };
   using Watch4 = std::array<double, 4>;  // N, T, g and ut, as in TurningPoints::watched
-  double expand_beside(const ModalPoint& at, const TurningPoints& known, double share, double remaining);
   [[nodiscard]] Watch4 ripples(std::size_t contact, bool of_rate) const;
   [[nodiscard]] Watch4 one_way(std::size_t contact, double x_end, std::vector<double>& p) const;
   void watch(const Segment& segment, const StateModes& state);

@@ -79,7 +79,7 @@ ModalProof::Watch4 ModalProof::one_way(std::size_t c, double x_end, std::vector<
   return {N, T, gap, ut};
 }
 
-double ModalProof::within(const TurningPoints& known, double x_end) const {
+double ModalProof::within(const ModalPoint& /*at*/, const TurningPoints& known, double x_end) const {
   if (std::find(pair_slow_.begin(), pair_slow_.end(), false) != pair_slow_.end()) return 0.0;
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // of x_end
@@ -112,16 +112,6 @@ void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& tur
   }
 }
 
-double ModalProof::look_ahead(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  const double step = expand_beside(at, known, coarse_ripple, remaining);
-  return step > 0.0 ? within(known, step / h_) * h_ : 0.0;
-}
-
-double ModalProof::expand_finely(const ModalPoint& at, const TurningPoints& known, double remaining) {
-  return expand_beside(at, known, fine_ripple, remaining);
-}
-
-/// With ripples up to that share of the ranges; returns the length of the step.
 double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
                                  double remaining) {
   measure_amplitudes(at);

@@ -1,8 +1,7 @@
 #include "engine/exact/modal/proportional_flow.hpp"
 
 #include "contact/motion.hpp"
-
-#include <algorithm>
+#include "engine/exact/modal/passage_turns.hpp"
 
 namespace signorini {
 
@@ -36,35 +35,12 @@ std::string ProportionalFlow::start(const Segment& segment, const Vector& q, con
   return {};
 }
 
-/// Peaks are looked for only where one may exceed all before.
 void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double length, bool observed,
                                   TurningPoints& turning, LastTurns& turns) {
-  if (!observed) proof_.see_begin(from, begin, turning, turns);
-  const double x_end = length / proof_.unit(), x = proof_.within(turning, x_end);
-  if (x >= x_end) return;
-  double done = x * proof_.unit();
-  ModalPoint point, next;
-  oscillators_.advance(from, forces_, done, point);
-  const auto go = [&](double step) {
-    oscillators_.advance(point, forces_, step, next);
-    std::swap(point, next);
-    done += step;
+  const auto advance = [&](const ModalPoint& at, double step, ModalPoint& to) {
+    oscillators_.advance(at, forces_, step, to);
   };
-  while (done < length) {
-    // What went one way up to here may turn at this very point.
-    proof_.see_begin(point, begin + done, turning, turns);
-    go(proof_.look_ahead(point, turning, length - done));
-    if (!(done < length)) return;
-    const double step = proof_.expand_finely(point, turning, length - done);
-    if (!(step > 0.0)) return;
-    Series clock;
-    clock.t = begin + done;
-    clock.scale = proof_.unit();
-    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
-    turning.find(proof_.slow(), clock, step / proof_.unit(), ends);
-    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
-    go(step);
-  }
+  find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
 void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector* change) const {

@@ -1,0 +1,57 @@
+// passage_turns.hpp: greatest and least N, T, g and ut within a passage, in modes.
+//
+//   where a peak may exceed all before: first as far as slow modes tell, then with ripples that are rounding
+//
+// A proof (modal_proof.hpp, damped_proof.hpp) is a step of length unit() that was expanded from a point, and offers
+//   within(at, known, x_end)                     the part of [0, x_end] on which nothing turns beyond what is known
+//   expand_beside(at, known, share, remaining)   a new step, with ripples up to that share of the ranges; its length
+//   see_begin(at, time, turning, turns)          what turns at a point itself
+//   series(at)                                   the contacts' slow parts on the step
+#pragma once
+
+#include <utility>
+
+#include "base/rounding.hpp"
+#include "engine/exact/modal/modal_flow.hpp"
+
+namespace signorini {
+
+/// Of the range of what a peak is looked for in: what fast modes may add to it where it turns, and where it is only asked
+/// whether it may. The second is chosen: with more it is asked again sooner, with less in shorter steps.
+inline constexpr double fine_ripple = rounding::of_elimination, coarse_ripple = 1e-4;
+
+/// advance(from, step, to): the closed form. Begin: the time of `from`; observed: the passage begins with a segment, at
+/// whose begin everything was looked at.
+template <class Proof, class Advance>
+void find_passage_turns(Proof& proof, const Advance& advance, const ModalPoint& from, double begin,
+                        double length, bool observed, TurningPoints& turning, LastTurns& turns) {
+  if (!observed) proof.see_begin(from, begin, turning, turns);
+  const double x_end = length / proof.unit(), x = proof.within(from, turning, x_end);
+  if (x >= x_end) return;
+  double done = x * proof.unit();
+  ModalPoint point, next;
+  advance(from, done, point);
+  const auto go = [&](double step) {
+    advance(point, step, next);
+    std::swap(point, next);
+    done += step;
+  };
+  while (done < length) {
+    // What went one way up to here may turn at this very point.
+    proof.see_begin(point, begin + done, turning, turns);
+    const double coarse = proof.expand_beside(point, turning, coarse_ripple, length - done);
+    go(coarse > 0.0 ? proof.within(point, turning, coarse / proof.unit()) * proof.unit() : 0.0);
+    if (!(done < length)) return;
+    const double step = proof.expand_beside(point, turning, fine_ripple, length - done);
+    if (!(step > 0.0)) return;
+    Series clock;
+    clock.t = begin + done;
+    clock.scale = proof.unit();
+    const auto ends = observed && !(done > 0.0) ? TurningPoints::Ends::first_part : TurningPoints::Ends::part;
+    turning.find(proof.series(point), clock, step / proof.unit(), ends);
+    for (const TurningPoints::Turn& turn : turning.turns()) turns[turn.kind] = turn.time;
+    go(step);
+  }
+}
+
+}  // namespace signorini

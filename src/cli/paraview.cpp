@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/plot_any.hpp"
 #include "cli/terminal.hpp"
 #include "report/page.hpp"
 #include "report/run_data.hpp"
@@ -28,6 +29,7 @@ ExitCode write_frames(const FrameOptions& options) {
     throw UsageError(fmt::format("--frames: found {}, expected 1 to {}", options.count, most));
   const fs::path directory = options.directory;
   if (kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
+  if (!complete_pictures(directory)) return ExitCode::interrupted;
   const Json data = run_data(read_scene((directory / "run.toml").string()), directory);
   const auto count = static_cast<std::size_t>(options.count);
   const std::vector<double> times = frame_times(data, count, std::max<std::size_t>(count, 1000));

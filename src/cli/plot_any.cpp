@@ -5,9 +5,12 @@
 #include <fstream>
 
 #include "base/json.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/terminal.hpp"
 #include "report/page.hpp"
 #include "signorini/error.hpp"
 #include "study/compare/comparison_plots.hpp"
+#include "study/picture_rows.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
 #include "study/sensitivity/sensitivity_plots.hpp"
 #include "study/sweep/sweep_directory.hpp"
@@ -59,6 +62,12 @@ std::vector<fs::path> comparison_scripts(const fs::path& directory, const Pictur
 }
 
 }  // namespace
+
+bool complete_pictures(const fs::path& directory) {
+  if (!lacks_picture_rows(directory)) return true;
+  print_note(directory.string() + ": computed again for its pictures, as it was run with --no-plots");
+  return add_picture_rows(directory, [] { return !Interrupt::asked(); });
+}
 
 std::vector<fs::path> write_any_plots(const fs::path& directory, const PlotWindow& window,
                                       const PictureLook& look) {

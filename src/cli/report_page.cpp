@@ -5,6 +5,7 @@
 
 #include "cli/check_text.hpp"
 #include "cli/command.hpp"
+#include "cli/plot_any.hpp"
 #include "cli/terminal.hpp"
 #include "report/page.hpp"
 #include "result/csv.hpp"
@@ -30,6 +31,7 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
   const bool run = kind_of_results(directory) == "run";
   const fs::path page = given.empty() ? directory / "report.html" : given;
   if (run) {
+    if (!complete_pictures(directory)) return ExitCode::interrupted;
     const Scene scene = read_scene((directory / "run.toml").string());
     write_file(page, run_page(directory, scene, check_of(scene)));
   } else {

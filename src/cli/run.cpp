@@ -73,9 +73,9 @@ std::string reduction_line(const Model& model) {
       last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->tried.size());
 }
 
-/// What came out; `events`: their table.
+/// What came out; `events`: their table; pictures: the run has what they need.
 std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
-                 const std::string& events, const fs::path& path) {
+                 const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
   const std::string tables = stacked({start_table(model), events, contact_table(model, report),
                                       response_table(model, report), closing(scene.run, model, report)});
@@ -83,7 +83,8 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
          reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +
-         "contacts.csv, motion.csv, energy.csv, curves.csv, " + frames + "summary.json, run.toml)\n";
+         (pictures ? "contacts.csv, motion.csv, energy.csv, curves.csv, " : "contacts.csv, energy.csv, ") +
+         frames + "summary.json, run.toml)\n";
 }
 
 /// What would be quicker than a run that is expected to take `seconds` in all. Empty: nothing, or not by much.
@@ -116,7 +117,8 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   const auto trace = options.trace ? std::make_unique<TraceWriter>(*options.trace, model) : nullptr;
   RoundListener listener;
   if (trace) listener = [&](const Round& round) { trace->write(round); };
-  RunDirectory directory(path, scene, model, {options.force, command_line, options.instants});
+  RunDirectory directory(path, scene, model,
+                         {options.force, command_line, options.instants, !options.no_plots});
 
   CertifiedReport certified;
   const Report& report = certified.report;
@@ -146,7 +148,7 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
     print(stacked({start_table(model, style), events, contact_table(model, report, style),
                    response_table(model, report, style), audit_table(model, report.audit, style)}));
   } else if (options.tables()) {
-    print(told(scene, model, certified, events, path));
+    print(told(scene, model, certified, events, path, !options.no_plots));
   }
   const bool pictures = !options.no_plots && report.outcome.kind != Outcome::Kind::interrupted;
   const std::string drawn =

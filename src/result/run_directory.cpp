@@ -11,6 +11,7 @@
 #include "result/frozen_forces.hpp"
 #include "result/instants.hpp"
 #include "result/load_table.hpp"
+#include "result/picture_tables.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plots.hpp"
 #include "result/run_tables.hpp"
@@ -74,7 +75,7 @@ struct RunDirectory::Writers {
   std::optional<TableFile<ResponseRow>> response;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<StateWriter> states;
-  std::unique_ptr<TableFile<ContactRow>> motion;
+  std::unique_ptr<PictureTables> pictures;
   std::unique_ptr<InstantWriter> instants;
 };
 
@@ -138,21 +139,17 @@ void RunDirectory::frame(const Sample& sample) {
   keep_state(sample);
 }
 
-void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
+PictureTables& RunDirectory::pictures() {
   Writers& w = writers();
-  if (!w.motion) w.motion = std::make_unique<TableFile<ContactRow>>(path_ / "motion.csv", contact_table());
-  const Contact& of = model_.contacts[static_cast<std::size_t>(contact)];
-  for (const MotionRow& row : rows) w.motion->add({row.t, of, row.sample});
-  w.motion->flush();
+  if (!w.pictures) w.pictures = std::make_unique<PictureTables>(path_, model_);
+  return *w.pictures;
 }
 
-void RunDirectory::curves(const Curves& curves) {
-  writers();
-  TableFile<CurveRow> file(path_ / "curves.csv", curve_table());
-  for (std::size_t i = 0; i < curves.names.size(); ++i)
-    for (const CurvePoint& point : curves.points[i]) file.add({curves.names[i], point});
-  file.flush();
+void RunDirectory::motion(int contact, const std::vector<MotionRow>& rows) {
+  pictures().motion(contact, rows);
 }
+
+void RunDirectory::curves(const Curves& curves) { pictures().curves(curves); }
 
 void RunDirectory::response(double t, const std::vector<double>& values) {
   TableFile<ResponseRow>& file = *writers().response;

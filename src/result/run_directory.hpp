@@ -20,10 +20,13 @@
 
 namespace signorini {
 
+class PictureTables;
+
 struct RunDirectoryOptions {
   bool force = false;
   std::vector<std::string> command_line;  ///< for summary.json
   bool instants = false;                  ///< instants.csv, too
+  bool pictures = true;                   ///< motion.csv and curves.csv, too
 };
 
 /// Errors of all members: FileError.
@@ -37,7 +40,7 @@ class RunDirectory : public Recorder {
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
   void frame(const Sample& sample) override;
-  [[nodiscard]] bool wants_motion() const override { return true; }
+  [[nodiscard]] bool wants_motion() const override { return options_.pictures; }
   void motion(int contact, const std::vector<MotionRow>& rows) override;
   void curves(const Curves& curves) override;
   void response(double t, const std::vector<double>& values) override;
@@ -59,6 +62,7 @@ class RunDirectory : public Recorder {
   /// Everything from which another run may go on.
   void keep_state(const Sample& sample);
   Writers& writers();
+  PictureTables& pictures();
 
   std::filesystem::path path_;
   const Scene& scene_;

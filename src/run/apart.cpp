@@ -19,8 +19,6 @@ constexpr double stages = 32.0;
 constexpr double most_waiting = 8e6;  // numbers in these rows
 constexpr std::size_t most_events =
     2000;  // that wait, less than a megabyte: with more the next stage is shorter
-/// With fewer parts pictures of energies, sums of thinned lines, may miss peaks by more than the 1 % that pictures promise.
-constexpr std::size_t fewest_drawn = 17;
 
 /// The way of the whole: its flow is not chosen again.
 RunSpec as_chosen(RunSpec spec, const Method& method) {
@@ -50,7 +48,7 @@ class Apart {
         engine_(engine),
         recorder_(recorder),
         grid_(std::make_shared<const std::vector<double>>(spec_.grid())),
-        rows_(whole, parts_, recorder, report_),
+        rows_(whole, parts_, spec_.t_end, recorder, report_),
         progress_([this] { return recorder_.progress(told_); }) {
     report_.method = std::move(method);
     keep_drawn(whole, parts_);
@@ -75,11 +73,12 @@ class Apart {
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, Recorder& recorder,
+  [[nodiscard]] std::unique_ptr<Loop> loop_of(PartModel& part, const RunSpec& spec, PartRecorder& recorder,
                                               std::shared_ptr<const std::vector<double>> grid) const {
     return std::make_unique<Loop>(
         part.model, spec, engine_, report_.method, recorder, Company{},
-        PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid)});
+        PartShare{parts_.size(), whole_.contacts.size(), columns_, part.contacts, std::move(grid),
+                  [&recorder](double t, const Energy& energy) { recorder.energies(t, energy); }});
   }
 
   [[nodiscard]] double longest_stage() const {
@@ -149,7 +148,7 @@ class Apart {
     }
     if (over() && begun()) rows_.pass_on(end, true);
     rows_.finish();
-    rows_.pass_on_motion(drawn);
+    rows_.pass_on_motion(end, drawn);
     result.energy_rounding = join(whole_, parts_, endings, report_);
     tell_outcome(end, endings);
     result.report = std::move(report_);
@@ -214,7 +213,7 @@ Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec
 std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec, const Method& method,
                                     const Recorder& recorder, const Company& company) {
   if (!company.none() || recorder.steers() || recorder.wants_instants()) return {};
-  std::vector<PartModel> parts = part_models(model, recorder.wants_motion() ? fewest_drawn : 2);
+  std::vector<PartModel> parts = part_models(model);
   if (spec.engine == Engine::exact && method.flow == "modal")
     for (const PartModel& part : parts)
       if (!modal_kind(part.model).objection.empty()) return {};

@@ -18,8 +18,7 @@ namespace signorini {
 [[nodiscard]] Ending run_apart(const Model& whole, std::vector<PartModel> parts, const RunSpec& spec,
                                const EngineRow& engine, Method method, Recorder& recorder);
 
-/// Its parts, if a run in this way is made of them; empty: it is made of the whole, as that of few parts is where
-/// pictures are wanted.
+/// Its parts, if a run in this way is made of them; empty: it is made of the whole.
 [[nodiscard]] std::vector<PartModel> parts_to_run(const Model& model, const RunSpec& spec,
                                                   const Method& method, const Recorder& recorder,
                                                   const Company& company);

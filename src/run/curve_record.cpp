@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "base/rounding.hpp"
 #include "run/row_spacing.hpp"
@@ -13,7 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t most_of_a_kind = 24;  // displacement's pictures name no more
-constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500, fewest_of_part = 250;
+constexpr std::size_t most_values = 100000, most_points = 8000, fewest_points = 2500;
 // Of the range, which a curve has so far: a parabola whose vertex is not higher than its middle row by that adds nothing.
 constexpr double least_rise = 1e-3;
 constexpr double turn = 1e-3;  // rad; of a structure's rotations, so that those of 1e-15 are rounding
@@ -41,21 +42,20 @@ std::vector<Column> drawn_columns(const Model& model) {
   return columns;
 }
 
+std::size_t most_points_of(std::size_t columns) {
+  return std::clamp(most_values / (columns + energy_columns.size() + 1), fewest_points, most_points);
+}
+
 CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recorder, const PartShare& share)
     : model_(model),
       t_end_(t_end),
       last_(recorder.wants_motion() ? 0.0 : std::numeric_limits<double>::infinity()),
-      wanted_(recorder.wants_motion()) {
+      wanted_(recorder.wants_motion()),
+      energies_(share.energies) {
   if (!wanted_) return;
   const std::vector<Column> columns = drawn_columns(model);
-  const std::size_t shown = share.whole() ? columns.size() : share.columns;
-  const std::size_t most =
-      std::clamp(most_values / (shown + energy_columns.size() + 1), fewest_points, most_points);
+  const std::size_t most = most_points_of(share.whole() ? columns.size() : share.columns);
   const Thinned<CurvePoint, 1, ValueOf> none(t_end * model.unit.time, {.most = most});
-  // Those of all parts are added up (run/summed_curves.hpp).
-  const Thinned<CurvePoint, 1, ValueOf> part(
-      t_end * model.unit.time,
-      {.most = std::max(most / share.parts, fewest_of_part), .crowded = !share.whole()});
   for (const Column& column : columns) {
     const bool turns =
         column.dof >= 0 && model.physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
@@ -64,8 +64,8 @@ CurveRecord::CurveRecord(const Model& model, double t_end, const Recorder& recor
   }
   const double unit = factor_of(unit::energy, model.unit);
   for (const EnergyColumn& column : energy_columns)
-    curves_.push_back({column.name, Kind::energy, -1, unit, part});
-  curves_.push_back({balance_column, Kind::balance, -1, unit, part});
+    curves_.push_back({column.name, Kind::energy, -1, unit, none, share.whole()});
+  curves_.push_back({balance_column, Kind::balance, -1, unit, none, share.whole()});
 }
 
 std::vector<int> CurveRecord::dofs() const {
@@ -80,6 +80,7 @@ bool CurveRecord::needs(double t) const { return t - last_ >= closest_rows * t_e
 void CurveRecord::add(double t, const Vector& u, const Energy& energy) {
   if (!wanted()) return;
   last_ = t;
+  if (energies_) energies_(t, energy);
   asked_ = std::numeric_limits<double>::infinity();
   const bool plain = model_.is_physical();
   const Vector physical = plain ? Vector() : model_.physical(u, t, 0);
@@ -102,6 +103,12 @@ void CurveRecord::add(Curve& curve, const CurvePoint& point) {
     return;
   }
   asked_ = std::min(asked_, asked_by(curve, point) / model_.unit.time);
+  if (!curve.kept) {
+    curve.least = std::min(curve.least, second.value);
+    curve.greatest = std::max(curve.greatest, second.value);
+    first = std::exchange(second, point);
+    return;
+  }
   // The balance is rounding: a parabola through it says nothing.
   const std::optional<CurvePoint> peak =
       curve.kind == Kind::balance ? std::nullopt : vertex(first, second, point);
@@ -122,7 +129,7 @@ double CurveRecord::asked_by(const Curve& curve, const CurvePoint& point) {
   if (curve.kind == Kind::balance || !(point.t > second.t && second.t > first.t) || !std::isfinite(first.t))
     return any;
   const double floor = std::max(greatest, curve.kind == Kind::angle ? turn : 0.0);
-  const double range = curve.points.range();
+  const double range = curve.range();
   if (!(range > rounding::of_elimination * floor)) return any;
   const double left = second.t - first.t, right = point.t - second.t, part = left / (left + right);
   return spacing_for(left, right, std::abs(second.value - first.value - part * (point.value - first.value)),
@@ -138,6 +145,7 @@ void CurveRecord::write(Recorder& recorder) {
   }
   Curves curves;
   for (Curve& curve : curves_) {
+    if (!curve.kept) continue;
     const double rounding =
         curve.kind == Kind::balance ? 0.0 : rounding::of_elimination * greatest[curve.kind];
     curve.points.close({rounding});

@@ -5,10 +5,11 @@
 //
 // Rows are both sides of every instant, and ends and insides of steps as many as a line needs, taken where
 // contacts are (motion_record.hpp). Each curve is thinned by itself (base/thinned.hpp). No parabola leads across an
-// instant: its two sides have one time.
+// instant: its two sides have one time. Energies of a part are handed on as they come (energy_sum.hpp).
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace signorini {
 
 /// Displacements that a picture shows.
 [[nodiscard]] std::vector<Column> drawn_columns(const Model& model);
+
+/// Points of a curve, at most, of so many displacements.
+[[nodiscard]] std::size_t most_points_of(std::size_t columns);
 
 class CurveRecord {
  public:
@@ -53,6 +57,12 @@ class CurveRecord {
     int dof;        // -1: held, or an energy
     double factor;  // of its unit
     Thinned<CurvePoint, 1, ValueOf> points;
+    bool kept = true;  // false: somebody adds it to others
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+
+    [[nodiscard]] double range() const {
+      return kept ? points.range() : greatest >= least ? greatest - least : 0.0;
+    }
     std::array<CurvePoint, 2> before = {
         {{-std::numeric_limits<double>::infinity(), 0.0}, {}}};  // the last two
     bool begun = false;
@@ -65,7 +75,8 @@ class CurveRecord {
   double asked_ = std::numeric_limits<double>::infinity();
   std::array<double, 4> greatest_{};  // of each kind
   bool wanted_;
-  std::vector<Curve> curves_;  // displacements, energies, the balance
+  std::function<void(double, const Energy&)> energies_;  // of a part
+  std::vector<Curve> curves_;                            // displacements, energies, the balance
 };
 
 }  // namespace signorini

@@ -6,12 +6,9 @@
 
 #include "motion/clock.hpp"
 #include "run/curve_record.hpp"
-#include "run/summed_curves.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr std::size_t most_of_a_sum = 8000;  // points of an energy, as CurveRecord has at most
 
 void add_to(Energy& sum, const Energy& part) {
   for (const EnergyColumn& column : energy_columns) sum.*column.value += part.*column.value;
@@ -34,10 +31,20 @@ PartRecorder::Row PartRecorder::row_of(const Sample& sample) {
   return {sample.t, *sample.u, *sample.v, sample.contacts, sample.energy};
 }
 
+PartRows::PartRows(const Model& whole, const std::vector<PartModel>& parts, double t_end, Recorder& recorder,
+                   Report& report)
+    : whole_(whole),
+      parts_(parts),
+      recorder_(recorder),
+      report_(report),
+      energy_sum_(whole, t_end, most_points_of(drawn_columns(whole).size())),
+      order_(whole, report) {}
+
 std::size_t PartRows::pass_on(double t, bool last) {
   const std::size_t events = pass_on_events(t, last);
   pass_on_rows(t, &PartRecorder::rows, &Recorder::sample);
   pass_on_rows(t, &PartRecorder::frames, &Recorder::frame);
+  energy_sum_.take(energy_lines_, t);
   return events;
 }
 
@@ -93,7 +100,7 @@ void PartRows::pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Samp
   }
 }
 
-void PartRows::pass_on_motion(const std::vector<PartRecorder*>& from) {
+void PartRows::pass_on_motion(double t, const std::vector<PartRecorder*>& from) {
   if (!recorder_.wants_motion()) return;
   std::vector<const std::vector<MotionRow>*> motions(whole_.contacts.size());
   for (std::size_t i = 0; i < from.size(); ++i)
@@ -101,23 +108,22 @@ void PartRows::pass_on_motion(const std::vector<PartRecorder*>& from) {
       motions[parts_[i].contacts[k]] = &from[i]->motions[k];
   for (std::size_t k = 0; k < motions.size(); ++k)
     if (motions[k] != nullptr) recorder_.motion(static_cast<int>(k), *motions[k]);
-  recorder_.curves(curves_of(from));
+  energy_sum_.take(energy_lines_, t);
+  Curves curves = displacements_of(from);
+  energy_sum_.write(curves);
+  recorder_.curves(curves);
 }
 
-Curves PartRows::curves_of(const std::vector<PartRecorder*>& from) const {
-  std::map<std::string, std::vector<const std::vector<CurvePoint>*>> of_name;
+Curves PartRows::displacements_of(const std::vector<PartRecorder*>& from) const {
+  std::map<std::string, const std::vector<CurvePoint>*> of_name;
   for (const PartRecorder* part : from)
     for (std::size_t i = 0; i < part->drawn.names.size(); ++i)
-      of_name[part->drawn.names[i]].push_back(&part->drawn.points[i]);
+      of_name[part->drawn.names[i]] = &part->drawn.points[i];
   Curves curves;
-  const auto add = [&](const std::string& name, std::vector<CurvePoint> points) {
-    curves.names.push_back(name);
-    curves.points.push_back(std::move(points));
-  };
-  for (const Column& column : drawn_columns(whole_)) add(column.name, *of_name.at(column.name).front());
-  for (const EnergyColumn& column : energy_columns)
-    add(column.name, summed(of_name.at(column.name), most_of_a_sum));
-  add(balance_column, summed(of_name.at(balance_column), most_of_a_sum));
+  for (const Column& column : drawn_columns(whole_)) {
+    curves.names.push_back(column.name);
+    curves.points.push_back(*of_name.at(column.name));
+  }
   return curves;
 }
 

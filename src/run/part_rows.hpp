@@ -1,9 +1,9 @@
 // part_rows.hpp: rows of parts that run apart, merged into those of the whole.
 //
 //   events:  ascending in t; of one time: that of a load first, then by the parts' order, a part's own in its order
-//   rows:    at a time of the grid u, v and contacts of all parts, energies added up
+//   rows:    at a time of the grid u, v and contacts of all parts, energies added up (energy_sum.hpp)
 //
-//   PartRows rows(whole, parts, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
+//   PartRows rows(whole, parts, t_end, recorder, report);   Loop(part i, ..., rows.of(i));   rows.pass_on(t); ...
 //
 // All in the units of the whole. A jump of a load is one row, however many parts it acts on.
 #pragma once
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/assembly/part_models.hpp"
+#include "run/energy_sum.hpp"
 #include "run/event_order.hpp"
 #include "signorini/result.hpp"
 
@@ -40,8 +41,11 @@ class PartRecorder final : public Recorder {
   void curves(const Curves& curves) override { drawn = curves; }
   bool progress(double /*t*/) override { return progress_(); }
 
+  void energies(double t, const Energy& energy) { energy_rows.push_back({t, values_of(energy)}); }
+
   std::deque<Event> events;
   std::deque<Row> rows, frames;
+  EnergyLine energy_rows;
   std::vector<std::vector<MotionRow>> motions;  ///< one a contact of the part
   Curves drawn;
 
@@ -56,30 +60,35 @@ class PartRecorder final : public Recorder {
 class PartRows {
  public:
   /// All must outlive it. The report is told of events by type, of jumps of loads, and of what has no order.
-  PartRows(const Model& whole, const std::vector<PartModel>& parts, Recorder& recorder, Report& report)
-      : whole_(whole), parts_(parts), recorder_(recorder), report_(report), order_(whole, report) {}
+  PartRows(const Model& whole, const std::vector<PartModel>& parts, double t_end, Recorder& recorder,
+           Report& report);
 
   /// In the order of the parts.
-  void add(PartRecorder& recorder) { of_.push_back(&recorder); }
+  void add(PartRecorder& recorder) {
+    of_.push_back(&recorder);
+    energy_lines_.push_back(&recorder.energy_rows);
+  }
   /// Hands on rows up to t, and events before it, with `last` those at t, too. Returns how many events these were, those
   /// left out as the same jump of a load among them.
   std::size_t pass_on(double t, bool last = false);
   /// After the last of them.
   void finish() { order_.finish(); }
-  /// Hands on what pictures need, once, from these recorders in the order of the parts.
-  void pass_on_motion(const std::vector<PartRecorder*>& from);
+  /// Hands on what pictures need of a run to t, once, from these recorders in the order of the parts.
+  void pass_on_motion(double t, const std::vector<PartRecorder*>& from);
 
  private:
   using Rows = std::deque<PartRecorder::Row> PartRecorder::*;
   std::size_t pass_on_events(double t, bool last);
   void pass_on_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
-  [[nodiscard]] Curves curves_of(const std::vector<PartRecorder*>& from) const;
+  [[nodiscard]] Curves displacements_of(const std::vector<PartRecorder*>& from) const;
 
   const Model& whole_;
   const std::vector<PartModel>& parts_;
   Recorder& recorder_;
   Report& report_;
   std::vector<PartRecorder*> of_;
+  std::vector<EnergyLine*> energy_lines_;
+  EnergySum energy_sum_;
   EventOrder order_;
   double jumped_ = -1.0;  // when a load did
 };

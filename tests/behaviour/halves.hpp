@@ -50,8 +50,7 @@ inline void shift(Scene& scene, double t) {
   for (BaseMotionSpec& base : scene.base_motion) earlier(base.acceleration);
 }
 
-/// One run in memory and in a directory, without what pictures need: as the half that goes on, which is kept in memory,
-/// it is made of parts where nothing couples them. Together their roundings are others, and grow for all of the run.
+/// One run in memory and in a directory.
 class Kept final : public Result {
  public:
   Kept(const std::filesystem::path& folder, const Scene& scene, const Model& model)

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <regex>
 
 #include "program.hpp"
@@ -15,7 +17,8 @@ TEST_CASE("cli plot: draws again what was removed") {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
   const Shell shell;
   shell.write("belt.toml", belt(20));
-  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  REQUIRE(shell.run({"run", "belt.toml"}).code == 0);
+  std::filesystem::remove_all(shell / "belt-run/plots");
   const Ending ending = shell.run({"plot", "belt-run"});
   CHECK(ending.code == 0);
   CHECK(ending.err.empty());
@@ -27,6 +30,71 @@ TEST_CASE("cli plot: draws again what was removed") {
       CHECK(shell.read(picture).size() > 2000);
     }
   }
+}
+
+namespace {
+
+/// Twenty masses that slide by themselves, and so run apart.
+std::string many_sliders() {
+  std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+      "3.0\ninitial = {}\n[nodes]\n";
+  for (int i = 0; i < 20; ++i) text += fmt::format("b{0} = [{0}.0, 0.0]\n", i);
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format(
+        "[[masses]]\nnode = \"b{0}\"\nmass = {1}\n[[supports]]\nnode = \"b{0}\"\nfix = "
+        "[\"uy\"]\n[[springs]]\nnode = "
+        "\"b{0}\"\ndirection = [1.0, 0.0]\nstiffness = 40.0\n[[contacts]]\nname = \"s{0}\"\nnode = "
+        "\"b{0}\"\nlaw = "
+        "\"slider\"\ntangent = [1.0, 0.0]\nnormal_force = 1.0\nfriction = 0.4\n[[loads]]\nnode = "
+        "\"b{0}\"\ndirection = "
+        "[1.0, 0.0]\namplitude = 3.0\nhistory = {{ type = \"harmonic\", omega = {2} }}\n",
+        i, 1.0 + 0.07 * i, 3.0 + 0.3 * i);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("cli plot, report: what --no-plots left out is computed again, to the last bit") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  shell.write("many.toml", many_sliders());
+  for (const std::vector<std::string>& scene :
+       std::vector<std::vector<std::string>>{{"belt"}, {"many"}, {"many", "--instants"}}) {
+    std::vector<std::string> with{"run", scene[0] + ".toml", "-o", "with", "--force"}, without = with;
+    without[3] = "without";
+    without.emplace_back("--no-plots");
+    for (std::vector<std::string>* run : {&with, &without}) {
+      run->insert(run->end(), scene.begin() + 1, scene.end());
+      REQUIRE(shell.run(*run).code == 0);
+    }
+    for (const char* table : {"events.csv", "contacts.csv", "history.csv", "energy.csv"})
+      CHECK(shell.read(std::string("with/") + table) == shell.read(std::string("without/") + table));
+    CHECK_FALSE(signorini::cli_test::exists(shell, "without/motion.csv"));
+    CHECK_FALSE(signorini::cli_test::exists(shell, "without/curves.csv"));
+    Ending ending = shell.run({"report", "without"});
+    CHECK(ending.code == 0);
+    CHECK(
+        ending.err.find("note: without: computed again for its pictures, as it was run with --no-plots\n") !=
+        std::string::npos);
+    for (const char* table : {"motion.csv", "curves.csv"})
+      CHECK(shell.read(std::string("with/") + table) == shell.read(std::string("without/") + table));
+    ending = shell.run({"report", "without"});
+    CHECK(ending.err.empty());
+  }
+}
+
+TEST_CASE("cli plot: a run whose events are others by now gets no pictures of them") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  shell.write("belt-run/events.csv", shell.read("belt-run/events.csv") + "1,2,3\n");
+  const Ending ending = shell.run({"plot", "belt-run"});
+  CHECK(ending.code == 6);
+  CHECK(ending.err.find("events.csv") != std::string::npos);
+  CHECK(ending.err.find("has other events now") != std::string::npos);
+  CHECK_FALSE(signorini::cli_test::exists(shell, "belt-run/motion.csv"));
+  CHECK_FALSE(signorini::cli_test::exists(shell, "belt-run/plots"));
 }
 
 TEST_CASE("cli plot: size, format and title for a paper") {

@@ -120,8 +120,7 @@ TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files a
       CAPTURE(engine);
       const Shell shell;
       shell.write("planted.toml", text);
-      REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--no-plots", "--engine", engine})
-                  .code == 0);
+      REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", engine}).code == 0);
       const Ending ending = shell.run({"witness", "kept"});
       CHECK(ending.code == 0);
       CHECK(ending.out.find("all laws hold") != std::string::npos);
@@ -143,9 +142,7 @@ TEST_CASE("cli witness: a run that stops has rows of a step that leads to no ins
     CAPTURE(engine);
     const Shell shell;
     shell.write("two.toml", text);
-    REQUIRE(
-        shell.run({"run", "two.toml", "-o", "kept", "--instants", "--no-plots", "--engine", engine}).code ==
-        4);
+    REQUIRE(shell.run({"run", "two.toml", "-o", "kept", "--instants", "--engine", engine}).code == 4);
     const Ending ending = shell.run({"witness", "kept"});
     CHECK(ending.code == 0);
     if (ending.code != 0) MESSAGE(ending.out);
@@ -162,8 +159,7 @@ TEST_CASE("cli witness: a run that stops has rows of a step that leads to no ins
 TEST_CASE("cli witness: every alteration of a file is found") {
   const Shell shell;
   shell.write("planted.toml", scene_text);
-  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--no-plots", "--engine", "exact"})
-              .code == 0);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--engine", "exact"}).code == 0);
   struct Altered {
     const char *file, *law;
     Alteration alter;
@@ -209,7 +205,7 @@ TEST_CASE("cli witness: every alteration of a file is found") {
 TEST_CASE("cli witness: JSON, for programs") {
   const Shell shell;
   shell.write("planted.toml", scene_text);
-  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants", "--no-plots"}).code == 0);
+  REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--instants"}).code == 0);
   const auto told = nlohmann::json::parse(shell.run({"witness", "kept", "--json"}).out);
   CHECK(told["instants"].get<long>() > 20);
   CHECK(told["events"].get<long>() > 20);

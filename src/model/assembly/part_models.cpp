@@ -171,12 +171,11 @@ class Split {
 
 }  // namespace
 
-std::vector<PartModel> part_models(const Model& model, std::size_t fewest) {
+std::vector<PartModel> part_models(const Model& model) {
   if (model.size() == 0 || !model.is_physical() || !model.outputs.empty() || !model.reaction_sums.empty())
     return {};
   Split split(model);
-  if (split.with_contacts() < 2 || split.count() < fewest || split.count() * pieces_of(model) > most_pieces)
-    return {};
+  if (split.with_contacts() < 2 || split.count() * pieces_of(model) > most_pieces) return {};
   return split.models();
 }
 

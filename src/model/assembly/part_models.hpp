@@ -20,8 +20,7 @@ struct PartModel {
 };
 
 /// In the order of their first contacts. Empty: contacts reach each other, or the model is one of amplitudes, of rigid
-/// bodies, or asks for outputs, which may be sums over parts; or its loads are histories too long for a copy a part; or there
-/// are fewer parts than asked for.
-[[nodiscard]] std::vector<PartModel> part_models(const Model& model, std::size_t fewest = 2);
+/// bodies, or asks for outputs, which may be sums over parts; or its loads are histories too long for a copy a part.
+[[nodiscard]] std::vector<PartModel> part_models(const Model& model);
 
 }  // namespace signorini

@@ -1,0 +1,28 @@
+// picture_tables.hpp: motion.csv and curves.csv, which pictures and the page are drawn from.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "result/run_tables.hpp"
+
+namespace signorini {
+
+/// Errors of all members: FileError.
+class PictureTables {
+ public:
+  /// The directory is there. The model must outlive the tables.
+  PictureTables(std::filesystem::path directory, const Model& model)
+      : directory_(std::move(directory)), model_(model) {}
+
+  /// As Recorder::motion and Recorder::curves: rows of the next contact; the curves, once.
+  void motion(int contact, const std::vector<MotionRow>& rows);
+  void curves(const Curves& curves);
+
+ private:
+  std::filesystem::path directory_;
+  const Model& model_;
+  std::unique_ptr<TableFile<ContactRow>> motion_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,102 @@
+#include "study/picture_rows.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/json.hpp"
+#include "base/version.hpp"
+#include "result/picture_tables.hpp"
+#include "signorini/error.hpp"
+#include "signorini/simulate.hpp"
+#include "study/prepared_run.hpp"
+
+namespace signorini {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file) {
+  std::error_code none;
+  return fs::exists(file, none);
+}
+
+/// Events, and what pictures need, in memory: files are written when both are known.
+class PictureRows final : public Recorder {
+ public:
+  PictureRows(const Model& model, bool instants, const std::function<bool()>& go_on)
+      : table_(event_table(model)), instants_(instants), go_on_(go_on), motions_(model.contacts.size()) {
+    table_.put_header(events_);
+  }
+
+  void event(const Event& event) override { table_.put_row(events_, event); }
+  void sample(const Sample& /*sample*/) override {}
+  [[nodiscard]] bool wants_motion() const override { return true; }
+  void motion(int contact, const std::vector<MotionRow>& rows) override {
+    motions_[static_cast<std::size_t>(contact)] = rows;
+  }
+  void curves(const Curves& curves) override { curves_ = curves; }
+  /// They are of no use, but a run that hands them over is made as a whole (run/apart.hpp).
+  [[nodiscard]] bool wants_instants() const override { return instants_; }
+  bool progress(double /*t*/) override { return go_on_(); }
+
+  [[nodiscard]] const std::string& events() const { return events_.str(); }
+  void write(const fs::path& directory, const Model& model) const {
+    PictureTables tables(directory, model);
+    for (std::size_t k = 0; k < motions_.size(); ++k) tables.motion(static_cast<int>(k), motions_[k]);
+    tables.curves(curves_);
+  }
+
+ private:
+  CsvTable<Event> table_;
+  bool instants_;
+  const std::function<bool()>& go_on_;
+  CsvBlock events_;
+  std::vector<std::vector<MotionRow>> motions_;
+  Curves curves_;
+};
+
+/// Row by row; a certificate has added columns behind those of the run.
+bool same_events(const std::string& events, const fs::path& file) {
+  std::istringstream expected(events);
+  std::ifstream found(file, std::ios::binary);
+  std::string a, b;
+  while (std::getline(expected, a))
+    if (!std::getline(found, b) || !(b == a || b.starts_with(a + ","))) return false;
+  return !std::getline(found, b);
+}
+
+}  // namespace
+
+bool lacks_picture_rows(const fs::path& directory) {
+  if (is_there(directory / "motion.csv") || is_there(directory / "curves.csv")) return false;
+  std::ifstream stream(directory / "summary.json", std::ios::binary);
+  try {
+    const Json summary = parse_json(stream);
+    const std::string kind = summary.at("outcome").at("kind");
+    // A full disk ended it: the same run would not end there.
+    const bool by_itself = summary.at("outcome").value("exit_code", 0) != static_cast<int>(ExitCode::file);
+    return (kind == "done" || kind == "stopped") && by_itself &&
+           summary.at("versions").at("signorini") == version;
+  } catch (const Json::exception&) {
+    return false;  // whoever draws says what is wrong with it
+  }
+}
+
+bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go_on) {
+  const PreparedRun prepared = prepare_run((directory / "run.toml").string(), {}, go_on);
+  PictureRows rows(prepared.model, is_there(directory / "instants.csv"), go_on);
+  const Report report = simulate(prepared.model, prepared.scene.run, rows);
+  if (report.outcome.kind == Outcome::Kind::interrupted) return false;
+  if (!same_events(rows.events(), directory / "events.csv"))
+    throw FileError(
+        (directory / "events.csv").string(),
+        "the run was computed again for its pictures (it was made with --no-plots), and has other "
+        "events now: the program, or a file that run.toml reads, is another than it was");
+  rows.write(directory, prepared.model);
+  return true;
+}
+
+}  // namespace signorini

@@ -72,7 +72,7 @@ struct Builder {
     const MeshElement& e = map.mesh.elements[number];
     if ((e.force_a == 0.0 && e.force_b == 0.0) || map.within_body(e)) return;
     const Axis axis = axis_of(map.mesh, e);
-    const double dx = axis.length * axis.c, dy = axis.length * axis.s;
+    const double dx = axis.dx, dy = axis.dy;
     add(stiffness, &SupportColumns::stiffness,
         e.type == MemberType::bar ? bar_geometric(dx, dy, e.force_a, e.force_b)
                                   : beam_geometric(dx, dy, e.force_a, e.force_b),

@@ -115,12 +115,12 @@ class Gathering {
     for (std::size_t j = 0; j < 6; ++j) u[static_cast<Eigen::Index>(j)] = moved(numbers[j]);
     const bool bar = e.type == MemberType::bar;
     const Eigen::Matrix<double, 6, 1> ends =
-        (bar ? bar_stiffness(l * axis.c, l * axis.s, section.EA)
-             : beam_stiffness(l * axis.c, l * axis.s, section.EA, section.EI / e.flexibility)) *
+        (bar ? bar_stiffness(axis.dx, axis.dy, section.EA)
+             : beam_stiffness(axis.dx, axis.dy, section.EA, section.EI / e.flexibility)) *
         u;
     const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member)) +
                           value_of(true, name_of_strain(LoadKind::initial_strain, e.member));
-    const Plane held{section.EA * strain * axis.c, section.EA * strain * axis.s};
+    const Plane held{strain * (section.EA * axis.c), strain * (section.EA * axis.s)};
     for (std::size_t c = 0; c < 2; ++c) {
       at_a[c] -= ends[static_cast<Eigen::Index>(c)] + held[c];
       at_b[c] -= ends[static_cast<Eigen::Index>(c) + 3] - held[c];

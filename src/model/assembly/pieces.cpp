@@ -10,7 +10,7 @@ Axis axis_of(const Mesh& mesh, const MeshElement& element) {
   const MeshNode& a = mesh.nodes[static_cast<std::size_t>(element.a)];
   const MeshNode& b = mesh.nodes[static_cast<std::size_t>(element.b)];
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-  return {length, dx / length, dy / length};
+  return {length, dx / length, dy / length, dx, dy};
 }
 
 std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a, const std::string& b,

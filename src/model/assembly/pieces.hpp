@@ -11,9 +11,9 @@
 
 namespace signorini {
 
-/// Length of an element, cosine and sine of its direction.
+/// Length of an element, cosine and sine of its direction, and what it spans.
 struct Axis {
-  double length, c, s;
+  double length, c, s, dx, dy;
 };
 [[nodiscard]] Axis axis_of(const Mesh& mesh, const MeshElement& element);
 

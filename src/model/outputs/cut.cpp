@@ -49,7 +49,7 @@ Eigen::Matrix<double, 6, 1> deflection_at(const MeshElement& element, const Axis
 
 Cut cut_at(const MeshElement& element, const Axis& axis, double mass_per_length, OutputQuantity quantity,
            double x) {
-  const auto [l, c, s] = axis;
+  const double l = axis.length, c = axis.c, s = axis.s;
   const double part = x / l;
   const bool bar = element.type == MemberType::bar;
   Cut cut{Eigen::Matrix<double, 6, 1>::Zero(), Eigen::Matrix<double, 6, 1>::Zero()};

@@ -80,7 +80,7 @@ void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity
 void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bool stiff) const {
   const MeshElement& e = element(i);
   const Axis axis = axis_of(map_.mesh, e);
-  const double dx = axis.length * axis.c, dy = axis.length * axis.s;
+  const double dx = axis.dx, dy = axis.dy;
   const Section& s = section(e);
   const bool bar = e.type == MemberType::bar;
   const BeamMatrix m =

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/thinned.hpp"
+#include "model/element/element_kinds.hpp"
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
 #include "scene/outline.hpp"
@@ -183,10 +184,8 @@ class Places {
 Json pieces_json(const Scene& scene, const Places& places) {
   Json pieces = Json::array();
   for (const Member& member : scene.members)
-    for (std::size_t i = 1; i < member.nodes.size(); ++i)
-      pieces.push_back({{"a", places.of(member.nodes[i - 1])},
-                        {"b", places.of(member.nodes[i])},
-                        {"bar", member.type == MemberType::bar}});
+    for (const auto& [from, to, bends] : lines_of(member))
+      pieces.push_back({{"a", places.of(from)}, {"b", places.of(to)}, {"bar", !bends}});
   for (const RigidBody& body : scene.rigid)
     for (const auto& [from, to] : outline_of(scene, body))
       pieces.push_back({{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}});

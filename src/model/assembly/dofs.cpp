@@ -7,12 +7,10 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/ties.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
-constexpr std::array<const char*, 3> velocity_names{"vx", "vy", "wz"};
 
 using Numbers = std::vector<std::array<int, 3>>;
 
@@ -89,7 +87,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
     if (moving[c] >= 0)
       throw SceneError(s.place, key,
                        fmt::format("the {} of node '{}' follows another support's motion already",
-                                   displacement_names[c], s.node));
+                                   plane_components[c].displacement, s.node));
     moving[c] = static_cast<int>(map.supports.size());
   }
   map.supports.push_back(i);
@@ -105,7 +103,7 @@ void check_moving(const Scene& scene, const DofMap& map) {
       if (fix[c] && !s.motion && moving[c] >= 0)
         throw SceneError(s.place, s.key + ".fix",
                          fmt::format("the {} of node '{}' follows another support's motion",
-                                     displacement_names[c], s.node));
+                                     plane_components[c].displacement, s.node));
   }
 }
 
@@ -125,7 +123,8 @@ void add_own(DofMap& map) {
         map.own[{i, j}] = map.size();
         map.where.emplace_back(node, static_cast<int>(c));
         const std::string name = fmt::format("{}-{}.{}.", from, to, map.mesh.node(node).name);
-        map.dofs.push_back({name + displacement_names[c], name + velocity_names[c], c == 2, false});
+        map.dofs.push_back({name + plane_components[c].displacement, name + plane_components[c].velocity,
+                            plane_components[c].rotation, false});
       }
     }
   }
@@ -154,9 +153,11 @@ void refuse_turn(const SourcePlace& place, const std::string& key, const std::st
                   node));
 }
 
-DofMap number_nodes(const Scene& scene) {
+DofMap number_nodes(const Scene& scene) { return number_nodes(scene, make_mesh(scene)); }
+
+DofMap number_nodes(const Scene& scene, Mesh mesh) {
   DofMap map;
-  map.mesh = make_mesh(scene);
+  map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
   map.moving = map.number;  // absent
   mark_needed(scene, map.mesh, map.number);
@@ -179,7 +180,8 @@ DofMap number_nodes(const Scene& scene) {
       const std::string& name = map.mesh.nodes[node].name;
       map.number[node][c] = map.size();
       map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
-      map.dofs.push_back({name + "." + displacement_names[c], name + "." + velocity_names[c], c == 2, false});
+      map.dofs.push_back({name + "." + plane_components[c].displacement,
+                          name + "." + plane_components[c].velocity, plane_components[c].rotation, false});
     }
   add_own(map);
   tie(bodies, map);

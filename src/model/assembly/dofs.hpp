@@ -83,6 +83,8 @@ struct DofMap {
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
+/// mesh: of the scene, or with elements that no type of member has.
+[[nodiscard]] DofMap number_nodes(const Scene& scene, Mesh mesh);
 /// The error of a moment or a turn at a node whose rotation is absent.
 [[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);

@@ -9,6 +9,7 @@
 #include "model/assembly/loads.hpp"
 #include "model/assembly/pieces.hpp"
 #include "model/assembly/ties.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 namespace {
@@ -179,7 +180,7 @@ class Gathering {
             scene_.run.geometric_place, "run.geometric",
             fmt::format("supports of rigid body '{}' hold its {} together, and nothing decides how "
                         "much each bears, which its stiffness depends on: expected one of them",
-                        body.name, c == 0 ? "ux" : "uy"));
+                        body.name, plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));

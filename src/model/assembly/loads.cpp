@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/assembly/pieces.hpp"
+#include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
 #include "scene/saved_state.hpp"
@@ -176,11 +177,11 @@ struct SupportMotion {
 };
 SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t i) {
   const Support& support = scene.supports[map.supports[i]];
-  const char* component = support.ux ? "ux" : support.uy ? "uy" : "rz";
-  SupportMotion moving{fmt::format("support {}.{}", support.node, component),
+  const PlaneComponent& component = plane_components[support.ux ? 0 : support.uy ? 1 : 2];
+  SupportMotion moving{fmt::format("support {}.{}", support.node, component.displacement),
                        support.key + (support.motion_is_acceleration ? ".acceleration" : ".motion"),
                        support.place,
-                       support.rz,
+                       component.rotation,
                        {}};
   if (support.motion_is_acceleration) {
     const double s = last_motion(scene, moving.name), rate = last_motion(scene, rate_of(moving.name));
@@ -216,10 +217,9 @@ History motion_of_support(const Scene& scene, const DofMap& map, int i) {
 }
 
 std::string rate_of(const std::string& support_motion) {
-  std::string rate = support_motion;
-  char& component = rate[rate.size() - 2];
-  component = component == 'r' ? 'w' : 'v';
-  return rate;
+  const std::string_view component = last_part(support_motion);
+  return support_motion.substr(0, support_motion.size() - component.size()) +
+         component_named(component).value().component().velocity;
 }
 
 std::string name_of(const LoadSpec& load, std::size_t number) {

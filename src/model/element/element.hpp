@@ -24,7 +24,8 @@ using PlaneVector = std::array<double, 2>;  // along x and y
 struct ElementUnknown {
   std::size_t place = 0;      ///< index into nodes()
   std::size_t component = 0;  ///< 0 ux, 1 uy, 2 rz
-  bool own = false;           ///< it does not follow the node: the rotation of a hinged end
+  bool own =
+      false;  ///< it does not follow the node: the rotation of a hinged end; in pieces of members alone
 };
 
 /// Frozen forces along an element at both of its ends, tension positive (assembly/geometric.hpp).

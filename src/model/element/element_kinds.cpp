@@ -20,7 +20,8 @@ std::vector<MemberLine> lines_of(const Member& member) {
   const ElementKind& kind = kind_of(member.type);
   std::vector<MemberLine> lines;
   for (std::size_t i = 1; i < member.nodes.size(); ++i)
-    lines.push_back({member.nodes[i - 1], member.nodes[i], kind.bends});
+    lines.push_back(
+        {member.nodes[i - 1], member.nodes[i], kind.bends, is_hinged(member, i - 1), is_hinged(member, i)});
   if (kind.closed) lines.push_back({member.nodes.back(), member.nodes.front(), kind.bends});
   return lines;
 }

@@ -15,10 +15,10 @@ struct ElementKind {
 
 [[nodiscard]] const ElementKind& kind_of(MemberType type);
 
-/// A line between two named nodes of which a member is drawn.
+/// A line between two named nodes of which a member is drawn, and whether its ends turn without the nodes.
 struct MemberLine {
   std::string from, to;
-  bool bends = false;
+  bool bends = false, hinged_from = false, hinged_to = false;
 };
 [[nodiscard]] std::vector<MemberLine> lines_of(const Member& member);
 

@@ -9,6 +9,16 @@ Axis axis_between(double dx, double dy) {
   return {length, dx / length, dy / length, dx, dy};
 }
 
+LineShapes cubic_at(double s, bool hinged_a, bool hinged_b) {
+  const double s2 = s * s, s3 = s2 * s;
+  LineShapes h{1.0 - 3.0 * s2 + 2.0 * s3, s - 2.0 * s2 + s3, 3.0 * s2 - 2.0 * s3, s3 - s2};
+  // Without a moment at a: turn_a = 3/2 (b - a) - turn_b / 2; at both ends: turn_a = turn_b = b - a.
+  if (hinged_a && hinged_b) return {1.0 - s, 0.0, s, 0.0};
+  if (hinged_a) return {h.a - 1.5 * h.turn_a, 0.0, h.b + 1.5 * h.turn_a, h.turn_b - 0.5 * h.turn_a};
+  if (hinged_b) return {h.a - 1.5 * h.turn_b, h.turn_a - 0.5 * h.turn_b, h.b + 1.5 * h.turn_b, 0.0};
+  return h;
+}
+
 LineShapes linear_once(double l, double s) { return {l * (s - s * s / 2.0), 0.0, l * s * s / 2.0, 0.0}; }
 
 LineShapes linear_twice(double l, double s) {

@@ -36,10 +36,13 @@ struct LineData {
   bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
 };
 
-/// Integrals from 0 to x of the shapes of one direction: displacements and rotations of both ends.
+/// What displacements and rotations of both ends do to a place between them, in one direction; or integrals of it.
 struct LineShapes {
   double a = 0.0, turn_a = 0.0, b = 0.0, turn_b = 0.0;
 };
+/// Across a line of length 1 at a part of it that bends, its ends turning; those that are hinged turn so that no moment
+/// bends them.
+[[nodiscard]] LineShapes cubic_at(double part, bool hinged_a = false, bool hinged_b = false);
 
 class LineElement : public FiniteElement {
  public:

@@ -66,11 +66,7 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
     throw SceneError(
         member.place, key + ".elements",
         fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
-  const auto hinged = [&](const std::string& node, bool at_end) {
-    return at_end && std::find(member.release.begin(), member.release.end(), node) != member.release.end();
-  };
-  const bool hinged_a = hinged(member.nodes[piece], piece == 0);
-  const bool hinged_b = hinged(member.nodes[piece + 1], piece + 2 == member.nodes.size());
+  const bool hinged_a = is_hinged(member, piece), hinged_b = is_hinged(member, piece + 1);
   mesh.pieces.push_back({a, b, mesh.elements.size(), static_cast<std::size_t>(count)});
   int previous = a;
   for (int i = 1; i <= count; ++i) {
@@ -96,6 +92,12 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
 }
 
 }  // namespace
+
+bool is_hinged(const Member& member, std::size_t node) {
+  const bool at_end = node == 0 || node + 1 == member.nodes.size();
+  return at_end &&
+         std::find(member.release.begin(), member.release.end(), member.nodes[node]) != member.release.end();
+}
 
 const Section& section_of(const Scene& scene, const Member& member) {
   return *std::find_if(scene.sections.begin(), scene.sections.end(),

@@ -34,7 +34,7 @@ Unit unit_of_cut(OutputQuantity quantity) {
                                             : unit::force;
 }
 
-/// What is distributed is even, inertia linear along an element and cubic across it (cut.hpp).
+/// What is distributed is even, inertia linear along an element and cubic across it (line_element.hpp).
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }

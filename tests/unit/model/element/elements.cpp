@@ -133,7 +133,58 @@ TEST_SUITE("unit/model/element/elements") {
       CHECK(lines[1].from == "B");
       CHECK(lines[1].to == "D");
       CHECK(lines[1].bends == (type == MemberType::beam));
+      for (const auto& line : lines) CHECK_FALSE((line.hinged_from || line.hinged_to));
     }
+  }
+
+  TEST_CASE("a member is hinged at its own ends alone") {
+    Member m = member({"A", "B", "D"}, "s", {1, 1});
+    m.release = {"D", "B"};
+    const auto lines = lines_of(m);
+    CHECK_FALSE((lines[0].hinged_from || lines[0].hinged_to || lines[1].hinged_from));
+    CHECK(lines[1].hinged_to);
+    m.release = {"A"};
+    CHECK(lines_of(m)[0].hinged_from);
+    CHECK_FALSE(lines_of(m)[1].hinged_to);
+  }
+
+  TEST_CASE("the curve that is drawn is the element's own: its slope pulls, its integral weighs") {
+    const BeamElement beam(line_data());
+    const double length = std::hypot(span_x, span_y);
+    // Of v_a, rz_a, v_b, rz_b in the scene's axes.
+    const auto row = [&](const LineShapes& h) {
+      const double s = span_y / length, c = span_x / length;
+      return motion_of(beam, {-s * h.a, c * h.a, length * h.turn_a, -s * h.b, c * h.b, length * h.turn_b});
+    };
+    for (const double x : {0.15, 0.5, 0.83}) {
+      const double step = 1e-5;
+      const LineShapes before = cubic_at(x - step), after = cubic_at(x + step);
+      const ElementVector slope = (row(after) - row(before)) / (2.0 * step * length);
+      CHECK((beam.cut(OutputQuantity::V, {x, 0.0}, {6.0, 6.0}).deflection - 6.0 * slope).norm() <= 1e-8);
+      // Of a cubic Simpson's rule is exact: what lies between a and x.
+      const ElementVector inside =
+          x * length / 6.0 * (row(cubic_at(0.0)) + 4.0 * row(cubic_at(0.5 * x)) + row(cubic_at(x)));
+      CHECK((beam.cut(OutputQuantity::V, {x, 0.0}, {}).acceleration + line_rho * inside).norm() <= 1e-14);
+    }
+  }
+
+  TEST_CASE("no moment bends a hinged end of the curve that is drawn, and it keeps its ends") {
+    for (const bool a : {false, true})
+      for (const bool b : {false, true}) {
+        const auto v = [&](double s) {  // v_a, rz_a, v_b, rz_b
+          const LineShapes h = cubic_at(s, a, b);
+          return h.a * 0.3 + h.turn_a * -0.8 + h.b * 1.1 + h.turn_b * 0.6;
+        };
+        const auto curvature = [&](double s) { return (v(s - 1e-3) - 2.0 * v(s) + v(s + 1e-3)) / 1e-6; };
+        CHECK(v(0.0) == doctest::Approx(0.3).epsilon(1e-14));
+        CHECK(v(1.0) == doctest::Approx(1.1).epsilon(1e-14));
+        CHECK((std::abs(curvature(0.0)) < 1e-8) == a);
+        CHECK((std::abs(curvature(1.0)) < 1e-8) == b);
+        // An end that is not hinged turns as it is told.
+        if (!a) CHECK((v(1e-6) - v(-1e-6)) / 2e-6 == doctest::Approx(-0.8).epsilon(1e-8));
+        if (!b) CHECK((v(1.0 + 1e-6) - v(1.0 - 1e-6)) / 2e-6 == doctest::Approx(0.6).epsilon(1e-8));
+        if (a && b) CHECK(v(0.25) == doctest::Approx(0.5).epsilon(1e-14));
+      }
   }
 
   TEST_CASE("own unknowns have numbers of their own, behind those of the nodes") {

@@ -47,6 +47,14 @@ TEST_CASE("names stand for components, others for none") {
   for (const char* name : {"", "u", "v", "x", "ux.", "uxx", "slip"}) CHECK_FALSE(component_named(name));
 }
 
+TEST_CASE("columns of displacements are told from rates and from all else") {
+  for (const char* column : {"A.ux", "A-B.3.uy", "wz.rz", "d0.u"}) CHECK(is_displacement(column));
+  for (const char* column : {"A.vx", "A.vy", "ux.wz", "d0.v", "t", "u", "first.slip", "d.uu"})
+    CHECK_FALSE(is_displacement(column));
+  CHECK(motion_named("A.rz").rotation);
+  CHECK_FALSE(motion_named("d0.v").rotation);
+}
+
 TEST_SUITE_END();
 
 }  // namespace signorini::tests::components

@@ -7,6 +7,7 @@
 #include "model/element/bar.hpp"
 #include "model/element/beam.hpp"
 #include "model/element/element_kinds.hpp"
+#include "model/outputs/structure_rows.hpp"
 #include "unit/model/scenes.hpp"
 
 using namespace signorini;
@@ -204,5 +205,10 @@ TEST_SUITE("unit/model/element/elements") {
     CHECK(map.element_numbers(0) == std::vector<int>{0, 1, 2, 8, 9, 10});
     CHECK(map.element_numbers(1) == std::vector<int>{8, 9, 10, 3, 4, 5});
     CHECK_FALSE(map.within_body(map.mesh.element(2)));
+    // Nothing of its moment reaches the node: what would hold B from turning has A-B alone to hold, 4 EI/L of half of it.
+    PhysicalRow row(map.size());
+    StructureRows(s, map, 0.0, 0.0).add_reaction(row, 1, 2, 1.0);
+    CHECK(row.u[5] == doctest::Approx(4.0 * line_EI / (0.5 * std::hypot(span_x, span_y))));
+    for (const int i : {6, 7, 11, 12}) CHECK(row.u[i] == 0.0);
   }
 }

@@ -3,13 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "base/listed.hpp"
 #include "contact/friction.hpp"
+#include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 #include "signorini/error.hpp"
 
@@ -110,14 +109,12 @@ std::string given_for(const DofMap& map, int tied) {
 }
 
 std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap& map) {
-  constexpr std::array<std::string_view, 6> names{"ux", "uy", "rz", "vx", "vy", "wz"};
   const std::string key = key_of(c);
-  const auto it = std::find(names.begin(), names.end(), c.component);
-  if (it == names.end())
+  const auto named = component_named(c.component);
+  if (!named || named->name() != c.component)
     throw SceneError(c.place, key, fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
-  const auto index = static_cast<std::size_t>(it - names.begin());
   const int node = find_node(map.mesh, c.node, c.place, key);
-  const int number = map.number[static_cast<std::size_t>(node)][index % 3];
+  const int number = map.number[static_cast<std::size_t>(node)][named->index];
   if (number == DofMap::absent)
     throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
   if (number == DofMap::fixed && c.value != 0.0)
@@ -129,7 +126,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap
                     "expected one of {}",
                     c.node, given_for(map, number)));
   if (number < 0) return std::nullopt;
-  return GivenPlace{index >= 3, number};
+  return GivenPlace{named->rate, number};
 }
 
 /// Does something begin from the displacement of each degree of freedom without mass?

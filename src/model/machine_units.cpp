@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/components.hpp"
+
 namespace signorini {
 namespace {
 
@@ -54,8 +56,9 @@ void add_matrices(const MatricesSpec& matrices, Sizes& sizes) {
 
 void add_initial(const InitialSpec& initial, Sizes& sizes) {
   for (const InitialSpec::Component& c : initial.components) {
-    if (c.component == "ux" || c.component == "uy") sizes.displacement.add(c.value);
-    if (c.component == "vx" || c.component == "vy") sizes.velocity.add(c.value);
+    const auto named = component_named(c.component);
+    if (named && !named->component().rotation)
+      (named->rate ? sizes.velocity : sizes.displacement).add(c.value);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string_view>
 
+#include "report/drawn_lines.hpp"
 #include "result/csv.hpp"
 #include "result/frame_data.hpp"
 #include "result/plot_folder.hpp"
@@ -118,11 +119,10 @@ void add_structure(Grid& grid, const Json& data, const std::vector<FrameEnd>& en
   const auto end_of = [&](const Json& index) { return ends[index.get<std::size_t>()]; };
   for (const Json& piece : data["pieces"]) {
     const bool bar = piece["bar"].get<bool>();
-    const Frame::Element element{bar ? "bar" : "beam", end_of(piece["a"]), end_of(piece["b"])};
-    constexpr int parts = 10;
+    const FrameEnd a = end_of(piece["a"]), b = end_of(piece["b"]);
     std::vector<std::size_t> corners;
-    for (int i = 0; i <= parts; ++i) {
-      const FrameEnd p = between(element, static_cast<double>(i) / parts);
+    for (const Json& row : data["shapes"][piece["shape"].get<std::size_t>()]) {
+      const FrameEnd p = between(a, b, row[0].get<double>(), across_of(row));
       corners.push_back(grid.point(p.x, p.y, {p.ux, p.uy}));
     }
     grid.cell(polyline, corners, piece.contains("rigid") ? 6 : bar ? 1 : 0);

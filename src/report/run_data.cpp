@@ -10,8 +10,11 @@
 #include <optional>
 
 #include "base/thinned.hpp"
+#include "model/element/element_kinds.hpp"
+#include "report/drawn_lines.hpp"
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
+#include "scene/components.hpp"
 #include "scene/outline.hpp"
 #include "signorini/result.hpp"
 
@@ -57,12 +60,6 @@ struct Displacements {
   std::vector<std::vector<double>> times;
   std::vector<Curve> curves;
 };
-
-bool is_displacement(const std::string& column) {
-  for (const char* ending : {".ux", ".uy", ".rz", ".u"})
-    if (column.ends_with(ending)) return true;
-  return false;
-}
 
 /// Of history.csv, rows left out evenly.
 Displacements evenly(CsvReader& reader) {
@@ -183,13 +180,15 @@ class Places {
 Json pieces_json(const Scene& scene, const Places& places) {
   Json pieces = Json::array();
   for (const Member& member : scene.members)
-    for (std::size_t i = 1; i < member.nodes.size(); ++i)
-      pieces.push_back({{"a", places.of(member.nodes[i - 1])},
-                        {"b", places.of(member.nodes[i])},
-                        {"bar", member.type == MemberType::bar}});
+    for (const MemberLine& drawn : lines_of(member))
+      pieces.push_back({{"a", places.of(drawn.from)},
+                        {"b", places.of(drawn.to)},
+                        {"bar", !drawn.bends},
+                        {"shape", shape_of(drawn)}});
   for (const RigidBody& body : scene.rigid)
     for (const auto& [from, to] : outline_of(scene, body))
-      pieces.push_back({{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}});
+      pieces.push_back(
+          {{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}, {"shape", 0}});
   return pieces;
 }
 
@@ -369,16 +368,20 @@ Json colours_json() {
 Json run_data(const Scene& scene, const fs::path& directory) {
   const Displacements all = displacements(directory, scene.run.t_end);
   const Places places(scene, all.names);
+  Json curve = curve_json(all);
+  const double magnification = fitting_magnification(places.json(), curve);
   return {{"t_end", number(scene.run.t_end)},
           {"units", {scene.units.force, scene.units.length, scene.units.time}},
           {"matrices", scene.matrices.has_value()},
           {"nodes", places.json()},
           {"pieces", pieces_json(scene, places)},
+          {"shapes", shapes_json()},
+          {"magnification", magnification},
           {"springs", springs_json(scene, places)},
           {"supports", supports_json(scene, places)},
           {"loads", loads_json(scene, places, directory)},
           {"contacts", contacts_json(scene, places, directory)},
-          {"curve", curve_json(all)},
+          {"curve", std::move(curve)},
           {"events", events_json(scene, directory)},
           {"states", colours_json()}};
 }

@@ -1,7 +1,8 @@
 // run_data.hpp: what the page of a run draws and plays, from the scene and the run's own record.
 //
 //   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: held, or not recorded)
-//   pieces  a, b (indices of nodes), bar; springs, supports, loads, contacts with their directions
+//   pieces  a, b (indices of nodes), bar, shape (index); springs, supports, loads, contacts with their directions
+//   shapes, magnification: how pieces bend, how far motions are magnified (drawn_lines.hpp)
 //   curve   times: lists;   columns: t (index of its list), u;   contacts[k].motion: t, state, N, T, gap
 //   events  t, contact (index, -1 without), event, from, to
 //

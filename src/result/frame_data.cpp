@@ -101,19 +101,37 @@ std::vector<Frame> read_frames(const fs::path& directory, double from, double to
   return frames;
 }
 
-FrameEnd between(const Frame::Element& e, double s) {
+double magnification_of(double size, double greatest) {
+  constexpr double largest_displacement = 0.125;
+  const double wanted = greatest > 0.0 ? largest_displacement * size / greatest : 1.0;
+  return wanted > 0.0 && std::isfinite(wanted) ? round_down(wanted) : 1.0;
+}
+
+namespace {
+
+/// On the straight line.
+FrameEnd straight_between(const FrameEnd& a, const FrameEnd& b, double s) {
   FrameEnd p;
-  p.x = e.a.x + s * (e.b.x - e.a.x);
-  p.y = e.a.y + s * (e.b.y - e.a.y);
-  p.ux = e.a.ux + s * (e.b.ux - e.a.ux);
-  p.uy = e.a.uy + s * (e.b.uy - e.a.uy);
-  const double length = std::hypot(e.b.x - e.a.x, e.b.y - e.a.y);
-  if (e.kind != "beam" || !(length > 0.0)) return p;
-  const double c = (e.b.x - e.a.x) / length, d = (e.b.y - e.a.y) / length;
-  const double va = -d * e.a.ux + c * e.a.uy, vb = -d * e.b.ux + c * e.b.uy;
-  const double s2 = s * s, s3 = s2 * s;
-  const double v = (1.0 - 3.0 * s2 + 2.0 * s3) * va + (3.0 * s2 - 2.0 * s3) * vb +
-                   length * ((s - 2.0 * s2 + s3) * e.a.rz + (s3 - s2) * e.b.rz);
+  p.x = a.x + s * (b.x - a.x);
+  p.y = a.y + s * (b.y - a.y);
+  p.ux = a.ux + s * (b.ux - a.ux);
+  p.uy = a.uy + s * (b.uy - a.uy);
+  return p;
+}
+
+}  // namespace
+
+FrameEnd between(const Frame::Element& e, double s) {
+  return e.kind == "beam" ? between(e.a, e.b, s, cubic_at(s)) : straight_between(e.a, e.b, s);
+}
+
+FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& h) {
+  FrameEnd p = straight_between(a, b, s);
+  const double length = std::hypot(b.x - a.x, b.y - a.y);
+  if (!(length > 0.0)) return p;
+  const double c = (b.x - a.x) / length, d = (b.y - a.y) / length;
+  const double va = -d * a.ux + c * a.uy, vb = -d * b.ux + c * b.uy;
+  const double v = h.a * va + h.b * vb + length * (h.turn_a * a.rz + h.turn_b * b.rz);
   const double more = v - (va + s * (vb - va));  // beyond the straight line
   p.ux += -d * more;
   p.uy += c * more;
@@ -157,7 +175,7 @@ void take_out_slides(std::vector<Frame>& frames) {
 }
 
 FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force) {
-  constexpr double largest_displacement = 0.125, arrow = 0.16;
+  constexpr double arrow = 0.16;
   FrameScales scales;
   scales.greatest_force = greatest_force;
   Box rest;
@@ -172,8 +190,7 @@ FrameScales scales_of(const std::vector<Frame>& frames, double greatest_force) {
       scales.greatest_force = std::max(scales.greatest_force, std::hypot(f.fx, f.fy));
   }
   double size = rest.size();
-  const double wanted = greatest > 0.0 ? largest_displacement * size / greatest : 1.0;
-  if (std::isfinite(wanted) && wanted > 1.0) scales.magnification = round_down(wanted);
+  scales.magnification = std::max(1.0, magnification_of(size, greatest));
 
   Box drawn = rest;
   const double m = scales.magnification;

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "model/element/line_element.hpp"
+
 namespace signorini {
 
 struct FrameEnd {
@@ -58,7 +60,13 @@ void take_out_slides(std::vector<Frame>& frames);
 /// Those of a frame beside others whose scales are `shared`.
 [[nodiscard]] FrameScales scales_of(const Frame& frame, const FrameScales& shared);
 
+/// 1, 2 or 5 times a power of ten, so that the greatest displacement is drawn at most an eighth of the size; 1 where
+/// nothing moves.
+[[nodiscard]] double magnification_of(double size, double greatest);
+
 /// Displacement at the fraction s of an element: along it linear, across cubic (beams).
 [[nodiscard]] FrameEnd between(const Frame::Element& element, double s);
+/// The same by what both ends do to a place across the line (model/element/line_element.hpp).
+[[nodiscard]] FrameEnd between(const FrameEnd& a, const FrameEnd& b, double s, const LineShapes& across);
 
 }  // namespace signorini

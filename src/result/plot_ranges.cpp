@@ -9,6 +9,7 @@
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
 #include "result/plot_rows.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 
@@ -21,12 +22,6 @@ constexpr double least_range = 2e-4, around_middle = 0.01, around_zero = 1e-3;
 bool is_table(const fs::path& file) {
   std::error_code error;
   return fs::is_regular_file(file, error);
-}
-
-bool is_displacement(const std::string& column) {
-  for (const char* ending : {".ux", ".uy", ".rz", ".u"})
-    if (column.ends_with(ending)) return true;
-  return false;
 }
 
 void read_contacts(const fs::path& directory, PlottedRun& run) {

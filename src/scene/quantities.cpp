@@ -1,5 +1,6 @@
 #include "scene/quantities.hpp"
 
+#include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 
 namespace signorini {
@@ -51,20 +52,10 @@ void visit_frozen(FrozenForces& forces, const Visit& visit) {
 void visit_initial(InitialSpec& initial, const Visit& visit) {
   for (double& u : initial.u) visit(u, length);
   for (double& v : initial.v) visit(v, velocity);
-  for (InitialSpec::Component& c : initial.components) {
-    const bool rotation = c.component == "rz" || c.component == "wz";
-    const bool rates = c.component[0] == 'v' || c.component[0] == 'w';
-    visit(c.value, rotation ? (rates ? rate : plain) : (rates ? velocity : length));
-  }
+  for (InitialSpec::Component& c : initial.components) visit(c.value, motion_named(c.component).unit());
   if (!initial.saved) return;
-  for (auto& [name, value] : initial.saved->motions) {
-    const std::string component = name.substr(name.rfind('.') + 1);
-    const bool rotation = component == "rz" || component == "wz";
-    const bool rates = component[0] == 'v' || component[0] == 'w';
-    visit(value, name == saved_alpha ? rate
-                 : rotation          ? (rates ? rate : plain)
-                                     : (rates ? velocity : length));
-  }
+  for (auto& [name, value] : initial.saved->motions)
+    visit(value, name == saved_alpha ? rate : motion_named(name).unit());
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
   for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);
   for (SavedState::Left& left : initial.saved->left) {

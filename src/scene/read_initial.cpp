@@ -7,6 +7,7 @@
 #include "base/listed.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
+#include "scene/components.hpp"
 #include "scene/data_file.hpp"
 #include "scene/frozen_file.hpp"
 #include "scene/left_contacts.hpp"
@@ -39,11 +40,12 @@ void read_nodes_state(Table& table, InitialSpec& initial, const Space& space) {
     const toml::node* node = table.raw(entry.name);
     if (!node->is_table()) table.wrong(entry.name, "a table { ux = ..., vx = ... }");
     Table state(node->as_table(), "run.initial.*", table.path(entry.name), place_of(*node));
-    for (const char* component : {"ux", "uy", "rz", "vx", "vy", "wz"}) {
-      if (const auto value = state.optional_number(component)) {
-        initial.components.push_back({entry.name, component, *value, state.place(component)});
+    for (const bool rate : {false, true})
+      for (const PlaneComponent& c : plane_components) {
+        const char* component = rate ? c.velocity : c.displacement;
+        if (const auto value = state.optional_number(component))
+          initial.components.push_back({entry.name, component, *value, state.place(component)});
       }
-    }
     state.finish();
     table.record(entry.name, state.record().inline_table());
   }

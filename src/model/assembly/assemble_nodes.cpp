@@ -4,8 +4,6 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/assembly.hpp"
-#include "model/assembly/bar.hpp"
-#include "model/assembly/beam.hpp"
 #include "model/assembly/geometric.hpp"
 #include "model/assembly/pieces.hpp"
 #include "model/assembly/ties.hpp"
@@ -26,10 +24,10 @@ struct Builder {
 
   /// Adds an element matrix with the numbers of its unknowns; what rests is left out, what moves with a
   /// support adds to its column.
-  template <std::size_t n, class Matrix>
-  void add(Triplets& target, Column column, const Matrix& a, const std::array<int, n>& numbers) {
-    if (!any_tied(map, numbers.data(), n)) return add_own(target, column, a, numbers);
-    const TiedElement tied(map, numbers.data(), n);
+  template <class Matrix, class Numbers>
+  void add(Triplets& target, Column column, const Matrix& a, const Numbers& numbers) {
+    if (!any_tied(map, numbers.data(), numbers.size())) return add_own(target, column, a, numbers);
+    const TiedElement tied(map, numbers.data(), numbers.size());
     add_own(target, column, tied.of(a), tied.numbers);
   }
 
@@ -46,37 +44,24 @@ struct Builder {
   }
 
   void add_element(std::size_t number) {
-    const MeshElement& e = map.mesh.elements[number];
-    const MeshNode& a = map.mesh.nodes[static_cast<std::size_t>(e.a)];
-    const MeshNode& b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
-    const Section& section = scene.sections[static_cast<std::size_t>(e.section)];
-    const std::array<int, 6> numbers = map.element_numbers(number);
-    const double dx = b.x - a.x, dy = b.y - a.y;
-    const bool bar = e.type == MemberType::bar;
-    const BeamMatrix m = bar ? bar_mass(dx, dy, section.mass_per_length, e.mass)
-                             : beam_mass(dx, dy, section.mass_per_length, e.mass);
-    if (!map.within_body(e))
-      add(stiffness, &SupportColumns::stiffness,
-          bar ? bar_stiffness(dx, dy, section.EA)
-              : beam_stiffness(dx, dy, section.EA, section.EI / e.flexibility),
-          numbers);
+    const FiniteElement& e = map.mesh.element(number);
+    const std::vector<int> numbers = map.element_numbers(number);
+    const ElementMatrix m = e.mass();
+    if (!map.within_body(e)) add(stiffness, &SupportColumns::stiffness, e.stiffness(), numbers);
     add(mass, &SupportColumns::mass, m, numbers);
-    add_inertia(m, scene.gravity, numbers, [&](int n, double force) { add_weight(n, force); });
+    add_inertia(m * e.translation(scene.gravity), numbers,
+                [&](int n, double force) { add_weight(n, force); });
     for (std::size_t i = 0; i < base.size(); ++i)
-      add_inertia(m, scene.base_motion[i].direction.vector, numbers,
+      add_inertia(m * e.translation(scene.base_motion[i].direction.vector), numbers,
                   [&](int n, double force) { map.add(base[i], n, force); });
   }
 
   /// Into what else holds stiffnesses.
   void add_geometric(std::size_t number) {
-    const MeshElement& e = map.mesh.elements[number];
-    if ((e.force_a == 0.0 && e.force_b == 0.0) || map.within_body(e)) return;
-    const Axis axis = axis_of(map.mesh, e);
-    const double dx = axis.length * axis.c, dy = axis.length * axis.s;
-    add(stiffness, &SupportColumns::stiffness,
-        e.type == MemberType::bar ? bar_geometric(dx, dy, e.force_a, e.force_b)
-                                  : beam_geometric(dx, dy, e.force_a, e.force_b),
-        map.element_numbers(number));
+    const FiniteElement& e = map.mesh.element(number);
+    const AxialForces forces = map.frozen_in(number);
+    if (forces.none() || map.within_body(e)) return;
+    add(stiffness, &SupportColumns::stiffness, e.geometric(forces), map.element_numbers(number));
   }
 
   void add_weight(int number, double force) {
@@ -94,12 +79,8 @@ struct Builder {
 
   /// M r a, with r a the acceleration of all translations, number by number.
   template <class Add>
-  void add_inertia(const BeamMatrix& m, const std::array<double, 2>& acceleration,
-                   const std::array<int, 6>& numbers, const Add& add_to) {
-    Eigen::Matrix<double, 6, 1> a;
-    a << acceleration[0], acceleration[1], 0.0, acceleration[0], acceleration[1], 0.0;
-    const Eigen::Matrix<double, 6, 1> p = m * a;
-    for (std::size_t i = 0; i < 6; ++i) add_to(numbers[i], p[static_cast<int>(i)]);
+  void add_inertia(const ElementVector& forces, const std::vector<int>& numbers, const Add& add_to) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) add_to(numbers[i], forces[static_cast<Eigen::Index>(i)]);
   }
 
   void add_mass(const PointMass& m, const std::string& key) {

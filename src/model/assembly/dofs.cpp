@@ -7,12 +7,10 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/ties.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
-constexpr std::array<const char*, 3> velocity_names{"vx", "vy", "wz"};
 
 using Numbers = std::vector<std::array<int, 3>>;
 
@@ -22,12 +20,10 @@ void need(Numbers& numbers, int node, const std::array<double, 2>& direction) {
 }
 
 void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
-  for (const MeshElement& e : mesh.elements)
-    for (int node : {e.a, e.b}) {
-      need(numbers, node, {1.0, 1.0});
-      const bool hinged = node == e.a ? e.hinged_a : e.hinged_b;
-      if (e.type == MemberType::beam && !hinged) numbers[static_cast<std::size_t>(node)][2] = DofMap::needed;
-    }
+  for (const auto& e : mesh.elements)
+    for (const ElementUnknown& unknown : e->unknowns())
+      if (!unknown.own)
+        numbers[static_cast<std::size_t>(e->nodes()[unknown.place])][unknown.component] = DofMap::needed;
   for (std::size_t i = 0; i < scene.masses.size(); ++i) {
     const PointMass& m = scene.masses[i];
     const int node =
@@ -91,7 +87,7 @@ void follow(DofMap& map, std::size_t i, const Support& s, const std::array<bool,
     if (moving[c] >= 0)
       throw SceneError(s.place, key,
                        fmt::format("the {} of node '{}' follows another support's motion already",
-                                   displacement_names[c], s.node));
+                                   plane_components[c].displacement, s.node));
     moving[c] = static_cast<int>(map.supports.size());
   }
   map.supports.push_back(i);
@@ -107,25 +103,30 @@ void check_moving(const Scene& scene, const DofMap& map) {
       if (fix[c] && !s.motion && moving[c] >= 0)
         throw SceneError(s.place, s.key + ".fix",
                          fmt::format("the {} of node '{}' follows another support's motion",
-                                     displacement_names[c], s.node));
+                                     plane_components[c].displacement, s.node));
   }
 }
 
-/// Rotations of hinged ends: "A-B.A.rz".
-void add_hinges(DofMap& map) {
-  map.hinge.assign(map.mesh.elements.size(), {DofMap::absent, DofMap::absent});
+/// What elements have of their own: "A-B.A.rz", a hinged end.
+void add_own(DofMap& map) {
   for (const MeshPiece& piece : map.mesh.pieces) {
-    const std::string& from = map.mesh.nodes[static_cast<std::size_t>(piece.from)].name;
-    const std::string& to = map.mesh.nodes[static_cast<std::size_t>(piece.to)].name;
-    const auto add = [&](std::size_t element, std::size_t end, int node, const std::string& at) {
-      map.hinge[element][end] = map.size();
-      map.where.emplace_back(node, 2);
-      const std::string name = fmt::format("{}-{}.{}.", from, to, at);
-      map.dofs.push_back({name + displacement_names[2], name + velocity_names[2], true, false});
-    };
-    const std::size_t last = piece.first + piece.count - 1;
-    if (map.mesh.elements[piece.first].hinged_a) add(piece.first, 0, piece.from, from);
-    if (map.mesh.elements[last].hinged_b) add(last, 1, piece.to, to);
+    const std::string& from = map.mesh.node(piece.from).name;
+    const std::string& to = map.mesh.node(piece.to).name;
+    for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
+      const FiniteElement& element = map.mesh.element(i);
+      if (!element.has_own()) continue;
+      const std::vector<ElementUnknown> unknowns = element.unknowns();
+      for (std::size_t j = 0; j < unknowns.size(); ++j) {
+        if (!unknowns[j].own) continue;
+        const int node = element.nodes()[unknowns[j].place];
+        const std::size_t c = unknowns[j].component;
+        map.own[{i, j}] = map.size();
+        map.where.emplace_back(node, static_cast<int>(c));
+        const std::string name = fmt::format("{}-{}.{}.", from, to, map.mesh.node(node).name);
+        map.dofs.push_back({name + plane_components[c].displacement, name + plane_components[c].velocity,
+                            plane_components[c].rotation, false});
+      }
+    }
   }
 }
 
@@ -152,9 +153,11 @@ void refuse_turn(const SourcePlace& place, const std::string& key, const std::st
                   node));
 }
 
-DofMap number_nodes(const Scene& scene) {
+DofMap number_nodes(const Scene& scene) { return number_nodes(scene, make_mesh(scene)); }
+
+DofMap number_nodes(const Scene& scene, Mesh mesh) {
   DofMap map;
-  map.mesh = make_mesh(scene);
+  map.mesh = std::move(mesh);
   map.number.assign(map.mesh.nodes.size(), {DofMap::absent, DofMap::absent, DofMap::absent});
   map.moving = map.number;  // absent
   mark_needed(scene, map.mesh, map.number);
@@ -177,17 +180,20 @@ DofMap number_nodes(const Scene& scene) {
       const std::string& name = map.mesh.nodes[node].name;
       map.number[node][c] = map.size();
       map.where.emplace_back(static_cast<int>(node), static_cast<int>(c));
-      map.dofs.push_back({name + "." + displacement_names[c], name + "." + velocity_names[c], c == 2, false});
+      map.dofs.push_back({name + "." + plane_components[c].displacement,
+                          name + "." + plane_components[c].velocity, plane_components[c].rotation, false});
     }
-  add_hinges(map);
+  add_own(map);
   tie(bodies, map);
   add_columns(map);
   return map;
 }
 
-bool DofMap::within_body(const MeshElement& e) const {
-  const int owner = body[static_cast<std::size_t>(e.a)];
-  return owner != absent && owner == body[static_cast<std::size_t>(e.b)] && !e.hinged_a && !e.hinged_b;
+bool DofMap::within_body(const FiniteElement& e) const {
+  const int owner = body[static_cast<std::size_t>(e.nodes().front())];
+  if (owner == absent || e.has_own()) return false;
+  return std::all_of(e.nodes().begin(), e.nodes().end(),
+                     [&](int node) { return body[static_cast<std::size_t>(node)] == owner; });
 }
 
 std::vector<TiedTerm> DofMap::terms(int n) const {
@@ -215,11 +221,15 @@ std::array<int, 3> DofMap::numbers_at(int node) const {
   return numbers;
 }
 
-std::array<int, 6> DofMap::element_numbers(std::size_t element) const {
-  const MeshElement& e = mesh.elements[element];
-  const auto a = numbers_at(e.a), b = numbers_at(e.b);
-  return {a[0], a[1], e.hinged_a ? hinge[element][0] : a[2],
-          b[0], b[1], e.hinged_b ? hinge[element][1] : b[2]};
+std::vector<int> DofMap::element_numbers(std::size_t i) const {
+  const FiniteElement& e = mesh.element(i);
+  const std::vector<ElementUnknown> unknowns = e.unknowns();
+  std::vector<int> numbers;
+  numbers.reserve(unknowns.size());
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    numbers.push_back(unknowns[j].own ? own.at({i, j})
+                                      : numbers_at(e.nodes()[unknowns[j].place])[unknowns[j].component]);
+  return numbers;
 }
 
 DofMap number_matrices(const MatricesSpec& matrices) {

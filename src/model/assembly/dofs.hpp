@@ -10,11 +10,12 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "model/assembly/mesh.hpp"
+#include "model/element/mesh.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -36,12 +37,14 @@ struct DofMap {
 
   Mesh mesh;                               ///< empty in matrix scenes
   std::vector<std::array<int, 3>> number;  ///< a mesh node; empty in matrix scenes
-  std::vector<std::array<int, 2>> hinge;   ///< an element: rotations of its hinged ends, or `absent`
+  std::map<std::pair<std::size_t, std::size_t>, int>
+      own;                                 ///< an element's own unknowns: element, index into unknowns()
   std::vector<std::array<int, 3>> moving;  ///< a mesh node: which of `supports` it follows, or `absent`
   std::vector<std::size_t> supports;       ///< that move: index into Scene::supports
   std::vector<Dof> dofs;
   std::vector<std::pair<int, int>> where;  ///< a degree of freedom: mesh node, component
   std::vector<int> body;                   ///< a mesh node: index into Scene::rigid, or `absent`
+  std::vector<AxialForces> frozen;         ///< an element: what stands in it (geometric.hpp); empty: none
   std::vector<double> body_stiffness;  ///< a rigid body: of its frozen forces (geometric.hpp); empty: none
   std::vector<TiedDof> tied;           ///< numbers size(), size() + 1, ...
   std::vector<Column> columns;
@@ -53,8 +56,8 @@ struct DofMap {
   [[nodiscard]] static int code_of_moving(int i) { return -3 - i; }
   [[nodiscard]] static int moving_of_code(int code) { return -3 - code; }
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
-  /// Both ends move with one rigid body, and not by hinges of their own: nothing strains the element.
-  [[nodiscard]] bool within_body(const MeshElement& e) const;
+  /// All nodes move with one rigid body, and no unknown is its own: nothing strains the element.
+  [[nodiscard]] bool within_body(const FiniteElement& e) const;
   /// What a number stands for: degrees of freedom and codes of moving supports; nothing where fixed or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion under a number; what supports move drops out.
@@ -63,8 +66,11 @@ struct DofMap {
   [[nodiscard]] double value(const Vector& x, int n) const;
   /// Numbers, `fixed`, `absent`, or codes of moving supports.
   [[nodiscard]] std::array<int, 3> numbers_at(int node) const;
-  /// ux, uy, rz at both ends, in the same way.
-  [[nodiscard]] std::array<int, 6> element_numbers(std::size_t element) const;
+  [[nodiscard]] AxialForces frozen_in(std::size_t element) const {
+    return frozen.empty() ? AxialForces{} : frozen[element];
+  }
+  /// Of its unknowns, in the same way.
+  [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };
 
 /// Components of v along x and y; those below roundoff of the length of v are zero.
@@ -77,6 +83,8 @@ struct DofMap {
 [[nodiscard]] std::array<double, 2> sliding_direction(const ContactSpec& contact);
 
 [[nodiscard]] DofMap number_nodes(const Scene& scene);
+/// mesh: of the scene, or with elements that no type of member has.
+[[nodiscard]] DofMap number_nodes(const Scene& scene, Mesh mesh);
 /// The error of a moment or a turn at a node whose rotation is absent.
 [[noreturn]] void refuse_turn(const SourcePlace& place, const std::string& key, const std::string& node);
 [[nodiscard]] DofMap number_matrices(const MatricesSpec& matrices);

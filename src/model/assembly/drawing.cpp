@@ -27,6 +27,21 @@ DrawnElement between(const std::vector<DrawnNode>& nodes, int a, int b, DrawnEle
   return e;
 }
 
+void draw_element(const DofMap& map, std::size_t i, Model& model) {
+  const FiniteElement& e = map.mesh.element(i);
+  const std::vector<ElementUnknown> unknowns = e.unknowns();
+  for (const auto& [from, to, bends] : e.lines()) {
+    const auto kind = bends ? DrawnElement::Kind::beam : DrawnElement::Kind::bar;
+    DrawnElement& drawn =
+        model.drawing.emplace_back(between(model.drawn_nodes, e.nodes()[from], e.nodes()[to], kind));
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      if (!unknowns[j].own) continue;
+      if (unknowns[j].place == from) drawn.dofs[unknowns[j].component] = map.own.at({i, j});
+      if (unknowns[j].place == to) drawn.dofs[3 + unknowns[j].component] = map.own.at({i, j});
+    }
+  }
+}
+
 int node_named(const Mesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.nodes.begin(), mesh.nodes.begin() + mesh.named,
                                   [&](const MeshNode& node) { return node.name == name; });
@@ -55,13 +70,7 @@ DrawnContact drawn_contact(const ContactSpec& spec, const DofMap& map) {
 
 void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
   for (std::size_t i = 0; i < map.mesh.nodes.size(); ++i) model.drawn_nodes.push_back(drawn_node(map, i));
-  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
-    const MeshElement& e = map.mesh.elements[i];
-    const auto kind = e.type == MemberType::bar ? DrawnElement::Kind::bar : DrawnElement::Kind::beam;
-    DrawnElement& drawn = model.drawing.emplace_back(between(model.drawn_nodes, e.a, e.b, kind));
-    if (e.hinged_a) drawn.dofs[2] = map.hinge[i][0];
-    if (e.hinged_b) drawn.dofs[5] = map.hinge[i][1];
-  }
+  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) draw_element(map, i, model);
   for (const Spring& s : scene.springs) {
     if (s.against.empty() || (s.stiffness == 0.0 && s.damping == 0.0)) continue;
     const int a = node_named(map.mesh, s.node), b = node_named(map.mesh, s.against);

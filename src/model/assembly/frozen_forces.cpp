@@ -5,12 +5,11 @@
 #include <map>
 
 #include "base/rounding.hpp"
-#include "model/assembly/bar.hpp"
-#include "model/assembly/beam.hpp"
 #include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
 #include "model/assembly/pieces.hpp"
 #include "model/assembly/ties.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 namespace {
@@ -94,7 +93,7 @@ class Gathering {
         const auto [piece, backwards] =
             piece_between(map_, load.pieces[j], load.pieces[j + 1], load.place, "loads");
         for (std::size_t e = piece->first; e < piece->first + piece->count; ++e) {
-          const Plane q = along_element(load, axis_of(map_.mesh, map_.mesh.elements[e]), backwards);
+          const Plane q = along_line(load, map_.mesh.line(e).axis(), backwards);
           for (std::size_t c = 0; c < 2; ++c) uniform_[e][c] += value * q[c];
         }
       }
@@ -102,42 +101,36 @@ class Gathering {
   }
 
   FrozenForces::Element element(std::size_t i) {
-    const MeshElement& e = map_.mesh.elements[i];
-    const Section& section = scene_.sections[static_cast<std::size_t>(e.section)];
-    const Axis axis = axis_of(map_.mesh, e);
-    const double l = axis.length;
-    Plane &at_a = on_node_[static_cast<std::size_t>(e.a)], &at_b = on_node_[static_cast<std::size_t>(e.b)];
-    Plane along = uniform_[i];  // between the ends; a lumped weight lies at them
-    for (std::size_t c = 0; c < 2; ++c) {
-      const double weight = section.mass_per_length * pull_[c];
-      const double half = 0.5 * l * (uniform_[i][c] + weight);
-      at_a[c] += half;
-      at_b[c] += half;
-      if (e.mass == MassKind::consistent) along[c] += weight;
-    }
-    FrozenForces::Element result{map_.mesh.nodes[static_cast<std::size_t>(e.a)].name,
-                                 map_.mesh.nodes[static_cast<std::size_t>(e.b)].name};
+    const FiniteElement& e = map_.mesh.element(i);
+    if (!e.has_geometric())
+      throw SceneError(
+          scene_.run.geometric_place, "run.geometric",
+          fmt::format("the elements of members.{} have no stiffness of static forces: expected a "
+                      "structure of beams and bars",
+                      e.member() + 1));
+    const PlaneVector& load = uniform_[i];
+    add_to_nodes(e, e.spread({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
+    FrozenForces::Element result{map_.mesh.node(e.nodes().front()).name,
+                                 map_.mesh.node(e.nodes().back()).name};
     if (map_.within_body(e)) return result;
-    const std::array<int, 6> numbers = map_.element_numbers(i);
-    Eigen::Matrix<double, 6, 1> u;
-    for (std::size_t j = 0; j < 6; ++j) u[static_cast<Eigen::Index>(j)] = moved(numbers[j]);
-    const bool bar = e.type == MemberType::bar;
-    const Eigen::Matrix<double, 6, 1> ends =
-        (bar ? bar_stiffness(l * axis.c, l * axis.s, section.EA)
-             : beam_stiffness(l * axis.c, l * axis.s, section.EA, section.EI / e.flexibility)) *
-        u;
-    const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member)) +
-                          value_of(true, name_of_strain(LoadKind::initial_strain, e.member));
-    const Plane held{section.EA * strain * axis.c, section.EA * strain * axis.s};
-    for (std::size_t c = 0; c < 2; ++c) {
-      at_a[c] -= ends[static_cast<Eigen::Index>(c)] + held[c];
-      at_b[c] -= ends[static_cast<Eigen::Index>(c) + 3] - held[c];
-    }
-    const double mean = section.EA * ((axis.c * (u[3] - u[0]) + axis.s * (u[4] - u[1])) / l - strain);
-    const double falls = 0.5 * l * (along[0] * axis.c + along[1] * axis.s);
-    result.at_from = mean + falls;
-    result.at_to = mean - falls;
+    const std::vector<int> numbers = map_.element_numbers(i);
+    ElementVector u(static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t j = 0; j < numbers.size(); ++j) u[static_cast<Eigen::Index>(j)] = moved(numbers[j]);
+    const double strain = value_of(true, name_of_strain(LoadKind::temperature, e.member())) +
+                          value_of(true, name_of_strain(LoadKind::initial_strain, e.member()));
+    add_to_nodes(e, strain * e.strain_forces() - e.stiffness() * u);
+    const AxialForces forces = e.axial_forces(u, strain, load, pull_);
+    result.at_from = forces.a;
+    result.at_to = forces.b;
     return result;
+  }
+
+  void add_to_nodes(const FiniteElement& e, const ElementVector& forces) {
+    const std::vector<ElementUnknown> unknowns = e.unknowns();
+    for (std::size_t j = 0; j < unknowns.size(); ++j)
+      if (const std::size_t c = unknowns[j].component; c < 2)
+        on_node_[static_cast<std::size_t>(e.nodes()[unknowns[j].place])][c] +=
+            forces[static_cast<Eigen::Index>(j)];
   }
 
   void add_spring(std::size_t i) {
@@ -187,7 +180,7 @@ class Gathering {
             scene_.run.geometric_place, "run.geometric",
             fmt::format("supports of rigid body '{}' hold its {} together, and nothing decides how "
                         "much each bears, which its stiffness depends on: expected one of them",
-                        body.name, c == 0 ? "ux" : "uy"));
+                        body.name, plane_components[c].displacement));
       if (!held) held = at(node);
     }
     return held.value_or(at(map_.mesh.by_name.at(body.centre)));
@@ -238,8 +231,8 @@ void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map) {
   bool same =
       forces.elements.size() == map.mesh.elements.size() && forces.bodies.size() == scene.rigid.size();
   for (std::size_t i = 0; same && i < forces.elements.size(); ++i)
-    same = forces.elements[i].from == name(map.mesh.elements[i].a) &&
-           forces.elements[i].to == name(map.mesh.elements[i].b);
+    same = forces.elements[i].from == name(map.mesh.element(i).nodes().front()) &&
+           forces.elements[i].to == name(map.mesh.element(i).nodes().back());
   for (std::size_t i = 0; same && i < forces.bodies.size(); ++i)
     same = forces.bodies[i].name == scene.rigid[i].name;
   if (!same)
@@ -248,10 +241,8 @@ void freeze(const FrozenForces& forces, const Scene& scene, DofMap& map) {
                      "bodies: expected a run of the same structure");
   map.body_stiffness.clear();
   for (const FrozenForces::Body& body : forces.bodies) map.body_stiffness.push_back(body.stiffness);
-  for (std::size_t i = 0; i < forces.elements.size(); ++i) {
-    map.mesh.elements[i].force_a = forces.elements[i].at_from;
-    map.mesh.elements[i].force_b = forces.elements[i].at_to;
-  }
+  map.frozen.clear();
+  for (const FrozenForces::Element& e : forces.elements) map.frozen.push_back({e.at_from, e.at_to});
 }
 
 }  // namespace signorini

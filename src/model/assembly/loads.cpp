@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/assembly/pieces.hpp"
+#include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
 #include "scene/saved_state.hpp"
@@ -33,13 +34,17 @@ Vector moment_form(const LoadSpec& spec, const DofMap& map, const std::string& k
   return form;
 }
 
+/// Forces on the unknowns of an element.
+void add_to(Vector& form, const ElementVector& forces, const DofMap& map, std::size_t element) {
+  const std::vector<int> numbers = map.element_numbers(element);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    map.add(form, numbers[i], forces[static_cast<Eigen::Index>(i)]);
+}
+
 /// Adds what a force per length of one does to one element.
 void add_uniform(const DofMap& map, std::size_t element, const LoadSpec& spec, bool backwards, Vector& form) {
-  const MeshElement& e = map.mesh.elements[element];
-  const Axis axis = axis_of(map.mesh, e);
-  const std::array<double, 6> forces = uniform_forces(e.type, axis, along_element(spec, axis, backwards));
-  const std::array<int, 6> numbers = map.element_numbers(element);
-  for (std::size_t i = 0; i < 6; ++i) map.add(form, numbers[i], forces[i]);
+  const LineElement& e = map.mesh.line(element);
+  add_to(form, e.spread(along_line(spec, e.axis(), backwards)), map, element);
 }
 
 Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::string& key) {
@@ -93,19 +98,11 @@ Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
 }
 
 /// Forces at the ends of its elements that hold a unit strain of a member.
-Combination strain_form(const Scene& scene, const DofMap& map, int member) {
+Combination strain_form(const DofMap& map, int member) {
   Vector form = Vector::Zero(map.size());
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) {
-    const MeshElement& e = map.mesh.elements[i];
-    if (e.member != member || map.within_body(e)) continue;
-    const Axis axis = axis_of(map.mesh, e);
-    const double force = scene.sections[static_cast<std::size_t>(e.section)].EA;
-    const std::array<int, 6> numbers = map.element_numbers(i);
-    const std::array<double, 2> along{force * axis.c, force * axis.s};
-    for (std::size_t c = 0; c < 2; ++c) {
-      map.add(form, numbers[c], -along[c]);
-      map.add(form, numbers[c + 3], along[c]);
-    }
+    const FiniteElement& e = map.mesh.element(i);
+    if (e.member() == member && !map.within_body(e)) add_to(form, e.strain_forces(), map, i);
   }
   return form_of(form, 1.0);
 }
@@ -117,8 +114,8 @@ void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads
       const std::string path = fmt::format("members.{}.{}", i + 1, key);
       const History history = finite(make_history(spec, path).scaled(factor), member.place, path);
       if (history.is_constant() && history.value(0.0) == 0.0) return;
-      Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(scene, map, static_cast<int>(i)),
-                history, holds_since_ever(spec, history)};
+      Load load{name_of_strain(kind, static_cast<int>(i)), strain_form(map, static_cast<int>(i)), history,
+                holds_since_ever(spec, history)};
       load.kind = kind;
       load.of_direction = unit::force;
       load.of_history = unit::plain;
@@ -180,11 +177,11 @@ struct SupportMotion {
 };
 SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t i) {
   const Support& support = scene.supports[map.supports[i]];
-  const char* component = support.ux ? "ux" : support.uy ? "uy" : "rz";
-  SupportMotion moving{fmt::format("support {}.{}", support.node, component),
+  const PlaneComponent& component = plane_components[support.ux ? 0 : support.uy ? 1 : 2];
+  SupportMotion moving{fmt::format("support {}.{}", support.node, component.displacement),
                        support.key + (support.motion_is_acceleration ? ".acceleration" : ".motion"),
                        support.place,
-                       support.rz,
+                       component.rotation,
                        {}};
   if (support.motion_is_acceleration) {
     const double s = last_motion(scene, moving.name), rate = last_motion(scene, rate_of(moving.name));
@@ -220,10 +217,9 @@ History motion_of_support(const Scene& scene, const DofMap& map, int i) {
 }
 
 std::string rate_of(const std::string& support_motion) {
-  std::string rate = support_motion;
-  char& component = rate[rate.size() - 2];
-  component = component == 'r' ? 'w' : 'v';
-  return rate;
+  const std::string_view component = last_part(support_motion);
+  return support_motion.substr(0, support_motion.size() - component.size()) +
+         component_named(component).value().component().velocity;
 }
 
 std::string name_of(const LoadSpec& load, std::size_t number) {

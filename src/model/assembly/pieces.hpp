@@ -1,7 +1,4 @@
-// pieces.hpp: finite elements as lines: their axes, the pieces that they make up, forces along them.
-//
-//   q along x and y on an element of length L:  q_x L/2, q_y L/2 at both ends, and, where it bends,
-//   +- q_across L^2/12 as moments
+// pieces.hpp: the pieces of members between named nodes, and forces along them.
 #pragma once
 
 #include <array>
@@ -11,22 +8,12 @@
 
 namespace signorini {
 
-/// Length of an element, cosine and sine of its direction.
-struct Axis {
-  double length, c, s;
-};
-[[nodiscard]] Axis axis_of(const Mesh& mesh, const MeshElement& element);
-
 /// The one piece of a member between two nodes, and whether it runs the other way. Errors: SceneError.
 [[nodiscard]] std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::string& a,
                                                               const std::string& b, const SourcePlace& place,
                                                               const std::string& key);
 
 /// Components along x and y of a distributed load of one on an element; backwards: given against its course.
-[[nodiscard]] std::array<double, 2> along_element(const LoadSpec& spec, const Axis& axis, bool backwards);
-
-/// What a force per length does to the ends of an element: ux, uy, rz at both.
-[[nodiscard]] std::array<double, 6> uniform_forces(MemberType type, const Axis& axis,
-                                                   const std::array<double, 2>& q);
+[[nodiscard]] std::array<double, 2> along_line(const LoadSpec& spec, const Axis& axis, bool backwards);
 
 }  // namespace signorini

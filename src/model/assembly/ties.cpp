@@ -7,11 +7,10 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/loads.hpp"
+#include "scene/components.hpp"
 
 namespace signorini {
 namespace {
-
-constexpr std::array<const char*, 3> tied_displacements{"ux", "uy", "rz"}, tied_velocities{"vx", "vy", "wz"};
 
 std::size_t place_of_node(int i) { return static_cast<std::size_t>(i); }
 
@@ -66,7 +65,7 @@ void add_hold(const Scene& scene, const RigidBody& body, const BodyHold& hold, s
   if (before->moving >= 0 || hold.moving >= 0)
     refuse_hold(scene, hold, body,
                 fmt::format("another support holds its {}, and one of the two moves; expected one",
-                            tied_displacements[c]));
+                            plane_components[c].displacement));
   if (c < 2 && arm_between(before->at, hold.at) != 0.0) turn = hold;
 }
 
@@ -124,8 +123,9 @@ void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map)
   }
   number = map.size() + static_cast<int>(map.tied.size());
   const std::string name = map.mesh.nodes[place_of_node(node)].name + ".";
-  map.tied.push_back(
-      {{name + tied_displacements[c], name + tied_velocities[c], c == 2, false}, std::move(terms)});
+  map.tied.push_back({{name + plane_components[c].displacement, name + plane_components[c].velocity,
+                       plane_components[c].rotation, false},
+                      std::move(terms)});
 }
 
 }  // namespace

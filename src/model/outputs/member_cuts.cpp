@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/element/line_member.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini {
@@ -16,8 +17,6 @@ void add(Cut& to, const Cut& from, double factor) {
   to.deflection += factor * from.deflection;
   for (std::size_t c = 0; c < 2; ++c) to.load[c] += factor * from.load[c];
 }
-
-Cut nothing() { return {Eigen::Matrix<double, 6, 1>::Zero(), Eigen::Matrix<double, 6, 1>::Zero()}; }
 
 }  // namespace
 
@@ -35,7 +34,7 @@ Unit unit_of_cut(OutputQuantity quantity) {
                                             : unit::force;
 }
 
-/// What is distributed is even, inertia linear along an element and cubic across it (cut.hpp).
+/// What is distributed is even, inertia linear along an element and cubic across it (line_element.hpp).
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;
 }
@@ -52,33 +51,31 @@ std::pair<std::size_t, double> MemberCuts::place_of(const Way& way, double stati
 }
 
 Cut MemberCuts::force(const Way& way, std::size_t k, double x, OutputQuantity quantity) const {
-  const MeshElement& e = map_.mesh.elements[element_of(way, k)];
-  const Axis axis = axis_of(map_.mesh, e);
-  Cut cut = nothing();
+  const std::size_t number = element_of(way, k);
+  const FiniteElement& e = map_.mesh.element(number);
+  Cut cut(e.unknowns().size());
   // On the way back the other side is to the right.
   const double sign = way.backwards && quantity == OutputQuantity::M ? -1.0 : 1.0;
-  add(cut,
-      cut_at(e, axis, scene_.sections[static_cast<std::size_t>(e.section)].mass_per_length, quantity,
-             (way.backwards ? 1.0 - x : x) * axis.length),
-      sign);
+  add(cut, e.cut(quantity, {way.backwards ? 1.0 - x : x, 0.0}, map_.frozen_in(number)), sign);
   return cut;
 }
 
 Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wanted, const SourcePlace& place,
                     const std::string& key) const {
   if (wanted.quantity != OutputQuantity::stress) return force(way, k, x, wanted.quantity);
-  const MeshElement& e = map_.mesh.elements[element_of(way, k)];
-  const Section& section = scene_.sections[static_cast<std::size_t>(e.section)];
+  const FiniteElement& e = map_.mesh.element(element_of(way, k));
+  const Member& member = scene_.members[static_cast<std::size_t>(e.member())];
+  const Section& section = section_of(scene_, member);
   if ((wanted.of_N != 0.0 && section.area == 0.0) || (wanted.of_M != 0.0 && section.modulus == 0.0))
     throw SceneError(
         place, key,
         fmt::format("section '{}' has no stresses: expected a shape, pipe, box, i or round, or area and "
                     "modulus beside EA and EI",
                     section.name));
-  const std::optional<Bend>& bend = scene_.members[static_cast<std::size_t>(e.member)].bend;
+  const std::optional<Bend>& bend = member.bend;
   const double i = wanted.intensification.value_or(bend ? bend->intensification : 1.0);
   const double side = wanted.fibre == Fibre::left ? -1.0 : 1.0;
-  Cut cut = nothing();
+  Cut cut(e.unknowns().size());
   if (wanted.of_N != 0.0) add(cut, force(way, k, x, OutputQuantity::N), wanted.of_N / section.area);
   if (wanted.of_M != 0.0)
     add(cut, force(way, k, x, OutputQuantity::M), side * i * wanted.of_M / section.modulus);

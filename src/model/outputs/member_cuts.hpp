@@ -5,7 +5,7 @@
 // i: intensification, as given, or that of the member's bend.
 #pragma once
 
-#include "model/outputs/cut.hpp"
+#include "model/assembly/pieces.hpp"
 
 namespace signorini {
 

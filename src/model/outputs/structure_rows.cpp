@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/assembly/bar.hpp"
 #include "model/assembly/loads.hpp"
 #include "scene/history_from_spec.hpp"
 
@@ -44,7 +43,7 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
       const auto [piece, backwards] =
           piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
       for (std::size_t e = piece->first; e < piece->first + piece->count; ++e)
-        uniform_[e].push_back({i, along_element(load, axis_of(map.mesh, element(e)), backwards)});
+        uniform_[e].push_back({i, along_line(load, map.mesh.line(e).axis(), backwards)});
     }
   }
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
@@ -78,38 +77,30 @@ void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity
 }
 
 void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bool stiff) const {
-  const MeshElement& e = element(i);
-  const Axis axis = axis_of(map_.mesh, e);
-  const double dx = axis.length * axis.c, dy = axis.length * axis.s;
-  const Section& s = section(e);
-  const bool bar = e.type == MemberType::bar;
-  const BeamMatrix m =
-      bar ? bar_mass(dx, dy, s.mass_per_length, e.mass) : beam_mass(dx, dy, s.mass_per_length, e.mass);
-  const Six ca = m * cut.forces + cut.acceleration;
-  Six cu = Six::Zero(), frozen = cut.deflection;  // what is frozen is not damped
-  if (stiff)
-    cu =
-        (bar ? bar_stiffness(dx, dy, s.EA) : beam_stiffness(dx, dy, s.EA, s.EI / e.flexibility)) * cut.forces;
-  if (stiff && !map_.within_body(e))
-    frozen +=
-        (bar ? bar_geometric(dx, dy, e.force_a, e.force_b) : beam_geometric(dx, dy, e.force_a, e.force_b)) *
-        cut.forces;
-  const std::array<int, 6> numbers = map_.element_numbers(i);
-  for (std::size_t j = 0; j < 6; ++j) {
+  const FiniteElement& e = element(i);
+  const ElementVector ca = e.mass() * cut.forces + cut.acceleration;
+  ElementVector cu = ElementVector::Zero(ca.size()), frozen = cut.deflection;  // what is frozen is not damped
+  if (stiff) cu = e.stiffness() * cut.forces;
+  const AxialForces standing = map_.frozen_in(i);
+  if (stiff && !standing.none() && !map_.within_body(e)) frozen += e.geometric(standing) * cut.forces;
+  const std::vector<int> numbers = map_.element_numbers(i);
+  const std::vector<ElementUnknown> unknowns = e.unknowns();
+  PlaneVector frame{0.0, 0.0};
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     add_motion(row, numbers[j], cu[at] + frozen[at], beta_ * cu[at] + alpha_ * ca[at], ca[at]);
+    if (unknowns[j].component < 2) frame[unknowns[j].component] += ca[at];
   }
-  add_frame(row, ca[0] + ca[3], ca[1] + ca[4]);
+  add_frame(row, frame[0], frame[1]);
   for (const Uniform& load : uniform_[i]) {
-    const std::array<double, 6> f = uniform_forces(e.type, axis, load.q);
+    const ElementVector f = e.spread(load.q);
     double factor = cut.load[0] * load.q[0] + cut.load[1] * load.q[1];
-    for (std::size_t j = 0; j < 6; ++j) factor -= cut.forces[static_cast<Eigen::Index>(j)] * f[j];
+    for (Eigen::Index j = 0; j < f.size(); ++j) factor -= cut.forces[j] * f[j];
     add_load(row, load.load, factor);
   }
   if (!stiff) return;
-  const double along = axis.c * (cut.forces[3] - cut.forces[0]) + axis.s * (cut.forces[4] - cut.forces[1]);
-  for (const History& strain : strains_[static_cast<std::size_t>(e.member)])
-    add_given(row, strain, -s.EA * along);
+  for (const History& strain : strains_[static_cast<std::size_t>(e.member())])
+    add_given(row, strain, -e.strain_work(cut.forces));
 }
 
 void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const Cut& cut) const {
@@ -184,15 +175,18 @@ void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::
 }
 
 void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const {
-  for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i)
-    for (const int end : {0, 3}) {
-      if ((end == 0 ? element(i).a : element(i).b) != node) continue;
+  for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
+    const std::vector<int>& nodes = element(i).nodes();
+    if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) continue;
+    const std::vector<ElementUnknown> unknowns = element(i).unknowns();
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
       // The rotation of a hinged end is its own, and nothing of it reaches the node.
-      if (c == 2 && (end == 0 ? element(i).hinged_a : element(i).hinged_b)) continue;
-      Cut cut{Six::Zero(), Six::Zero()};
-      cut.forces[end + static_cast<int>(c)] = factor;
+      if (nodes[unknowns[j].place] != node || unknowns[j].component != c || unknowns[j].own) continue;
+      Cut cut(unknowns.size());
+      cut.forces[static_cast<Eigen::Index>(j)] = factor;
       add_ends(row, i, cut, true);
     }
+  }
   for (const Spring& spring : scene_.springs) {
     const double d = direction_of(spring)[c];
     if (map_.mesh.by_name.at(spring.node) == node) add_spring(row, spring, c == 2, factor * d);
@@ -207,8 +201,9 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
 
 void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
   for (std::size_t i = 0; i < map_.mesh.elements.size(); ++i) {
-    Cut cut{Six::Zero(), Six::Zero()};
-    cut.forces[static_cast<int>(c)] = cut.forces[static_cast<int>(c) + 3] = -1.0;
+    const PlaneVector along{c == 0 ? -1.0 : 0.0, c == 1 ? -1.0 : 0.0};
+    Cut cut(element(i).unknowns().size());
+    cut.forces = element(i).translation(along);
     add_ends(row, i, cut, false);
   }
   for (const PointMass& mass : scene_.masses) add_mass(row, mass, c, -1.0);

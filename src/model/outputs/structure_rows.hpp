@@ -8,7 +8,7 @@
 // its history, those that rest are zero.
 #pragma once
 
-#include "model/outputs/cut.hpp"
+#include "model/assembly/pieces.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -42,11 +42,7 @@ class StructureRows {
   void add_total(PhysicalRow& row, std::size_t c) const;
 
  private:
-  using Six = Eigen::Matrix<double, 6, 1>;
-  [[nodiscard]] const MeshElement& element(std::size_t i) const { return map_.mesh.elements[i]; }
-  [[nodiscard]] const Section& section(const MeshElement& e) const {
-    return scene_.sections[static_cast<std::size_t>(e.section)];
-  }
+  [[nodiscard]] const FiniteElement& element(std::size_t i) const { return map_.mesh.element(i); }
   /// stiff: with the part of the stiffness.
   void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;

@@ -23,15 +23,8 @@ class Player {
       this.stop(this.last * (event.clientX - box.left) / box.width);
     });
   }
-  // 1, 2 or 5 times a power of ten, so that the greatest displacement is an eighth of the structure.
   scales() {
-    let greatest = 0;
-    const columns = data.nodes.flatMap((node) => node.u.slice(0, 2)).filter((column) => column >= 0);
-    for (const column of columns) for (const u of data.curve.columns[column].u) greatest = Math.max(greatest, Math.abs(u));
-    const wanted = greatest > 0 ? new Stage(byId("stage")).size / 8 / greatest : 1;
-    const power = Math.pow(10, Math.floor(Math.log10(wanted))), lead = wanted / power;
-    const fit = Math.max(lead >= 5 ? 5 * power : lead >= 2 ? 2 * power : power, wanted < 1 ? 0 : 1);
-    this.magnification = fit;
+    const fit = this.magnification = data.magnification;
     for (const factor of [...new Set([1, fit / 10, fit / 2, fit, 2 * fit, 10 * fit])].sort((a, b) => a - b)) {
       const option = document.createElement("option");
       option.value = factor;

@@ -68,23 +68,17 @@ class Stage {
   at(x, y) {
     return [this.wide / 2 + (x - this.middle[0]) * this.pixels, this.high / 2 - (y - this.middle[1]) * this.pixels];
   }
-  // A piece as a polyline: a beam is the cubic of its ends, magnified by m.
+  // A piece as a polyline, its motion magnified by m: data.shapes has what its ends do to places between them.
   piece(piece, u, m) {
     const a = data.nodes[piece.a], b = data.nodes[piece.b], ua = u[piece.a], ub = u[piece.b];
     const length = Math.hypot(b.x - a.x, b.y - a.y), c = (b.x - a.x) / length, s = (b.y - a.y) / length;
     const along = [c * ua[0] + s * ua[1], c * ub[0] + s * ub[1]], across = [c * ua[1] - s * ua[0], c * ub[1] - s * ub[0]];
-    const straight = piece.bar || a.u[2] < 0 && b.u[2] < 0, count = straight ? 1 : 10;
-    const chord = (across[1] - across[0]) / length;
-    const turns = [a.u[2] < 0 && straight ? chord : ua[2], b.u[2] < 0 && straight ? chord : ub[2]];
     let path = "";
-    for (let i = 0; i <= count; ++i) {
-      const x = i / count, x2 = x * x, x3 = x2 * x;
+    for (const [x, fromA, turnA, fromB, turnB] of data.shapes[piece.shape]) {
       const p = along[0] + x * (along[1] - along[0]);
-      const q = straight ? across[0] + x * (across[1] - across[0])
-        : across[0] * (1 - 3 * x2 + 2 * x3) + across[1] * (3 * x2 - 2 * x3) +
-          length * (turns[0] * (x - 2 * x2 + x3) + turns[1] * (x3 - x2));
+      const q = fromA * across[0] + fromB * across[1] + length * (turnA * ua[2] + turnB * ub[2]);
       const [X, Y] = this.at(a.x + x * length * c + m * (c * p - s * q), a.y + x * length * s + m * (s * p + c * q));
-      path += `${i ? "L" : "M"}${X.toFixed(1)} ${Y.toFixed(1)}`;
+      path += `${path ? "L" : "M"}${X.toFixed(1)} ${Y.toFixed(1)}`;
     }
     return path;
   }

@@ -98,12 +98,11 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
     my += mass * y;
   };
   const Mesh mesh = make_mesh(scene);
-  for (const MeshElement& e : mesh.elements) {
-    const MeshNode &a = mesh.nodes[static_cast<std::size_t>(e.a)],
-                   &b = mesh.nodes[static_cast<std::size_t>(e.b)];
-    add(scene.sections[static_cast<std::size_t>(e.section)].mass_per_length *
-            std::hypot(b.x - a.x, b.y - a.y),
-        0.5 * (a.x + b.x), 0.5 * (a.y + b.y));
+  for (const auto& e : mesh.elements) {
+    double x = 0.0, y = 0.0;
+    for (const int node : e->nodes()) x += mesh.node(node).x, y += mesh.node(node).y;
+    const auto count = static_cast<double>(e->nodes().size());
+    add(e->density() * e->extent(), x / count, y / count);
   }
   for (const PointMass& point : scene.masses) {
     const Node& node = *nodes.at(point.node);

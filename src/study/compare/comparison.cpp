@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/number.hpp"
+#include "scene/components.hpp"
 #include "study/compare/comparison_tables.hpp"
 #include "study/compare/joined_tables.hpp"
 
@@ -18,14 +19,11 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-bool ends_with(const std::string& text, const char* end) { return text.ends_with(end); }
-
 /// Which quantity a column of history.csv is part of.
 Deviation& quantity(Comparison& c, const std::string& column) {
-  if (ends_with(column, ".rz")) return c.rotation;
-  if (ends_with(column, ".wz")) return c.angular_velocity;
-  if (ends_with(column, ".vx") || ends_with(column, ".vy") || ends_with(column, ".v")) return c.velocity;
-  return c.displacement;
+  const NamedMotion motion = motion_named(column);
+  if (motion.rotation) return motion.rate ? c.angular_velocity : c.rotation;
+  return motion.rate ? c.velocity : c.displacement;
 }
 
 struct CommonColumn {

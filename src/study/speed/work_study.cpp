@@ -15,6 +15,7 @@
 #include "result/csv_read.hpp"
 #include "run/choose_flow.hpp"
 #include "run/expected.hpp"
+#include "scene/components.hpp"
 #include "study/speed/decades.hpp"
 
 namespace signorini {
@@ -61,7 +62,7 @@ double greatest_motion(const fs::path& directory) {
   std::vector<Column> columns;
   for (std::size_t i = 1; i < history.header().size(); ++i) {
     const std::string& name = history.header()[i];
-    if (name.ends_with(".ux") || name.ends_with(".uy") || name.ends_with(".u"))
+    if (is_displacement(name) && !motion_named(name).rotation)
       columns.push_back(
           {i, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
   }

@@ -4,15 +4,17 @@
 
 #include <sstream>
 
+#include "report/drawn_lines.hpp"
+
 using namespace signorini;
 
 namespace {
 
 /// A column of 2 on a support, a beam of 4 to its right; its end moves up at 1 a second, and there is a contact.
 Json two_nodes() {
-  return parse_json(std::string(R"({
+  Json data = parse_json(std::string(R"({
     "nodes": [{"name": "A", "x": 0.0, "y": 0.0, "u": [-1, -1, -1]}, {"name": "B", "x": 4.0, "y": 0.0, "u": [-1, 0, 1]}],
-    "pieces": [{"a": 0, "b": 1, "bar": false}],
+    "pieces": [{"a": 0, "b": 1, "bar": false, "shape": 1}],
     "springs": [{"a": 0, "b": 1, "dx": 1.0, "dy": 0.0}, {"a": 1, "b": -1, "dx": 0.0, "dy": 1.0}],
     "loads": [{"name": "load 1", "node": 1, "dx": 0.6, "dy": 0.8, "t": [0.0, 1.0, 1.0, 2.0], "f": [10.0, 10.0, 0.0, 0.0]}],
     "contacts": [{"name": "c", "node": 1, "nx": 0.0, "ny": 1.0, "against": [], "slider": false, "gap": 0.0,
@@ -20,6 +22,8 @@ Json two_nodes() {
                              "T": [2.0, 2.0, 0.0, 0.0], "gap": [0.0, 0.0, 0.0, null]}}],
     "curve": {"times": [[0.0, 2.0]], "columns": [{"t": 0, "u": [0.0, 2.0]}, {"t": 0, "u": [0.0, 0.75]}]},
     "events": [[1.0, 0, "separation", "stick", "open"], [1.0, -1, "time", "", ""]]})"));
+  data["shapes"] = shapes_json();
+  return data;
 }
 
 /// The numbers of an array of the file.

@@ -6,9 +6,8 @@
 
 #include <string>
 #include <unordered_map>
-#include <vector>
 
-#include "signorini/scene.hpp"
+#include "model/element/line_element.hpp"
 
 namespace signorini {
 
@@ -17,30 +16,25 @@ struct MeshNode {
   double x = 0.0, y = 0.0;  ///< length
 };
 
-/// One beam or bar between two mesh nodes.
-struct MeshElement {
-  int a = 0, b = 0;
-  int section = 0;  ///< index into Scene::sections
-  MemberType type = MemberType::beam;
-  MassKind mass = MassKind::consistent;
-  bool hinged_a = false, hinged_b = false;  ///< its end has a rotation of its own
-  int member = 0;                           ///< index into Scene::members
-  double flexibility = 1.0;                 ///< of a bend: EI is divided by it
-  double force_a = 0.0, force_b = 0.0;  ///< frozen axial force at its ends, tension positive (geometric.hpp)
-};
-
-/// A piece of a member between two named nodes; an arc has nodes on it, and chords as elements.
+/// A piece of a member of bars or beams between two named nodes; an arc has nodes on it, and chords as elements.
 struct MeshPiece {
   int from = 0, to = 0;
-  std::size_t first = 0, count = 0;  ///< of its elements
+  std::size_t first = 0, count = 0;  ///< of its elements, all of them lines
 };
 
 struct Mesh {
   std::vector<MeshNode> nodes;
-  std::vector<MeshElement> elements;
+  std::vector<std::shared_ptr<const FiniteElement>> elements;
   std::vector<MeshPiece> pieces;
   int named = 0;                                 ///< the first `named` nodes are those of the file
   std::unordered_map<std::string, int> by_name;  ///< of the named ones
+
+  [[nodiscard]] const FiniteElement& element(std::size_t i) const { return *elements[i]; }
+  /// An element of a piece.
+  [[nodiscard]] const LineElement& line(std::size_t i) const {
+    return static_cast<const LineElement&>(*elements[i]);
+  }
+  [[nodiscard]] const MeshNode& node(int i) const { return nodes[static_cast<std::size_t>(i)]; }
 };
 
 [[nodiscard]] Mesh make_mesh(const Scene& scene);

@@ -1,5 +1,5 @@
 // Bars, damping by ratios, and the new keys as the model sees them.
-#include "model/assembly/bar.hpp"
+#include "model/element/bar.hpp"
 
 #include <doctest/doctest.h>
 
@@ -31,7 +31,7 @@ const std::string head =
 
 }  // namespace
 
-TEST_SUITE("unit/model/assembly/bar") {
+TEST_SUITE("unit/model/element/bar") {
   TEST_CASE("a bar resists only its own stretching and carries its mass in both directions") {
     const double dx = 1.2, dy = -0.7, l = std::hypot(dx, dy), ea = 9e3, rho = 0.4;
     const BeamMatrix k = bar_stiffness(dx, dy, ea);

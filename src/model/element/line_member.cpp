@@ -1,4 +1,4 @@
-#include "model/assembly/mesh.hpp"
+#include "model/element/line_member.hpp"
 
 #include <fmt/core.h>
 
@@ -7,11 +7,13 @@
 #include <numbers>
 
 #include "base/rounding.hpp"
+#include "model/element/bar.hpp"
+#include "model/element/beam.hpp"
 
 namespace signorini {
 namespace {
 
-int find_section(const Scene& scene, const Member& member, const std::string& key) {
+const Section& find_section(const Scene& scene, const Member& member, const std::string& key) {
   const auto it = std::find_if(scene.sections.begin(), scene.sections.end(),
                                [&](const Section& s) { return s.name == member.section; });
   if (it == scene.sections.end())
@@ -21,7 +23,7 @@ int find_section(const Scene& scene, const Member& member, const std::string& ke
     throw SceneError(member.place, key + ".section",
                      fmt::format("section '{}' needs EA > 0{} and mass_per_length >= 0", it->name,
                                  bends ? ", EI > 0" : ""));
-  return static_cast<int>(it - scene.sections.begin());
+  return *it;
 }
 
 /// At a part s of the way from a to b: on the straight line, or on the arc, which lies to the right where it turns left.
@@ -40,7 +42,12 @@ std::array<double, 2> place_on_piece(const MeshNode& a, const MeshNode& b, const
   return {a.x + along * dx + out * dy, a.y + along * dy - out * dx};
 }
 
-void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t piece, int section,
+std::shared_ptr<const FiniteElement> line_element(MemberType type, const LineData& data) {
+  if (type == MemberType::bar) return std::make_shared<BarElement>(data);
+  return std::make_shared<BeamElement>(data);
+}
+
+void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t piece, const Section& section,
                const std::string& key) {
   const Member& member = scene.members[number];
   const int a = find_node(mesh, member.nodes[piece], member.place, key + ".nodes");
@@ -59,11 +66,7 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
     throw SceneError(
         member.place, key + ".elements",
         fmt::format("found {}, expected 1: nothing would hold a bar's inner nodes sideways", count));
-  const auto hinged = [&](const std::string& node, bool at_end) {
-    return at_end && std::find(member.release.begin(), member.release.end(), node) != member.release.end();
-  };
-  const bool hinged_a = hinged(member.nodes[piece], piece == 0);
-  const bool hinged_b = hinged(member.nodes[piece + 1], piece + 2 == member.nodes.size());
+  const bool hinged_a = is_hinged(member, piece), hinged_b = is_hinged(member, piece + 1);
   mesh.pieces.push_back({a, b, mesh.elements.size(), static_cast<std::size_t>(count)});
   int previous = a;
   for (int i = 1; i <= count; ++i) {
@@ -73,36 +76,41 @@ void add_piece(Mesh& mesh, const Scene& scene, std::size_t number, std::size_t p
       next = static_cast<int>(mesh.nodes.size());
       mesh.nodes.push_back({fmt::format("{}-{}.{}", from.name, to.name, i), x, y});
     }
-    mesh.elements.push_back({previous, next, section, member.type, member.mass, hinged_a && i == 1,
-                             hinged_b && i == count, static_cast<int>(number),
-                             member.bend ? member.bend->flexibility : 1.0});
+    const MeshNode &start = mesh.node(previous), &end = mesh.node(next);
+    mesh.elements.push_back(
+        line_element(member.type, {{previous, next},
+                                   static_cast<int>(number),
+                                   axis_between(end.x - start.x, end.y - start.y),
+                                   section.EA,
+                                   section.EI / (member.bend ? member.bend->flexibility : 1.0),
+                                   section.mass_per_length,
+                                   member.mass,
+                                   hinged_a && i == 1,
+                                   hinged_b && i == count}));
     previous = next;
   }
 }
 
 }  // namespace
 
-int find_node(const Mesh& mesh, const std::string& name, const SourcePlace& place, const std::string& key) {
-  if (const auto found = mesh.by_name.find(name); found != mesh.by_name.end()) return found->second;
-  throw SceneError(place, key, fmt::format("no node is named '{}'", name));
+bool is_hinged(const Member& member, std::size_t node) {
+  const bool at_end = node == 0 || node + 1 == member.nodes.size();
+  return at_end &&
+         std::find(member.release.begin(), member.release.end(), member.nodes[node]) != member.release.end();
 }
 
-Mesh make_mesh(const Scene& scene) {
-  Mesh mesh;
-  for (const Node& node : scene.nodes) {
-    mesh.by_name.emplace(node.name, static_cast<int>(mesh.nodes.size()));
-    mesh.nodes.push_back({node.name, node.x, node.y});
-  }
-  mesh.named = static_cast<int>(mesh.nodes.size());
-  for (std::size_t i = 0; i < scene.members.size(); ++i) {
-    const Member& member = scene.members[i];
-    const std::string key = fmt::format("members.{}", i + 1);
-    if (member.nodes.size() < 2) throw SceneError(member.place, key + ".nodes", "a member needs two nodes");
-    const int section = find_section(scene, member, key);
-    for (std::size_t piece = 0; piece + 1 < member.nodes.size(); ++piece)
-      add_piece(mesh, scene, i, piece, section, key);
-  }
-  return mesh;
+const Section& section_of(const Scene& scene, const Member& member) {
+  return *std::find_if(scene.sections.begin(), scene.sections.end(),
+                       [&](const Section& s) { return s.name == member.section; });
+}
+
+void mesh_line_member(Mesh& mesh, const Scene& scene, std::size_t number) {
+  const Member& member = scene.members[number];
+  const std::string key = fmt::format("members.{}", number + 1);
+  if (member.nodes.size() < 2) throw SceneError(member.place, key + ".nodes", "a member needs two nodes");
+  const Section& section = find_section(scene, member, key);
+  for (std::size_t piece = 0; piece + 1 < member.nodes.size(); ++piece)
+    add_piece(mesh, scene, number, piece, section, key);
 }
 
 }  // namespace signorini

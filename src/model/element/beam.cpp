@@ -1,4 +1,4 @@
-#include "model/assembly/beam.hpp"
+#include "model/element/beam.hpp"
 
 #include <cmath>
 
@@ -68,6 +68,40 @@ BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind
        0.0,   -13.0 * l, -3.0 * l * l,  0.0,  -22.0 * l,  4.0 * l * l;
   // clang-format on
   return turned(m * (mass / 420.0), dx / l, dy / l);
+}
+
+std::vector<ElementUnknown> BeamElement::unknowns() const {
+  return {{0, 0}, {0, 1}, {0, 2, data().hinged_a}, {1, 0}, {1, 1}, {1, 2, data().hinged_b}};
+}
+
+ElementMatrix BeamElement::mass() const { return beam_mass(axis().dx, axis().dy, density(), data().mass); }
+
+ElementMatrix BeamElement::stiffness() const {
+  return beam_stiffness(axis().dx, axis().dy, data().EA, data().EI);
+}
+
+ElementMatrix BeamElement::geometric(const AxialForces& forces) const {
+  return beam_geometric(axis().dx, axis().dy, forces.a, forces.b);
+}
+
+LineShapes BeamElement::across_once(double s) const {
+  const double l = axis().length, s2 = s * s, s3 = s2 * s, s4 = s3 * s;
+  return {l * (s - s3 + s4 / 2.0), l * l * (s2 / 2.0 - 2.0 * s3 / 3.0 + s4 / 4.0), l * (s3 - s4 / 2.0),
+          l * l * (s4 / 4.0 - s3 / 3.0)};
+}
+
+LineShapes BeamElement::across_twice(double s) const {
+  const double l = axis().length, s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
+  return {l * l * (s2 / 2.0 - s4 / 4.0 + s5 / 10.0), l * l * l * (s3 / 6.0 - s4 / 6.0 + s5 / 20.0),
+          l * l * (s4 / 4.0 - s5 / 10.0), l * l * l * (s5 / 20.0 - s4 / 12.0)};
+}
+
+BeamElement::Ends BeamElement::slope(double s) const {
+  const double rise = 6.0 * (s - s * s) / axis().length;
+  Ends row;
+  row << rise * axis().s, -rise * axis().c, 1.0 - 4.0 * s + 3.0 * s * s, -rise * axis().s, rise * axis().c,
+      3.0 * s * s - 2.0 * s;
+  return row;
 }
 
 }  // namespace signorini

@@ -11,9 +11,7 @@
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.6, 11.3 and 15.2.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "signorini/scene.hpp"
+#include "model/element/line_element.hpp"
 
 namespace signorini {
 
@@ -28,5 +26,23 @@ using BeamMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// Mass matrix in the scene's axes of a beam that spans (dx, dy).
 [[nodiscard]] BeamMatrix beam_mass(double dx, double dy, double mass_per_length, MassKind kind);
+
+/// Its bends' flexibility stands in EI.
+class BeamElement final : public LineElement {
+ public:
+  using LineElement::LineElement;
+
+  [[nodiscard]] std::vector<ElementUnknown> unknowns() const override;
+  [[nodiscard]] bool has_own() const override { return data().hinged_a || data().hinged_b; }
+  [[nodiscard]] ElementMatrix mass() const override;
+  [[nodiscard]] ElementMatrix stiffness() const override;
+  [[nodiscard]] ElementMatrix geometric(const AxialForces& forces) const override;
+  [[nodiscard]] std::vector<ElementLine> lines() const override { return {{0, 1, true}}; }
+
+ private:
+  [[nodiscard]] LineShapes across_once(double part) const override;
+  [[nodiscard]] LineShapes across_twice(double part) const override;
+  [[nodiscard]] Ends slope(double part) const override;
+};
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "model/assembly/beam.hpp"
+#include "model/element/beam.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,7 @@ double order(double coarse, double fine, double exact) {
 
 }  // namespace
 
-TEST_SUITE("unit/model/assembly/beam") {
+TEST_SUITE("unit/model/element/beam") {
   TEST_CASE("a beam element resists no rigid motion and carries the inertia of a rod") {
     const double dx = 1.2, dy = -0.7, l = std::hypot(dx, dy), rho = 0.4;
     const BeamMatrix k = beam_stiffness(dx, dy, 9e6, 2e6);

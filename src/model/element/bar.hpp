@@ -3,11 +3,12 @@
 //   K = EA/L [ e e^T  -e e^T; -e e^T  e e^T ],   M = rho L/6 [2 I  I; I  2 I],   e = (dx, dy)/L
 //
 // in the scene's axes; its mass resists in both directions, or a bar could be turned for nothing. A lumped
-// mass is rho L/2 at each end. Unknowns as in beam.hpp; rows and columns of the rotations are zero.
+// mass is rho L/2 at each end. Unknowns of the matrices as in beam.hpp, rows and columns of the rotations zero; the element
+// itself has only ux and uy of both ends.
 // Source: Przemieniecki, Theory of Matrix Structural Analysis (1968), sections 5.4 and 11.2.
 #pragma once
 
-#include "model/assembly/beam.hpp"
+#include "model/element/beam.hpp"
 
 namespace signorini {
 
@@ -20,5 +21,21 @@ namespace signorini {
 
 /// Mass matrix of a bar that spans (dx, dy).
 [[nodiscard]] BeamMatrix bar_mass(double dx, double dy, double mass_per_length, MassKind kind);
+
+class BarElement final : public LineElement {
+ public:
+  using LineElement::LineElement;
+
+  [[nodiscard]] std::vector<ElementUnknown> unknowns() const override;
+  [[nodiscard]] ElementMatrix mass() const override;
+  [[nodiscard]] ElementMatrix stiffness() const override;
+  [[nodiscard]] ElementMatrix geometric(const AxialForces& forces) const override;
+  [[nodiscard]] std::vector<ElementLine> lines() const override { return {{0, 1, false}}; }
+
+ private:
+  [[nodiscard]] LineShapes across_once(double part) const override;
+  [[nodiscard]] LineShapes across_twice(double part) const override;
+  [[nodiscard]] Ends slope(double part) const override;
+};
 
 }  // namespace signorini

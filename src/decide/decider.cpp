@@ -39,6 +39,19 @@ std::vector<std::size_t> every_contact(const Model& model) {
   return all;
 }
 
+/// Why a mode has no system: what holds its contacts, or nothing of theirs.
+Refusal no_system(const Model& model, const Mode& mode) {
+  std::vector<std::size_t> held;
+  for (std::size_t c = 0; c < mode.size(); ++c)
+    if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
+      held.push_back(c);
+  if (!held.empty()) return dependent_rows(std::move(held));
+  return {Refusal::Kind::singular,
+          "the equations of motion are singular: beside the greatest stiffnesses and masses the least are "
+          "rounding, or leave the range of numbers",
+          {}};
+}
+
 /// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.
 std::string what_makes_unique(const Model& model, const std::vector<std::size_t>& contacts) {
   const bool sliders = std::any_of(contacts.begin(), contacts.end(),
@@ -119,7 +132,7 @@ std::vector<BodySlide> Decider::slides(const Forcing& forcing, const Decision& d
 Refusal Decider::begin(const Forcing& before, Course& course) {
   Instant& instant = course.instant;
   Decision& d = course.decision;
-  if (!evaluate(before, instant.mode, course)) return dependent_rows();
+  if (!evaluate(before, instant.mode, course)) return no_system(model_, instant.mode);
   for (const MotionJet& jet : course.jets) {
     d.before.push_back(jet.motion[0]);
     course.noise_before.push_back(jet.noise[0]);
@@ -135,7 +148,7 @@ Refusal Decider::begin(const Forcing& before, Course& course) {
   if (!instant.jump) return {};
   follow_forcing(model_, instant, before, course.after, d.before, course.mode);
   do {  // ends: each round one more sticks
-    if (!evaluate(course.after, course.mode, course)) return dependent_rows();
+    if (!evaluate(course.after, course.mode, course)) return no_system(model_, course.mode);
   } while (turn_back(model_, d.before, course.jets, course.mode));
   return {};
 }
@@ -201,7 +214,8 @@ std::vector<Block> Decider::react(Course& course) const {
     course.decision.visited[c] = true;
     if (found.sliders) jointly[block_of_[c]] = true;
     const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
-    if (!contact.takes_impulses() && !(found.sliders && contact.sticks_rigidly())) {
+    const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
+    if (!contact.takes_impulses() && !joins) {
       // Its slip rate has come to zero, to its rounding: it is zero, whatever its next state is.
       if (f.guard == Guard::sliding && f.sign.order > 0 && contact.sticks_rigidly())
         found.known[c].sliding.zeros = 1;
@@ -523,7 +537,7 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   d.jumped.assign(mode.size(), false);
   d.crossings.resize(mode.size());
   if (!evaluate(forcing, mode, course)) {
-    d.refusal = dependent_rows();
+    d.refusal = no_system(model_, mode);
     return std::move(d);
   }
   d.consistent = true;

@@ -11,13 +11,20 @@
 namespace signorini {
 namespace {
 
+/// Compression of a contact that may stick; 0 of others.
+double pressing_of(const CoulombItem& item, double force) {
+  return item.kind == CoulombItem::Kind::frictional ? force
+         : item.kind == CoulombItem::Kind::pressed  ? item.pressing
+                                                    : 0.0;
+}
+
 /// Rows of friction that hold: their contacts press, and do not move.
 std::vector<Eigen::Index> held_rows(const CoulombProblem& p, const CoulombSolution& s) {
   std::vector<Eigen::Index> rows;
   const Eigen::VectorXd size = p.W.cwiseAbs() * s.force.cwiseAbs() + p.b.cwiseAbs();
   for (std::size_t i = 0; i < p.items.size(); ++i) {
     const Eigen::Index n = normal_place(i), t = tangent_place(i);
-    if (p.items[i].kind != CoulombItem::Kind::frictional || !(s.force[n] > 0.0)) continue;
+    if (!(pressing_of(p.items[i], s.force[n]) > 0.0)) continue;
     if (std::abs(s.response[t]) <= rounding::of_elimination * size[t]) rows.push_back(t);
   }
   return rows;
@@ -49,7 +56,8 @@ void share_fairly(const CoulombProblem& problem, CoulombSolution& solution) {
   Eigen::VectorXd limit(k0.size()), at = Eigen::VectorXd::Zero(k0.size());
   for (Eigen::Index i = 0; i < k0.size(); ++i) {
     const Eigen::Index t = rows[static_cast<std::size_t>(i)];
-    limit[i] = problem.items[static_cast<std::size_t>(t / 2)].static_friction * solution.force[t - 1];
+    const CoulombItem& item = problem.items[static_cast<std::size_t>(t / 2)];
+    limit[i] = item.static_friction * pressing_of(item, solution.force[t - 1]);
   }
   std::vector<Eigen::Index> given;
   for (Eigen::Index round = 0; round <= k0.size(); ++round) {  // each holds one more at its limit

@@ -2,8 +2,8 @@
 //
 //   min sum k_i^2,   k = k0 + Z y,   |k_i| <= fs l_i        W Z = 0: Z moves nothing
 //
-// A complementarity problem yields some forces that hold a body; two of its feet that stick may share the friction in
-// other ways. Taken is the share of the least norm, and where that leaves a cone the nearest one within: that contact
+// A complementarity problem yields some forces that hold a body; two of its feet, or sliders, that stick may share the
+// friction in other ways. Taken is the share of the least norm, and where that leaves a cone the nearest one within: that contact
 // is at its limit, the others bear the rest.
 #pragma once
 

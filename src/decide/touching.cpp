@@ -297,19 +297,48 @@ void Touching::rest_together(const Instant& instant, const Forcing& forcing, con
   }
 }
 
+/// Of those that hold one motion with others, of which one has let go or has come to rest: all that are at rest.
+std::vector<std::size_t> Touching::sharing(const Instant& instant, const Forcing& forcing, const Mode& mode,
+                                           const Decision& decision) const {
+  std::vector<std::size_t> at_rest;
+  for (const std::vector<std::size_t>& group : systems_.sharing()) {
+    if (std::none_of(group.begin(), group.end(), [&](std::size_t c) { return decision.visited[c]; }))
+      continue;
+    Mode held = mode;
+    const auto stops = [&](std::size_t c) {
+      if (mode[c].state == State::stick || instant.has_fired(c, Guard::sliding)) return true;
+      const double vt = along_surface(model_.contacts[c], instant.v, forcing.surface(c, instant.t, 1));
+      const double held_too = systems_.held_by_others(c, held)
+                                  ? slowest_flight(c) + rounding::of_many * model_.scales.velocity
+                                  : 0.0;
+      return std::abs(vt) <= std::max(rounding_of_slide(c, forcing, instant), held_too);
+    };
+    for (int round = 0; round < 2; ++round)  // what has stopped holds others
+      for (const std::size_t c : group)
+        if (!model_.contacts[c].has_gap() && !mode[c].is_open() && stops(c)) held[c].state = State::stick;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(at_rest), [&](std::size_t c) {
+      return !model_.contacts[c].has_gap() && held[c].state == State::stick;
+    });
+  }
+  return at_rest;
+}
+
 /// Sliders whose friction has let go or has stopped them, where they join; and those that a hit has stopped.
 void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                            const Mode& mode, const Decision& decision, Findings& found) const {
+  const std::vector<std::size_t> together = sharing(instant, forcing, mode, decision);
   for (const std::size_t c : block) {
     const Contact& contact = model_.contacts[c];
     if (contact.has_gap() || !contact.sticks_rigidly()) continue;
+    const bool shares = std::find(together.begin(), together.end(), c) != together.end();
     const double vt = along_surface(contact, instant.v, forcing.surface(c, instant.t, 1));
     const bool stopped =
         met.hit && slip_sign(mode[c].state) != 0 && std::abs(vt) <= rounding_of_slide(c, forcing, instant);
-    if (!stopped && !(found.sliders && decision.visited[c])) continue;
+    if (!stopped && !shares && !(found.sliders && decision.visited[c])) continue;
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
     who.kinetic = found.kinetic[c];
+    if (shares) found.known[c].sliding.zeros = 1;
     found.known[c] = found.known[c].of_motion();
     found.participants.push_back(who);
   }

@@ -78,6 +78,8 @@ class Touching {
   void add_staying(const Instant& instant, const Forcing& forcing, const Met& met,
                    const std::vector<MotionJet>& free, const Decision& decision, Findings& found) const;
   void rest_together(const Instant& instant, const Forcing& forcing, const Mode& mode, Findings& found) const;
+  [[nodiscard]] std::vector<std::size_t> sharing(const Instant& instant, const Forcing& forcing,
+                                                 const Mode& mode, const Decision& decision) const;
   void add_sliders(const Instant& instant, const Forcing& forcing, const Met& met, const Block& block,
                    const Mode& mode, const Decision& decision, Findings& found) const;
   [[nodiscard]] bool presses_harder(std::size_t contact, const Vector& before, const Vector& after) const;

@@ -6,12 +6,14 @@
 // which the first guard falls, and integrates works over what it has passed.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "decide/decision.hpp"
 #include "decide/instant.hpp"
 #include "engine/graze.hpp"
+#include "engine/ripple.hpp"
 #include "motion/powers.hpp"
 #include "motion/series.hpp"
 #include "signorini/result.hpp"
@@ -90,6 +92,18 @@ class Stepper {
   /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
   /// that the last step was followed in, y . x = 1. 1: it was followed in none.
   [[nodiscard]] virtual double dependence() const { return 1.0; }
+
+  /// By how many radians u, v, a and forces turn at most in the last step, forcing aside: polynomials of degree n by n pi.
+  /// Infinite: by what frequencies say.
+  [[nodiscard]] virtual double turns() const { return std::numeric_limits<double>::infinity(); }
+  /// Of what turns faster than that in the last step, rad per time. Nothing: not known, or something does that does not
+  /// swing.
+  [[nodiscard]] virtual std::optional<Ripple> ripple(double /*omega*/) const { return std::nullopt; }
+  /// Where ripples are known: the sizes of the terms that u, v, a and forces of the last step are sums of, fast modes or
+  /// not. Rounding is relative to that.
+  [[nodiscard]] virtual Ripple whole() const { return {}; }
+  /// The greatest form . u of all u with |u|_M = 1; asked where ripples are known.
+  [[nodiscard]] virtual double reach(const Combination& /*form*/) const { return 0.0; }
 
   /// The first guard that came back into its tolerance and left it without a fall, where the engine looks for it.
   [[nodiscard]] virtual std::optional<Graze> graze() const { return std::nullopt; }

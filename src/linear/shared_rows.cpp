@@ -56,13 +56,21 @@ const Combination& form_of(const Model& model, std::size_t row) {
   return row % 2 == 0 ? contact.normal : contact.tangent;
 }
 
-/// Rigid contacts that act on common degrees of freedom.
-std::vector<std::vector<std::size_t>> rigid_together(const Model& model) {
-  DisjointSets sets(model.contacts.size());
+}  // namespace
+
+bool SharedRows::has_mass(const Combination& form) const {
+  return !form.terms.empty() && std::all_of(form.terms.begin(), form.terms.end(), [&](const auto& term) {
+    return lightness_[static_cast<std::size_t>(term.first)] > 0.0;
+  });
+}
+
+/// Rigid contacts, and sliders that stick rigidly, that act on common degrees of freedom.
+std::vector<std::vector<std::size_t>> SharedRows::together() const {
+  DisjointSets sets(model_.contacts.size());
   std::unordered_map<int, std::size_t> first;  // that acts on a degree of freedom
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& contact = model.contacts[k];
-    if (!contact.takes_impulses()) continue;
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
+    const Contact& contact = model_.contacts[k];
+    if (!contact.takes_impulses() && !(contact.sticks_rigidly() && has_mass(contact.tangent))) continue;
     for (const Combination* form : {&contact.normal, &contact.tangent})
       for (const auto& term : form->terms) sets.join(k, first.emplace(term.first, k).first->second);
   }
@@ -71,19 +79,19 @@ std::vector<std::vector<std::size_t>> rigid_together(const Model& model) {
   return groups;
 }
 
-}  // namespace
-
 SharedRows::SharedRows(const Model& model, const Structure& structure)
-    : model_(model), lightness_(static_cast<std::size_t>(structure.size), 0.0) {
+    : model_(model),
+      lightness_(static_cast<std::size_t>(structure.size), 0.0),
+      grouped_(model.contacts.size(), false) {
   for (int j = 0; j < structure.size; ++j)
     for (auto p = static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j)]);
          p < static_cast<std::size_t>(structure.column_start[static_cast<std::size_t>(j) + 1]); ++p)
       if (structure.row[p] == j && structure.m[p] > 0.0)
         lightness_[static_cast<std::size_t>(j)] = 1.0 / structure.m[p];
-  for (std::vector<std::size_t>& group : rigid_together(model)) {
+  for (std::vector<std::size_t>& group : together()) {
     std::vector<std::size_t> rows;
     for (const std::size_t k : group) {
-      rows.push_back(2 * k);
+      if (model.contacts[k].takes_impulses()) rows.push_back(2 * k);
       if (model.contacts[k].sticks_rigidly()) rows.push_back(2 * k + 1);
     }
     // Two walls on both sides of a mass never close together: without friction nothing is shared.
@@ -91,7 +99,9 @@ SharedRows::SharedRows(const Model& model, const Structure& structure)
     bool friction = false;
     for (std::size_t i = 0; i < rows.size() && null.cols() > 0; ++i)
       friction = friction || (rows[i] % 2 == 1 && !null.row(static_cast<Eigen::Index>(i)).isZero(0.0));
-    if (friction) groups_.push_back(std::move(group));
+    if (!friction) continue;
+    for (const std::size_t k : group) grouped_[k] = true;
+    groups_.push_back(std::move(group));
   }
 }
 

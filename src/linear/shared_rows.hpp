@@ -1,11 +1,11 @@
-// shared_rows.hpp: rigid contacts that hold one motion several times, as two feet of one body that stick.
+// shared_rows.hpp: contacts that hold one motion several times, as two feet or two sliders of one body that stick.
 //
 //   | M  H | | a |   | p |      H z = 0:  rows that say the same, and forces that are not unique
 //   | H' 0 | | f | = | b |
 //
 // With s z z' in place of 0 the matrix is regular, and where z.b = 0 its solution has H' a = b and z.f = 0: the motion
 // is the same, and of all forces that go with it those are taken whose sum of squares is least. s > 0 is of the
-// size of H' M^-1 H, which changes no digit of either. Sliders take no part: forces of several on one motion are refused.
+// size of H' M^-1 H, which changes no digit of either. What sticks to a point without mass takes no part: it is refused.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +32,8 @@ class SharedRows {
 
   /// Contacts of which some may hold one motion together; lists of two at least.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& groups() const { return groups_; }
+  /// Is it one of those?
+  [[nodiscard]] bool may_share(std::size_t contact) const { return grouped_[contact]; }
   /// Of the rows in force; empty: all are independent.
   [[nodiscard]] std::vector<SharedForces> in_force(const std::vector<Rows>& rows) const;
 
@@ -39,7 +41,10 @@ class SharedRows {
   const Model& model_;
   std::vector<double> lightness_;  // a degree of freedom: 1/mass; 0 without
   std::vector<std::vector<std::size_t>> groups_;
+  std::vector<bool> grouped_;  // one a contact
 
+  [[nodiscard]] bool has_mass(const Combination& form) const;
+  [[nodiscard]] std::vector<std::vector<std::size_t>> together() const;
   /// H on the degrees of freedom that it touches, each over the square root of its mass.
   [[nodiscard]] Eigen::MatrixXd columns(const std::vector<std::size_t>& rows) const;
 };

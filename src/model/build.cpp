@@ -12,11 +12,13 @@
 
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
+#include "model/assembly/dof_place.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/drawing.hpp"
 #include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/assembly/stiffness_range.hpp"
 #include "model/assembly/ties.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
@@ -148,7 +150,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
 }
 
 /// The initial state, and the forces that are frozen.
-void start(const Scene& scene, const MasslessPlaces& massless, DofMap& map, Model& model) {
+void start(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
   FirstPass first;
@@ -156,17 +158,18 @@ void start(const Scene& scene, const MasslessPlaces& massless, DofMap& map, Mode
     first = first_pass(scene, map, model);
     stiffen(scene, first.forces, map, model);
   }
-  check_massless(model, map, massless);
+  check_massless(scene, model, map);
   set_initial_state(scene, first.closed, map, model);
-  if (scene.run.geometric && scene.initial.is_frictional) check_massless(model, map, massless);
+  if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
   map.shown_length = unit.length;
-  const SourcePlace place = scene.matrices ? scene.matrices->mass.place : SourcePlace{scene.file, 0, 0};
-  if (map.size() == 0) throw SceneError(place, "", "the scene has no degree of freedom that could move");
+  if (map.size() == 0)
+    throw SceneError(place_of_structure(scene), "", "the scene has no degree of freedom that could move");
+  if (!scene.matrices) check_stiffness_range(scene, map);
   Assembly assembly = scene.matrices ? assemble_matrices(scene, map) : assemble_nodes(scene, map);
 
   Model model;
@@ -175,7 +178,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.unit = unit;
   model.dofs = map.dofs;
   model.columns = map.columns;
-  mark_massless(assembly, model.dofs, place);
+  mark_massless(scene, map, assembly, model.dofs);
   add_ties(scene, map, model);
   model.contacts = make_contacts(scene, map);
   model.loads = make_loads(scene, map, assembly);
@@ -183,10 +186,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  start(scene,
-        {place, scene.matrices ? scene.matrices->stiffness.place : place,
-         scene.matrices ? "matrices.stiffness" : ""},
-        map, model);
+  start(scene, map, model);
   stiffen_pendulums(scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/dof_place.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/null_motions.hpp"
@@ -34,7 +35,7 @@ double largest_diagonal(const SparseMatrix& a) {
 
 }  // namespace
 
-void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const SourcePlace& place) {
+void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assembly, std::vector<Dof>& dofs) {
   const auto n = static_cast<int>(dofs.size());
   Vector row_size = Vector::Zero(n), held = Vector::Zero(n), s = Vector::Zero(n);
   auto add_rows = [](const SparseMatrix& a, Vector& rows) {
@@ -51,31 +52,31 @@ void mark_massless(const Assembly& assembly, std::vector<Dof>& dofs, const Sourc
     dof.massless = row_size[i] == 0.0;
     if (dof.massless && held[i] == 0.0)
       throw SceneError(
-          place, "",
+          place_of_dof(scene, map, i), "",
           fmt::format("{} has neither mass nor stiffness nor damping, so nothing decides its motion",
                       dof.displacement));
     if (dof.massless) continue;
     const double diagonal = assembly.mass.coeff(i, i);
     if (!(diagonal > 0.0))
       throw SceneError(
-          place, "matrices.mass",
+          place_of_structure(scene), "matrices.mass",
           fmt::format("found {} on the diagonal at {}, expected a number > 0, or a row of zeros for a "
                       "massless degree of freedom",
                       diagonal, dof.displacement));
     s[i] = 1.0 / std::sqrt(diagonal);
     position[static_cast<std::size_t>(i)] = heavy++;
   }
-  if (heavy == 0) throw SceneError(place, "", "nothing in the scene has mass");
+  if (heavy == 0) throw SceneError(place_of_structure(scene), "", "nothing in the scene has mass");
   // Scaled to a unit diagonal, the pivots are pure numbers.
   const SymmetricSolver solver(block(assembly.mass, position, heavy, s));
   if (!solver.ok() || solver.smallest_pivot() <= rounding::of_many * heavy)
     throw SceneError(
-        place, "matrices.mass",
+        place_of_structure(scene), "matrices.mass",
         "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
         "for a massless one all its row is zero");
 }
 
-void check_massless(const Model& model, const DofMap& map, const MasslessPlaces& place) {
+void check_massless(const Scene& scene, const Model& model, const DofMap& map) {
   std::vector<int> position, where;
   for (int i = 0; i < model.size(); ++i) {
     const bool massless = model.dofs[static_cast<std::size_t>(i)].massless;
@@ -106,14 +107,17 @@ void check_massless(const Model& model, const DofMap& map, const MasslessPlaces&
   if (null.cols() == 0) return;
   const Vector motion = null.col(0) / null.col(0).cwiseAbs().maxCoeff();
   const double energy = motion.dot(k * motion);
+  Eigen::Index most = 0;
+  motion.cwiseAbs().maxCoeff(&most);
+  const SourcePlace place = place_of_dof(scene, map, where[static_cast<std::size_t>(most)]);
   if (energy < -rounding::of_many * term_size(k, motion))
     throw SceneError(
-        place.stiffness, place.stiffness_key,
+        place, scene.matrices ? "matrices.stiffness" : "",
         fmt::format("the {} is unstable: it moves no mass and no damper, and its stiffness is negative, "
                     "{:.6g}, contacts included; expected a stiffness > 0, or mass or damping on it",
                     describe(null), energy));
   throw SceneError(
-      place.scene, "",
+      place, "",
       fmt::format("nothing decides the {}: it moves no mass, and no stiffness, damping or contact "
                   "holds it",
                   describe(null)));

@@ -96,11 +96,7 @@ ModeSystemPtr ModeSystems::of(const Mode& mode) {
 }
 
 bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
-  const auto& groups = matrix_.shared_rows().groups();
-  const bool grouped = std::any_of(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& group) {
-    return std::find(group.begin(), group.end(), c) != group.end();
-  });
-  if (!grouped || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
+  if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || mode[c].is_open()) return false;
   mode[c].state = State::stick;
   for (const SharedForces& shared : matrix_.shared_rows().in_force(rows_of(model_, mode))) {
     const auto at = std::find(shared.rows.begin(), shared.rows.end(), 2 * c + 1) - shared.rows.begin();

@@ -34,6 +34,12 @@ class ModeSystems {
   /// Others that stick hold the motion along the tangent of a contact: sticking, it would hold nothing more.
   [[nodiscard]] bool held_by_others(std::size_t contact, Mode mode) const;
 
+  /// Contacts, two at least a list, that may hold one motion together; is one of them?
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {
+    return matrix_.shared_rows().groups();
+  }
+  [[nodiscard]] bool may_share(std::size_t contact) const { return matrix_.shared_rows().may_share(contact); }
+
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const Structure& structure() const { return structure_; }
   /// Of what is held now.

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 
+#include "base/listed.hpp"
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "engine/exact/modal/modal_engine.hpp"
 #include "engine/ida/ida_engine.hpp"
 #include "engine/ida/order.hpp"
 #include "engine/newmark/friction_iteration.hpp"
 #include "engine/newmark/newmark_engine.hpp"
+#include "linear/shared_rows.hpp"
 #include "run/choose_flow.hpp"
 #include "signorini/error.hpp"
 
@@ -71,6 +74,26 @@ void refuse_rigid_contacts_too(const Model& model, const RunSpec& run) {
       refuse(run, fmt::format("needs contact elements, and contact '{}' is rigid", contact.name),
              "use \"newmark\" or law = \"compliant\"");
   }
+  const SharedRows shared(model, Structure(model));
+  if (shared.groups().empty()) return;
+  std::vector<std::string> names;
+  for (const std::size_t k : shared.groups().front()) names.push_back(model.contacts[k].name);
+  refuse(run,
+         fmt::format("decides each contact alone, and contacts {} may hold one motion together",
+                     listed(names, 5)),
+         "use \"newmark\" or a tangential_stiffness");
+}
+
+/// A series takes steps of some radians of the highest frequency: beyond 1/eps of them the clock does not move.
+void refuse_endless_series(const Model& model, const RunSpec& run) {
+  const double radians = model.omega_max * run.t_end;
+  if (!(radians > 1.0 / rounding::eps) || choose_flow(model, run).modal) return;
+  refuse(run,
+         fmt::format(
+             "follows the highest frequency, {:.3g} rad/{}, by series: {:.2g} radians to t_end, whose steps "
+             "no double tells from none",
+             model.omega_max / model.unit.time, model.units.time, radians),
+         "use \"ida\", or less stiffness");
 }
 
 /// A series has to reach the end of every polynomial in the forcing.
@@ -91,6 +114,7 @@ void refuse_long_polynomials_too(const Model& model, const RunSpec& run) {
     check(contact.normal_force, "normal_force of contact '" + contact.name + "'");
     check(contact.surface_motion, "the surface of contact '" + contact.name + "'");
   }
+  refuse_endless_series(model, run);
 }
 
 Method closed_flow(const Model& model, const RunSpec& run) {

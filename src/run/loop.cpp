@@ -388,6 +388,7 @@ Ending Loop::end() {
   if (report_.outcome.kind == Outcome::Kind::done) witness_.peaks(t_, report_.peaks);
   report_.witness = std::move(witness_.testimony());
   report_.response = response_.extremes();
+  if (response_.coarse()) report_.warnings.push_back(*response_.coarse());
   if (!model_.reaction_sums.empty()) report_.audit.reactions = response_.reactions();
   return {std::move(report_), rounding_of_energy(), !witness_.grave().empty()};
 }

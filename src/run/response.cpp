@@ -1,5 +1,7 @@
 #include "run/response.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,11 @@ constexpr double located = 1e-12;
 // Radians of the fastest motion in a part: five points see where it swings at all. Chosen; what is narrower
 // than a fifth of that and nowhere else in the part would be missed.
 constexpr double longest = 32.0;
+// Of such parts in a run: 1e8 points at least, hours of most models. Chosen.
+constexpr double most_pieces = 1e7;
+// Of what p may be off by, or of what counts as rounding: a polynomial through 17 points is off by less than four times
+// what it does not follow (Lebesgue's constant of the points, and that itself).
+constexpr double hidden = 0.25;
 
 /// What e, of half the degree, may be for that: errors of degree n go with the power n + 1 of the part.
 double resolved(std::size_t stride) {
@@ -27,30 +34,14 @@ double resolved(std::size_t stride) {
 /// Of displacements and velocities alone.
 bool is_of_motion(const Output& linear) { return linear.a.terms.empty() && linear.forces.empty(); }
 
-double fastest_of(const History& history) {
-  double omega = 0.0;
-  for (const Piece& piece : history.pieces())
-    if (piece.amplitude != 0.0) omega = std::max(omega, std::abs(piece.omega));
-  return omega;
-}
-
-/// rad per time.
-double fastest_of(const Model& model) {
-  double omega = model.omega_max;
-  for (const Load& load : model.loads) omega = std::max(omega, fastest_of(load.history));
-  for (const Contact& contact : model.contacts)
-    omega = std::max({omega, fastest_of(contact.normal_force), fastest_of(contact.surface_motion)});
-  for (const Output& output : model.outputs)
-    for_each_linear(output, [&](const Output& o) {
-      for (const Output::Given& given : o.given) omega = std::max(omega, fastest_of(given.history));
-    });
-  return omega;
-}
-
 }  // namespace
 
 ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense)
-    : model_(model), recorder_(recorder), t_end_(t_end), dense_(dense), extremes_(model.outputs.size()) {
+    : model_(model),
+      recorder_(recorder),
+      pace_(model, t_end),
+      dense_(dense),
+      extremes_(model.outputs.size()) {
   for (std::size_t i = 0; i < model.outputs.size(); ++i) {
     const Output& output = model.outputs[i];
     if (output.stretches.empty()) watched_.push_back({i, -1, forms_.size(), 1});
@@ -62,10 +53,7 @@ ResponseWatch::ResponseWatch(const Model& model, double t_end, Recorder& recorde
   }
   magnitudes_.resize(forms_.size());
   samples_.resize(forms_.size());
-  loads_changed();
 }
-
-void ResponseWatch::loads_changed() { radian_ = 1.0 / std::max(fastest_of(model_), 1.0 / t_end_); }
 
 void ResponseWatch::evaluate(double t, Side side, const Point& point, const std::vector<double>& losses,
                              std::vector<OutputReading>& readings) const {
@@ -141,6 +129,7 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
     for (std::size_t i = 0; i < at_end.size(); ++i)
       if (at_end[i] != 0) see(i, end, reading_of(model_.outputs[i], end, Side::before, point_, none_));
   }
+  radian_ = 1.0 / turning(engine, {begin, end, open});
   const double pieces = std::max(1.0, std::ceil((end - begin) / (longest * radian_)));
   double from = begin;
   for (double k = 1.0; k <= pieces; ++k) {
@@ -156,6 +145,61 @@ void ResponseWatch::inside(Stepper& engine, double begin, double end) {
       parts.push_back({middle, part.end, part.open});
       parts.push_back({part.begin, middle, std::move(part.open)});
     }
+  }
+}
+
+/// How fast what outputs show of a step turns. Its ranges are those at the points of the whole step at least.
+double ResponseWatch::turning(Stepper& engine, const Part& step) {
+  double omega = pace_.of_all(engine, step.end - step.begin);
+  if (omega * (step.end - step.begin) > longest && engine.ripple(omega)) {
+    for (std::size_t j = 0; j < Chebyshev::count; ++j) sample(engine, step, step.begin, j);
+    for (std::size_t k = 0; k < watched_.size(); ++k)
+      if (step.open[k] != 0 && watched_[k].stretch >= 0) see_samples(watched_[k], step, 1);
+    for (std::size_t i = reaches_.size(); i < forms_.size(); ++i)
+      reaches_.push_back(reach_of(engine, *forms_[i]));
+    const Ripple whole = engine.whole();
+    omega = pace_.of_what_counts(engine, omega, [&](const Ripple& r) { return is_rounding(r, whole); });
+  }
+  const double most = pace_.fastest(most_pieces * longest);
+  if (omega > most && !coarse_)
+    coarse_ = fmt::format(
+        "outputs: the motion turns by {:.2g} radians in the run; between rows their extremes were looked for "
+        "in "
+        "parts of {:.2g}, in which a peak may be missed",
+        omega * most_pieces * longest / most, omega / most * longest);
+  return std::min(omega, most);
+}
+
+/// What it may add to any output, at any place of its stretches, is rounding: of its terms, or of the sums over modes that
+/// these are; or no more than p may be off.
+bool ResponseWatch::is_rounding(const Ripple& ripple, const Ripple& whole) const {
+  for (const Watched& watched : watched_) {
+    const OutputExtremes& known = extremes_[watched.output];
+    double magnitude = 0.0, most = 0.0, terms = 0.0;
+    for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
+      magnitude = std::max(magnitude, magnitudes_[i]);
+      most = std::max(most, added(ripple, reaches_[i], *forms_[i]));
+      terms = std::max(terms, added(whole, reaches_[i], *forms_[i]));
+    }
+    const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));
+    const double counts =
+        std::max({located * size, rounding::of_elimination * magnitude, rounding::of_many * terms});
+    if (!(most <= hidden * counts)) return false;
+  }
+  return true;
+}
+
+/// At the points of a part, along a stretch.
+void ResponseWatch::see_samples(const Watched& watched, const Part& part, std::size_t stride) {
+  const std::span<const Chebyshev::Values> all = samples_of(watched);
+  const Output& output = model_.outputs[watched.output];
+  const double half = 0.5 * (part.end - part.begin);
+  for (std::size_t j = 0; j < Chebyshev::count; j += stride) {
+    const double x = Chebyshev::nodes()[j];
+    Along::Values values{};
+    for (std::size_t i = 0; i < watched.count; ++i) values[i] = all[i][j];
+    see(watched.output, j + 1 == Chebyshev::count ? part.end : part.begin + half * (x + 1.0),
+        along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
   }
 }
 
@@ -262,15 +306,8 @@ void ResponseWatch::sharpen_output(const Watched& watched, Stepper& engine, cons
 void ResponseWatch::sharpen_stretch(const Watched& watched, Stepper& engine, const Part& part,
                                     std::size_t stride) {
   const std::span<const Chebyshev::Values> all = samples_of(watched);
-  const Output& output = model_.outputs[watched.output];
   const double half = 0.5 * (part.end - part.begin);
-  for (std::size_t j = 0; j < Chebyshev::count; j += stride) {
-    const double x = Chebyshev::nodes()[j];
-    Along::Values values{};
-    for (std::size_t i = 0; i < watched.count; ++i) values[i] = all[i][j];
-    see(watched.output, j + 1 == Chebyshev::count ? part.end : part.begin + half * (x + 1.0),
-        along_stretch(output, static_cast<std::size_t>(watched.stretch), values));
-  }
+  see_samples(watched, part, stride);
   const OutputExtremes& known = extremes_[watched.output];
   const double rest = located * std::max(std::abs(known.maximum), std::abs(known.minimum));
   for (const double x : peaks_along(all, stride, 1.0, known.maximum + rest))

@@ -10,17 +10,22 @@
 //
 // An output with stretches (an envelope, the extremes of a stress) is followed stretch by stretch, at the points of each:
 // stretch_peaks.hpp in place of p and p'.
+// The fastest motion is that of what outputs show: modes whose swings are rounding of every output have no part in it
+// (pace.hpp).
 //
 // The motion is the engine's own: closed in `exact`, the polynomial of the step in `ida`, average
 // acceleration in `newmark`, which is in equilibrium at the ends of its steps only: there stand its extremes of
 // forces and accelerations. Losses only grow, so their extremes stand in rows.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "run/chebyshev.hpp"
 #include "run/output_value.hpp"
+#include "run/pace.hpp"
 
 namespace signorini {
 
@@ -31,7 +36,7 @@ class ResponseWatch {
   ResponseWatch(const Model& model, double t_end, Recorder& recorder, bool dense);
 
   /// The model's loads are others from here on.
-  void loads_changed();
+  void loads_changed() { pace_.loads_changed(); }
   [[nodiscard]] bool any() const { return !model_.outputs.empty(); }
   /// A row, with the losses of all contacts so far; a = M^-1 (...) must be in the point where any output needs it.
   void row(double t, Side side, const Point& point, const std::vector<double>& losses);
@@ -42,6 +47,8 @@ class ResponseWatch {
   /// Greatest |sum of reactions - loads + inertia| of the rows.
   [[nodiscard]] const Extreme& reactions() const { return reactions_; }
   [[nodiscard]] const std::vector<OutputExtremes>& extremes() const { return extremes_; }
+  /// The motion was too fast for a search between all of its turns: the sentence that says so.
+  [[nodiscard]] const std::optional<std::string>& coarse() const { return coarse_; }
 
  private:
   /// What has points in time of its own: a linear output, or a stretch of another.
@@ -59,6 +66,9 @@ class ResponseWatch {
                 std::vector<OutputReading>& readings) const;
   void write(double t, const std::vector<OutputReading>& readings);
   void see(std::size_t output, double t, const OutputReading& reading);
+  [[nodiscard]] double turning(Stepper& engine, const Part& step);
+  [[nodiscard]] bool is_rounding(const Ripple& ripple, const Ripple& whole) const;
+  void see_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;
   /// Closes what is settled; false: nothing is left.
   [[nodiscard]] bool look(Stepper& engine, Part& part, double begin);
@@ -72,8 +82,8 @@ class ResponseWatch {
 
   const Model& model_;
   Recorder& recorder_;
-  double t_end_;
-  double radian_ = 0.0;  // of the fastest motion or load
+  Pace pace_;
+  double radian_ = 0.0;  // of the step's fastest motion, or of a load
   bool dense_;
   bool began_ = false;
   std::vector<OutputExtremes> extremes_;
@@ -82,10 +92,12 @@ class ResponseWatch {
   std::vector<Watched> watched_;
   std::vector<const Output*> forms_;  // linear ones
   std::vector<double> magnitudes_;    // of the terms of each form, until now
+  std::vector<Reach> reaches_;        // of each form, once an engine has told them
   double last_t_ = 0.0, before_t_ = -1.0;
   std::vector<Chebyshev::Values> samples_;  // of each form
   Point point_;
   Extreme reactions_;
+  std::optional<std::string> coarse_;
 };
 
 }  // namespace signorini

@@ -48,7 +48,7 @@ std::optional<std::string> shared_motion(const Model& model, const Decision& dec
           names.push_back(name);
   // At its limit, and the guard of its slip is asleep: others hold it.
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].takes_impulses();
+    bool asleep = slip_sign(decision.mode[c].state) != 0 && model.contacts[c].sticks_rigidly();
     for (std::size_t i = 0; i < guards_per_contact; ++i)
       asleep = asleep && decision.guards[guard_slot(c, i)].kind != Guard::sliding;
     if (asleep) names.push_back(model.contacts[c].name);

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include "scene/quantities.hpp"
 #include "scene/readers.hpp"
+#include "scene/unit_of_output.hpp"
 #include "scene/unit_of_text.hpp"
+#include "signorini/output.hpp"
 
 namespace signorini {
 
@@ -104,6 +107,12 @@ OutputTerm read_term(Table& terms, const Entry& entry, const Scene& scene) {
   return term;
 }
 
+/// "'M' [kN m]", with its factor where that has a unit.
+std::string told(const OutputTerm& term, const Scene& scene) {
+  return fmt::format("'{}' [{}]{}", term.name, unit_text(unit_of_term(term, scene.outputs), scene.units),
+                     same_unit(term.unit, unit::plain) ? "" : " with its factor");
+}
+
 void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
   if (!table.has("terms")) table.require("terms", "");
   Names names;
@@ -117,6 +126,11 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
       terms.fail(entry.name,
                  "is a greatest value, of an envelope or of both fibres, which has no part in a combination");
     output.terms.push_back(read_term(terms, entry, scene));
+    const OutputTerm &first = output.terms.front(), &term = output.terms.back();
+    if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))
+      terms.fail(entry.name, fmt::format("found {} beside {}, expected terms of one unit: a factor may have "
+                                         "one, {{ factor = ..., unit = \"...\" }}",
+                                         told(term, scene), told(first, scene)));
   }
   if (output.terms.empty()) table.fail("terms", "found none, expected { name = factor }");
   table.record("terms", terms.record().inline_table());

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "base/input_file.hpp"
+#include "scene/frozen_file.hpp"
 #include "scene/overrides.hpp"
 #include "scene/readers.hpp"
 #include "scene/same_structure.hpp"
@@ -114,6 +115,14 @@ void compare_with_run(Scene& scene) {
     throw SceneError(scene.initial.place, "run.initial.run",
                      fmt::format("found a run in {}, expected one in the units of this scene, {}",
                                  units_of(run), units_of(here)));
+  const bool froze = run.at_path("run.geometric").value_or(false);
+  if (froze && scene.run.geometric && !scene.initial.saved->frozen)
+    throw SceneError(
+        scene.initial.place, "run.initial.run",
+        fmt::format(
+            "found no {}, expected the forces of that run, which had run.geometric = true (run.toml): "
+            "others would be another structure",
+            (std::filesystem::path(scene.initial.saved->run) / frozen_file).string()));
   scene.initial.saved->differing = differing_structure(run, here);
 }
 

@@ -39,7 +39,8 @@ std::array<double, 2> Witness::modal_size(double norm) const {
 
 namespace {
 
-/// Another rigid foot may hold this one at the limit of its friction: what it slips then is rounding of what holds it.
+/// Another foot, or slider, may hold this one at the limit of its friction: what it slips then is rounding of what holds
+/// it.
 bool held_beside(const Model& model, std::size_t k) {
   const Contact& foot = model.contacts[k];
   const auto shares = [&](const Contact& other) {
@@ -48,9 +49,9 @@ bool held_beside(const Model& model, std::size_t k) {
                          [&](const auto& b) { return a.first == b.first; });
     });
   };
-  if (!foot.takes_impulses()) return false;
+  if (!foot.sticks_rigidly()) return false;
   for (std::size_t j = 0; j < model.contacts.size(); ++j)
-    if (j != k && model.contacts[j].takes_impulses() && shares(model.contacts[j])) return true;
+    if (j != k && model.contacts[j].sticks_rigidly() && shares(model.contacts[j])) return true;
   return false;
 }
 

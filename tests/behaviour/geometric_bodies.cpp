@@ -362,6 +362,12 @@ TEST_CASE("a block that rocks in two halves: the forces of the first are those o
   for (const std::string& warning : without.warnings)
     said = said || warning.find("run.geometric") != std::string::npos;
   CHECK(said);
+  // Without the file others would be frozen, and nobody would know.
+  REQUIRE(std::filesystem::remove(folder / "geometric.csv"));
+  CHECK_THROWS_WITH_AS(static_cast<void>(built(later)),
+                       doctest::Contains(("found no " + (folder / "geometric.csv").string()).c_str()),
+                       SceneError);
+  CHECK_NOTHROW(static_cast<void>(built(later, {{"run.geometric", "false"}})));
 }
 
 TEST_CASE("a block at rest on its feet stands, and rocks on springs as its stiffness says") {

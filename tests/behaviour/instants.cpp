@@ -119,16 +119,24 @@ TEST_CASE("tolerances below the rounding of contact forces do not stop a run") {
   }
 }
 
-TEST_CASE("contacts whose forces are not unique stop the run and are named") {
-  std::string text =
-      matrix_scene("t_end = 1.0\ninitial = { u = [0.0], v = [0.0] }", "mass = [[1.0]]\nstiffness = [[1.0]]",
-                   "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4");
-  text +=
-      "[[contacts]]\nname = \"other\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = "
-      "1.0\nfriction = 0.4\n";
-  const Result result = run_text(text, "ida");
-  CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
-  CHECK(result.report.outcome.reason.find("linearly dependent") != std::string::npos);
+TEST_CASE(
+    "sliders whose forces are not unique share them, but on a point without mass, where the run stops") {
+  const auto scene = [](const char* mass, const char* along) {
+    const std::string slider =
+        fmt::format("law = \"slider\"\ntangent = {{ {} = 1.0 }}\nnormal_force = 1.0\nfriction = 0.4", along);
+    return matrix_scene("t_end = 1.0\ninitial = { u = [0.0, 0.0], v = [0.0, 0.0] }",
+                        fmt::format("mass = {}\nstiffness = [[2.0, -1.0], [-1.0, 2.0]]", mass), slider,
+                        "[[contacts]]\nname = \"other\"\n" + slider +
+                            fmt::format("\n[[loads]]\ndirection = {{ {} = 1.0 }}\namplitude = 0.6\n", along));
+  };
+  const Result shared = run_text(scene("[[1.0, 0.0], [0.0, 1.0]]", "d0"), "ida");
+  CHECK(shared.report.outcome.kind == Outcome::Kind::done);
+  for (const ContactSample& contact : shared.rows.back().contacts)
+    CHECK(contact.T == doctest::Approx(0.3).epsilon(1e-14));
+  const Result light = run_text(scene("[[1.0, 0.0], [0.0, 0.0]]", "d1"), "ida");
+  CHECK(light.report.outcome.kind == Outcome::Kind::stopped);
+  CHECK(light.report.outcome.reason.find("linearly dependent") != std::string::npos);
+  CHECK(light.report.outcome.refusal.contacts == std::vector<std::size_t>{0, 1});
 }
 
 /// Two masses of 1 on sliders that bear 3, pushed by histories of 6.

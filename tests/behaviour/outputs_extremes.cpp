@@ -110,6 +110,40 @@ damping = [[0.8]]
   CHECK(std::abs(steps.extremes("u").t_maximum - t) < 1e-5);
 }
 
+// Two oscillators of 3 and 1e4 rad/s: the fast one is followed where it shows, and not where it is rounding.
+TEST_CASE("outputs: the peaks of a fast mode count down to the rounding of the output") {
+  for (const double fast : {1e-6, 1e-14}) {
+    CAPTURE(fast);
+    const std::string text = fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+[run]
+t_end = 2.0
+output_dt = 2.0
+initial = {{ u = [1.0, {:.17g}], v = [0.0, 0.0] }}
+[matrices]
+mass = [[1.0, 0.0], [0.0, 1.0]]
+stiffness = [[9.0, 0.0], [0.0, 1e8]]
+)",
+                                         fast) +
+                             output("sum", "displacement", "direction = { d0 = 1.0, d1 = -1.0 }");
+    const double w = 1e4;
+    // Near the slow one's least value: all turns of the fast one, each made sharp.
+    double least = 0.0;
+    for (int k = -4; k <= 4; ++k) {
+      double t = (std::round(std::numbers::pi / 3.0 * w / (2.0 * std::numbers::pi)) + k) * 2.0 *
+                 std::numbers::pi / w;
+      for (int i = 0; i < 4; ++i)
+        t -= (-3.0 * std::sin(3.0 * t) + fast * w * std::sin(w * t)) /
+             (-9.0 * std::cos(3.0 * t) + fast * w * w * std::cos(w * t));
+      least = std::min(least, std::cos(3.0 * t) - fast * std::cos(w * t));
+    }
+    if (fast < 1e-12) least = -1.0;  // the slow one alone
+    const Computed c = compute(text, "exact", {{"run.flow", "modal"}});
+    CHECK(std::abs(c.extremes("sum").minimum - least) < 2e-13);
+    CHECK(c.extremes("sum").t_minimum == doctest::Approx(std::numbers::pi / 3.0).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("outputs: extremes are those of the motion, however rows are spaced") {
   // u = exp(-z t) (cos w t + z/w sin w t), u' = -exp(-z t)/w sin w t: extremes of u' where tan w t = w/z.
   const double z = 0.01, w = std::sqrt(1.0 - z * z), t = std::atan2(w, z) / w;

@@ -168,7 +168,7 @@ TEST_CASE("outputs: what is wrong is said with its place") {
       "is a loss");
   has(refusal(output("g", "contact", "at = \"floor\"\nquantity = \"gap\"") +
               output("x", "combination", "terms = { first = 1.0, g = 1.0 }")),
-      "different units");
+      "output.x.terms.g: found 'g' [m] beside 'first' [m/s], expected terms of one unit");
   has(refusal(output("x", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]\nstation = 0.5")),
       "has no meaning for a velocity");
   const Scene scene = parse_scene(frame(reactions + cut("M", "M", 0.3)), "test.toml", {});

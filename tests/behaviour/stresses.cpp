@@ -343,7 +343,8 @@ TEST_CASE("what is wrong with stresses, envelopes and factors is said") {
     return refusal(output("x", "combination", "terms = " + text));
   };
   has(terms("{ M = { factor = 1.0, unit = \"1/m^2\" }, N = { factor = 1.0, unit = \"1/m^2\" } }"),
-      "'M' and 'N' have different units with their factors");
+      "output.x.terms.N: found 'N' [kN/m^2] with its factor beside 'M' [kN/m] with its factor, expected "
+      "terms of one unit");
   has(terms("{ M = { factor = 1.0, unit = \"1/mm\" } }"),
       "found \"1/mm\", expected a product of powers of kN, t, m, s");
   has(terms("{ M = { factor = 1.0 } }"), "unit");

@@ -9,6 +9,8 @@
 // terms do not cancel. docs/theory.md gives the argument that no event is missed.
 #pragma once
 
+#include <numbers>
+
 #include "engine/exact/flow_norm.hpp"
 #include "engine/exact/series_works.hpp"
 #include "engine/falls/arming.hpp"
@@ -42,6 +44,7 @@ class ExactEngine final : public Stepper {
   }
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] const std::vector<double>& turning_points() const override { return turns_.times(); }
+  [[nodiscard]] double turns() const override { return std::numbers::pi * static_cast<double>(degree_); }
   [[nodiscard]] Expansion expansion() const override {
     return {&series_, degree_, end_x_, taylor_.system().get()};
   }

@@ -6,6 +6,8 @@
 // Works are integrals of the polynomials through the powers at the ends of steps.
 #pragma once
 
+#include <numbers>
+
 #include "engine/falls/grazes.hpp"
 #include "engine/falls/step_history.hpp"
 #include "engine/falls/watch.hpp"
@@ -35,6 +37,10 @@ class IdaEngine final : public Stepper {
   [[nodiscard]] bool knows_low_flights() const override;
   [[nodiscard]] std::optional<Graze> graze() const override;
   [[nodiscard]] const std::vector<double>& turning_points() const override;
+  /// BDF's polynomials have the degree 5 at most.
+  [[nodiscard]] double turns() const override {
+    return flight_ ? flights_.motion().turns() : std::numbers::pi * 5.0;
+  }
 
  private:
   struct Located {

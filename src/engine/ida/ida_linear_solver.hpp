@@ -41,6 +41,7 @@ class IdaLinearSolver {
   [[nodiscard]] bool factor();
   void solve(const double* b, double* x);
   [[nodiscard]] const std::vector<Rows>& rows() const { return rows_; }
+  [[nodiscard]] const SharedRows& shared_rows() const { return matrix_.shared_rows(); }
   /// Replaces a row by its tangent where it is not linear.
   void linearise(std::size_t contact, const Form& tangent) { rows_[contact].tangent = tangent; }
   [[nodiscard]] const Klu& klu() const { return matrix_.klu(); }

@@ -120,6 +120,7 @@ void IdaProblem::start(const Segment& segment, const Watch& watch) {
   segment_ = segment;
   watch_ = &watch;
   linear_.set_mode(segment.decision->mode);
+  shared_ = linear_.shared_rows().in_force(linear_.rows());
   nonlinear_.clear();
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     if (slips_nonlinearly(model_.contacts[k], segment.decision->mode[k].state)) nonlinear_.push_back(k);
@@ -161,6 +162,20 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
   return m;
 }
 
+/// s z z' f: what is the same for all shares of the forces would else only be extrapolated from step to step, and that
+/// grows like a polynomial from the rounding of its first values.
+void IdaProblem::add_shared(const double* y, double* r) const {
+  const auto place = [&](std::size_t row) {  // layout_ has N and T of a contact side by side
+    return layout_.force(row / 2) + static_cast<int>(row % 2);
+  };
+  for (const SharedForces& shared : shared_)
+    for (std::size_t i = 0; i < shared.rows.size(); ++i)
+      for (std::size_t j = 0; j < shared.rows.size(); ++j)
+        r[place(shared.rows[i])] +=
+            shared.entries(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+            y[place(shared.rows[j])];
+}
+
 void IdaProblem::residual(double t, double step, const double* y, const double* yp, double* r) {
   const auto n = static_cast<std::size_t>(layout_.dofs);
   const bool all_massive = layout_.massive == layout_.dofs;
@@ -192,6 +207,7 @@ void IdaProblem::residual(double t, double step, const double* y, const double* 
     r[f] = linear_.rows()[k].normal.value(m);
     r[f + 1] = linear_.rows()[k].tangent.value(m);
   }
+  add_shared(y, r);
   for (std::size_t i = 0; i < n && !all_massive; ++i) {
     const int v = layout_.velocity[i];
     r[v >= 0 ? static_cast<std::size_t>(v) : i] = forces[i];

@@ -44,6 +44,7 @@ class IdaProblem {
   [[nodiscard]] IdaLinearSolver& linear() { return linear_; }
 
  private:
+  void add_shared(const double* y, double* r) const;
   /// step: at u - step (u' - v).
   [[nodiscard]] ContactMotion motion(std::size_t k, double t, const double* y, const double* yp,
                                      double step = 0.0) const;
@@ -98,6 +99,7 @@ class IdaProblem {
     double mass;  ///< behind the form, of the diagonal of M
   };
   std::vector<Stop> stops_;
+  std::vector<SharedForces> shared_;    // in this segment
   std::vector<std::size_t> nonlinear_;  // contacts that slip with friction of their slip rate in this segment
   bool knee_ = false;
   Momentum momentum_;

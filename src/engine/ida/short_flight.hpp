@@ -24,6 +24,7 @@ class ShortFlight {
                                          const std::function<double(const Contact&)>& level);
   /// The motion and the works on the step that was taken.
   [[nodiscard]] ExactEngine& motion() { return *series_; }
+  [[nodiscard]] const ExactEngine& motion() const { return *series_; }
   [[nodiscard]] const std::vector<double>& turning_points() const { return series_->turning_points(); }
 
  private:

@@ -12,6 +12,8 @@
 // Source: Lukashevich et al. 2021, the iterative algorithm.
 #pragma once
 
+#include <numbers>
+
 #include "engine/newmark/newmark_step.hpp"
 #include "engine/newmark/newmark_works.hpp"
 #include "engine/stepper.hpp"
@@ -30,6 +32,8 @@ class FrictionIteration final : public Stepper {
   void evaluate(double t, Point& point) override;
   void accelerate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
+  /// Parabolas between its ends.
+  [[nodiscard]] double turns() const override { return 2.0 * std::numbers::pi; }
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }

@@ -13,6 +13,8 @@
 // as docs/theory.md says.
 #pragma once
 
+#include <numbers>
+
 #include "engine/falls/arming.hpp"
 #include "engine/falls/guard_path.hpp"
 #include "engine/newmark/newmark_step.hpp"
@@ -36,6 +38,8 @@ class NewmarkEngine final : public Stepper {
   void accelerate(double t, Point& point) override;
   void interpolate(double t, Point& point) override;
   void integrate(double from, double to, Works& works) override;
+  /// Parabolas between its ends.
+  [[nodiscard]] double turns() const override { return 2.0 * std::numbers::pi; }
   [[nodiscard]] double residual() override {
     return imbalance(model_, structure_, *segment_.forcing, t1_, end_);
   }

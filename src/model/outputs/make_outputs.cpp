@@ -11,6 +11,7 @@
 #include "model/outputs/structure_rows.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
+#include "scene/unit_of_output.hpp"
 
 namespace signorini {
 namespace {
@@ -39,6 +40,7 @@ class Maker {
     Output output;
     output.name = spec.name;
     output.kind = spec.kind;
+    output.unit = unit_of_output(spec, scene_.outputs);
     if (spec.kind == OutputKind::contact) {
       of_contact(spec, output);
     } else if (spec.kind == OutputKind::combination) {
@@ -91,23 +93,19 @@ class Maker {
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
-    Unit& of = output.unit;
     switch (spec.kind) {
       case OutputKind::member_force:
       case OutputKind::stress:
-        return member_force(spec, row, of);
+        return member_force(spec, row);
       case OutputKind::reaction:
-        return reaction(spec, row, of);
+        return reaction(spec, row);
       case OutputKind::spring:
         return spring(spec, row, output);
       case OutputKind::velocity:
-        of = spec.rotation ? unit::rate : unit::velocity;
         return motion(spec, 1, row);
       case OutputKind::acceleration:
-        of = spec.rotation ? Unit{0, 0, -2} : unit::acceleration;
         return motion(spec, 2, row);
       default:
-        of = spec.rotation ? unit::plain : unit::length;
         return motion(spec, 0, row);
     }
   }
@@ -163,10 +161,9 @@ class Maker {
         cuts.cut(way, at.first, at.second, wanted, spec.place, fmt::format("output.{}.{}", spec.name, key)));
   }
 
-  void member_force(const OutputSpec& spec, PhysicalRow& row, Unit& of) {
+  void member_force(const OutputSpec& spec, PhysicalRow& row) {
     const Wanted wanted = wanted_by(spec, spec.fibre);
     const Way along = way(spec, 0, "at");
-    of = unit_of_cut(wanted.quantity);
     cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
   }
 
@@ -175,7 +172,7 @@ class Maker {
                const Wanted& wanted) const {
     Output linear;
     linear.kind = spec.kind;
-    linear.unit = unit_of_cut(wanted.quantity);
+    linear.unit = unit_of_output(spec, scene_.outputs);
     PhysicalRow row(map_.size());
     cut(spec, key, way, at, wanted, row);
     take(row, linear);
@@ -202,7 +199,6 @@ class Maker {
            spec.station,
            fibre});
     }
-    output.unit = output.stretches.front().at.front().unit;
   }
 
   void envelope(const OutputSpec& spec, Output& output) const {
@@ -220,12 +216,10 @@ class Maker {
           output.stretches.push_back(std::move(stretch));
         }
     }
-    output.unit = unit_of_cut(spec.quantity);
   }
 
   void spring(const OutputSpec& spec, PhysicalRow& row, Output& output) const {
     const Spring& spring = scene_.springs[spec.spring];
-    output.unit = spec.rotation ? unit::energy : unit::force;
     rows_->add_spring(row, spring, spec.rotation, 1.0);
     const double stiffness = spec.rotation ? spring.rotation_stiffness : spring.stiffness;
     const double damping = spec.rotation ? spring.rotation_damping : spring.damping;
@@ -234,9 +228,8 @@ class Maker {
     if (damping + model_.beta * stiffness != 0.0) output.contains.emplace_back("damper");
   }
 
-  void reaction(const OutputSpec& spec, PhysicalRow& row, Unit& of) {
+  void reaction(const OutputSpec& spec, PhysicalRow& row) {
     const int node = map_.mesh.by_name.at(spec.at[0]);
-    of = spec.rotation ? unit::energy : unit::force;
     const std::array<double, 3> d{spec.rotation ? 0.0 : spec.direction.vector[0],
                                   spec.rotation ? 0.0 : spec.direction.vector[1], spec.rotation ? 1.0 : 0.0};
     bool held = false;
@@ -270,26 +263,20 @@ class Maker {
                                     [&](const Contact& c) { return c.name == spec.at[0]; });
     const auto k = static_cast<std::size_t>(found - model_.contacts.begin());
     const Contact& contact = *found;
-    output.unit = unit::force;
     if (spec.quantity == OutputQuantity::N) output.forces.push_back({k, 1.0, 0.0});
     if (spec.quantity == OutputQuantity::T) output.forces.push_back({k, 0.0, 1.0});
     if (spec.quantity == OutputQuantity::gap) {
-      output.unit = unit::length;
       output.u = contact.normal;
       output.constant = contact.gap;
     }
     if (spec.quantity == OutputQuantity::slip) {
-      output.unit = unit::length;
       output.u = contact.tangent;
       if (!contact.surface_motion.is_constant() || contact.surface_motion.value(0.0) != 0.0)
         output.given.push_back({contact.surface_motion.scaled(-1.0)});
       if (contact.tangential_stiffness)
         output.forces.push_back({k, 0.0, -1.0 / *contact.tangential_stiffness});
     }
-    if (spec.quantity == OutputQuantity::loss) {
-      output.unit = unit::energy;
-      output.loss = k;
-    }
+    if (spec.quantity == OutputQuantity::loss) output.loss = k;
   }
 
   static void add(Combination& to, const Combination& from, double factor) {
@@ -304,27 +291,17 @@ class Maker {
     }
   }
 
-  static bool with_units(const OutputSpec& spec) {
-    return std::any_of(spec.terms.begin(), spec.terms.end(), [](const OutputTerm& term) {
-      return term.unit.force != 0 || term.unit.length != 0 || term.unit.time != 0;
-    });
+  static const Output& named(const std::string& name, const std::vector<Output>& all) {
+    return *std::find_if(all.begin(), all.end(), [&](const Output& o) { return o.name == name; });
   }
 
   static void combine(const OutputSpec& spec, const std::vector<Output>& before, Output& output) {
-    bool first = true;
-    for (const auto& [name, factor, of_factor] : spec.terms) {
-      const std::string& wanted = name;
-      const Output& term =
-          *std::find_if(before.begin(), before.end(), [&](const Output& o) { return o.name == wanted; });
-      const Unit a{term.unit.force + of_factor.force, term.unit.length + of_factor.length,
-                   term.unit.time + of_factor.time};
-      const Unit b = output.unit;
-      if (!first && (a.force != b.force || a.length != b.length || a.time != b.time))
+    for (const OutputTerm& part : spec.terms) {
+      const Output& term = named(part.name, before);
+      const double factor = part.factor;
+      if (!same_unit(product_of_units(term.unit, part.unit), output.unit))  // of a scene made in code
         refuse(spec, "terms",
-               fmt::format("'{}' and '{}' have different units{}, expected one", spec.terms[0].name, name,
-                           with_units(spec) ? " with their factors" : ""));
-      output.unit = a;
-      first = false;
+               fmt::format("'{}' has another unit than '{}'", part.name, spec.terms.front().name));
       add(output.u, term.u, factor);
       add(output.v, term.v, factor);
       add(output.a, term.a, factor);

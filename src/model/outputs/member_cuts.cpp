@@ -28,12 +28,6 @@ Wanted wanted_by(const OutputSpec& spec, Fibre fibre) {
   return wanted;
 }
 
-Unit unit_of_cut(OutputQuantity quantity) {
-  return quantity == OutputQuantity::stress ? Unit{1, -2, 0}
-         : quantity == OutputQuantity::M    ? unit::energy
-                                            : unit::force;
-}
-
 /// What is distributed is even, inertia linear along an element and cubic across it (line_element.hpp).
 std::size_t points_of(OutputQuantity quantity) {
   return quantity == OutputQuantity::N ? 3 : quantity == OutputQuantity::V ? 5 : 6;

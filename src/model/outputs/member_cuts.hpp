@@ -24,7 +24,6 @@ struct Wanted {
 
 /// What of a stress is asked for, as an output says it.
 [[nodiscard]] Wanted wanted_by(const OutputSpec& spec, Fibre fibre);
-[[nodiscard]] Unit unit_of_cut(OutputQuantity quantity);
 
 /// Points of an element through which the quantity goes as a polynomial along it (base/along.hpp).
 [[nodiscard]] std::size_t points_of(OutputQuantity quantity);

@@ -35,9 +35,17 @@ Vector heavy_part(const Model& model, const Combination& tangent) {
   return t;
 }
 
-/// The same for contacts whose tangents lie on common degrees of freedom.
+bool has_mass(const Model& model, const Combination& tangent) {
+  return std::none_of(tangent.terms.begin(), tangent.terms.end(), [&](const auto& term) {
+    return model.dofs[static_cast<std::size_t>(term.first)].massless;
+  });
+}
+
+/// The same for contacts whose tangents lie on common degrees of freedom. Several that hold one motion with mass share
+/// their forces (linear/shared_rows.hpp).
 std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> names;  // of the columns of `held`
+  std::vector<bool> heavy;         // have they mass all over?
   Eigen::MatrixXd held(model.size(), 0);
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
@@ -46,13 +54,17 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
       return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "
                                       "tangential_stiffness, or the point a mass",
                                       c.name)};
+    bool share = has_mass(model, c.tangent);
     if (held.cols() > 0) {
       const Eigen::MatrixXd x = solve_dense(held.transpose() * held, held.transpose() * t);
       if ((t - held * x).norm() <= 1e-12 * t.norm()) {
         std::vector<std::string> group;
-        for (Eigen::Index j = 0; j < held.cols(); ++j)
-          if (std::abs(x(j, 0)) * held.col(j).norm() > 1e-9 * t.norm())
-            group.push_back(names[static_cast<std::size_t>(j)]);
+        for (Eigen::Index j = 0; j < held.cols(); ++j) {
+          if (!(std::abs(x(j, 0)) * held.col(j).norm() > 1e-9 * t.norm())) continue;
+          group.push_back(names[static_cast<std::size_t>(j)]);
+          share = share && heavy[static_cast<std::size_t>(j)];
+        }
+        if (share) continue;
         group.push_back(c.name);
         return Ambiguity{k, fmt::format("contacts {} stick rigidly to one and the same motion, so nobody can "
                                         "say which of them carries the force; give them a "
@@ -63,6 +75,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
     held.rightCols(1) = t;
     names.push_back(c.name);
+    heavy.push_back(share);
   }
   return std::nullopt;
 }
@@ -96,7 +109,12 @@ Start start(const Scene& scene, const Model& model) {
       const ContactSpec& contact = scene.contacts[found->contact];
       throw SceneError(contact.place, "contacts." + contact.name, reason + ": " + found->reason);
     }
-    throw SceneError({scene.file, 0, 0}, "", reason);
+    const std::vector<std::size_t>& named = report.outcome.refusal.contacts;
+    if (!named.empty()) {
+      const ContactSpec& contact = scene.contacts[named.front()];
+      throw SceneError(contact.place, "contacts." + contact.name, reason);
+    }
+    throw SceneError(scene.initial.place.line > 0 ? scene.initial.place : scene.run.place, "run", reason);
   }
   return {std::move(recorder.contacts), std::move(report.method), std::move(report.warnings)};
 }

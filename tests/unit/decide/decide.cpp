@@ -120,12 +120,27 @@ TEST_CASE("inertially coupled blocks are decided together") {
   CHECK(d.jet.a()[1] < 0.0);
 }
 
-TEST_CASE("two sliders without stiffness on one degree of freedom have no unique forces") {
+TEST_CASE("two sliders without stiffness on one degree of freedom share its force by the least norm") {
   Model model = blocks({{2.0}}, {0.1}, 0.4);
   model.contacts.push_back(model.contacts[0]);
   const Decision d = start(model);
-  CHECK_FALSE(d.consistent);
-  CHECK(d.refusal.reason.find("linearly dependent") != std::string::npos);
+  REQUIRE(d.consistent);
+  CHECK(d.after[0].T == doctest::Approx(0.05).epsilon(1e-14));
+  CHECK(d.after[1].T == doctest::Approx(0.05).epsilon(1e-14));
+  // 0.1 at most at the second, then the first bears the rest, and above 0.5 both slip.
+  model.contacts[1].normal_force = History::constant(0.25);
+  model.loads[0].history = History::constant(0.3);
+  const Decision rest = start(model);
+  REQUIRE(rest.consistent);
+  CHECK(rest.mode[0].state == State::stick);
+  CHECK(rest.after[0].T == doctest::Approx(0.2).epsilon(1e-14));
+  CHECK(rest.after[1].T == doctest::Approx(0.1).epsilon(1e-14));
+  model.loads[0].history = History::constant(-0.6);
+  const Decision slips = start(model);
+  REQUIRE(slips.consistent);
+  CHECK(slips.mode[0].state == State::slip_minus);
+  CHECK(slips.mode[1].state == State::slip_minus);
+  CHECK(slips.jet.a()[0] == doctest::Approx(-0.05).epsilon(1e-13));
 }
 
 TEST_CASE("level 0 of the jet satisfies the equation of motion, level 1 its derivative") {

@@ -38,6 +38,22 @@ struct Known : Stepper {
   long asked = 0;
 };
 
+/// u = sin 3 t + fast sin 1e4 t, as an engine that knows both.
+struct Rippled : Known {
+  explicit Rippled(double of_fast) : fast(of_fast) {}
+  void evaluate(double t, Point& p) override {
+    Known::evaluate(t, p);
+    p.u = Vector::Constant(1, std::sin(3.0 * t) + fast * std::sin(1e4 * t));
+  }
+  std::optional<Ripple> ripple(double omega) const override {
+    const double u = (omega < 1e4 ? fast : 0.0) + (omega < 3.0 ? 1.0 : 0.0);
+    return Ripple{u, 1e4 * u, 1e8 * u, Vector::Zero(4)};
+  }
+  Ripple whole() const override { return Ripple{1.0, 3.0, 9.0, Vector::Zero(4)}; }
+  double reach(const Combination& form) const override { return form.magnitude(Vector::Ones(1)); }
+  double fast;
+};
+
 Model model_with(const Output& output) {
   Model model = build_model(parse_scene(
       matrix_scene(
@@ -97,6 +113,71 @@ TEST_CASE(
   // 100 rad of the fastest motion in four parts, of 17 points and a few turns each
   CHECK(motion.asked < 4 * 40);
   CHECK(watch.extremes()[0].maximum <= 2e-8);
+}
+
+TEST_CASE("what an engine knows to be rounding of an output is not looked for, what shows is") {
+  Output output;
+  output.u.terms = {{0, -2.0}};
+  Model model = model_with(output);
+  model.omega_max = 1e4;
+  for (const double fast : {1e-14, 1e-10}) {
+    CAPTURE(fast);
+    Rows rows;
+    Rippled motion(fast);
+    ResponseWatch watch(model, 2.0, rows, true);
+    Point point;
+    motion.evaluate(0.0, point);
+    watch.row(0.0, Side::after, point, {});
+    motion.asked = 0;
+    watch.inside(motion, 0.0, 2.0);
+    // 2e4 rad are 625 parts of five points at least
+    CHECK((motion.asked < 100) == (fast < 1e-12));
+    CHECK((motion.asked > 3125) == (fast > 1e-12));
+    CHECK(watch.extremes()[0].minimum == doctest::Approx(-2.0 * (1.0 + fast)).epsilon(1e-13));
+    CHECK(!watch.coarse());
+  }
+}
+
+TEST_CASE("a motion of more turns than anybody waits for is looked at in coarser parts, and that is said") {
+  Output output;
+  output.u.terms = {{0, 1.0}};
+  Model model = model_with(output);
+  model.omega_max = 1e4;
+  Rows rows;
+  Rippled motion(0.5);
+  ResponseWatch watch(model, 1e7, rows, true);  // 1e11 rad of the run; a step of 2 of them is passed here
+  Point point;
+  motion.evaluate(0.0, point);
+  watch.row(0.0, Side::after, point, {});
+  motion.asked = 0;
+  watch.inside(motion, 0.0, 2.0);
+  CHECK(motion.asked < 2000);
+  REQUIRE(watch.coarse());
+  CHECK(watch.coarse()->find("1e+11 radians") != std::string::npos);
+}
+
+TEST_CASE("polynomials of a step need no parts, whatever frequencies the structure has") {
+  struct Parabola : Known {
+    void evaluate(double t, Point& p) override {
+      Known::evaluate(t, p);
+      p.u = Vector::Constant(1, t * (1.5 - t));
+    }
+    double turns() const override { return 6.28; }
+  };
+  Output output;
+  output.u.terms = {{0, 4.0}};
+  Model model = model_with(output);
+  model.omega_max = 1e150;
+  Rows rows;
+  Parabola motion;
+  ResponseWatch watch(model, 2.0, rows, true);
+  Point point;
+  motion.evaluate(0.0, point);
+  watch.row(0.0, Side::after, point, {});
+  watch.inside(motion, 0.0, 2.0);
+  CHECK(motion.asked < 50);
+  CHECK(watch.extremes()[0].maximum == doctest::Approx(4.0 * 0.5625).epsilon(1e-15));
+  CHECK(watch.extremes()[0].t_maximum == doctest::Approx(0.75).epsilon(1e-7));
 }
 
 TEST_SUITE_END();

@@ -40,6 +40,10 @@ class DampedFlow final : public ModalFlow {
   void add_works(const ModalPoint& from, const ModalPoint& to, double /*time*/, Works& works) const override {
     works_.add(from, to, works);
   }
+  [[nodiscard]] std::optional<Ripple> ripple(const ModalPoint& from, double time,
+                                             double omega) const override {
+    return motion_.ripple(from, time, omega);
+  }
   [[nodiscard]] double dependence() const override { return motion_.dependence(); }
   [[nodiscard]] long states_made() const override { return motion_.system().made(); }
 

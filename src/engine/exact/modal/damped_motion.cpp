@@ -73,6 +73,7 @@ std::string DampedMotion::start(const Segment& segment, const Vector& q, const V
   state_ = system_.state(decision_->mode);
   const DampedModes& modes = state_->modes;
   if (!modes.failure.empty()) return modes.failure;
+  lengths_ = modes.shape.colwise().norm();
   const double t = decision_->jet.t;
   time_ = TimeBasis(model_, t);
   for (Eigen::Index k = 0; k < modes.root.size(); ++k)
@@ -154,6 +155,28 @@ ModalQuantity DampedMotion::of(const Form& form, std::size_t c) const {
   add(form.at, [&] { return derivative(derivative(own.ut)); });
   sum.course += form.pressing * own.pressing + form.pressing_rate * time_.derivative(own.pressing);
   return sum;
+}
+
+Ripple DampedMotion::ripple(const ModalPoint& from, double time, double omega) const {
+  const auto count = static_cast<Eigen::Index>(2 * contacts_.size());
+  Ripple r{0.0, 0.0, 0.0, Eigen::VectorXd::Zero(count)};
+  SumOfModes u(dependence()), v(dependence()), a(dependence());
+  for (Eigen::Index k = 0; k < root().size(); ++k) {
+    const double rate = std::abs(root()[k]);
+    if (!(rate > omega)) continue;
+    const double y = std::abs(from.y[k]) * std::exp(std::max(0.0, root()[k].real()) * time);
+    u.add(lengths_[k] * y);
+    v.add(lengths_[k] * y * rate);
+    a.add(lengths_[k] * y * rate * rate);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      r.forces[static_cast<Eigen::Index>(normal_slot(c))] += std::abs(contacts_[c].N.row[k]) * y;
+      r.forces[static_cast<Eigen::Index>(tangent_slot(c))] += std::abs(contacts_[c].T.row[k]) * y;
+    }
+  }
+  r.u = u.value();
+  r.v = v.value();
+  r.a = a.value();
+  return r;
 }
 
 void DampedMotion::advance(const ModalPoint& from, double time, ModalPoint& to) const {

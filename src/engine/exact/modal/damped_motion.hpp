@@ -71,6 +71,8 @@ class DampedMotion {
   [[nodiscard]] double value(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseProduct(at.y).sum().real() + f.course.dot(time_.at(at.time));
   }
+  /// Of the modes with |l| > omega, as ModalFlow asks for it.
+  [[nodiscard]] Ripple ripple(const ModalPoint& from, double time, double omega) const;
   /// Sum of the magnitudes of its terms.
   [[nodiscard]] double magnitude(const ModalQuantity& f, const ModalPoint& at) const {
     return f.row.cwiseAbs().dot(at.y.cwiseAbs()) + f.course.cwiseAbs().dot(time_.at(at.time).cwiseAbs());
@@ -90,6 +92,7 @@ class DampedMotion {
   const Decision* decision_ = nullptr;
   TimeBasis time_;
   Eigen::MatrixXd place_, rate_, change_;
+  Eigen::VectorXd lengths_;  // of the shapes
   std::vector<ContactQuantities> contacts_;
 };
 

@@ -7,6 +7,7 @@
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "engine/exact/modal/open_modes.hpp"
+#include "linear/shared_rows.hpp"
 
 namespace signorini {
 namespace {
@@ -65,6 +66,22 @@ std::optional<Damping> damping_of(const Model& model) {
   const auto factors = solve_regular(normal, right);
   if (!factors) return std::nullopt;
   return dampers_of(model, (*factors)[0], (*factors)[1]);
+}
+
+}  // namespace
+
+namespace {
+
+/// Rigid terms whose forces are not unique (linear/shared_rows.hpp).
+bool holds_twice(const std::vector<ModalTerm>& terms) {
+  std::vector<Index> rigid;
+  for (std::size_t a = 0; a < terms.size(); ++a)
+    if (terms[a].rigid) rigid.push_back(static_cast<Index>(a));
+  if (rigid.size() < 2) return false;
+  Eigen::MatrixXd v(terms.front().v.size(), static_cast<Index>(rigid.size()));
+  for (std::size_t i = 0; i < rigid.size(); ++i)
+    v.col(static_cast<Index>(i)) = terms[static_cast<std::size_t>(rigid[i])].v;
+  return null_of_columns(v).cols() > 0;
 }
 
 }  // namespace
@@ -195,6 +212,10 @@ DampedState DampedSystem::make(const Mode& mode) const {
   for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
   if (out.terms.size() > most_damped_terms) {
     out.modes.failure = "more springs, constraints and dampers than a state's modes are worth";
+    return out;
+  }
+  if (holds_twice(out.terms)) {
+    out.modes.failure = "contacts that hold one motion together";
     return out;
   }
   out.modes = damped_modes(basis_.square(), decay_, out.terms);

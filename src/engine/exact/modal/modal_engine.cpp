@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 #include "engine/exact/modal/damped_flow.hpp"
 #include "engine/exact/modal/proportional_flow.hpp"
 #include "motion/clock.hpp"
@@ -299,6 +300,30 @@ void ModalEngine::integrate(double from, double to, Works& works) {
   worked_ = std::move(next);
   worked_to_ = to;
   has_worked_ = true;
+}
+
+std::optional<Ripple> ModalEngine::ripple(double omega) const {
+  if (!modal_ || parts_.empty()) return std::nullopt;
+  return flow_->ripple(parts_.front().at, t_ - parts_.front().begin, omega);
+}
+
+/// Each amplitude is a sum over the whole structure, known to some roundings of |q|, not of itself: velocities and
+/// accelerations with w times and w^2 times that, w the highest frequency. Forces of springs and dashpots.
+Ripple ModalEngine::whole() const {
+  const Motion m = motion(parts_.front().at, false);
+  const auto norm = [](const Vector& of) { return of.norm(); };
+  const double w = model_.omega_max, q = norm(m.q), rate = norm(m.rate);
+  Ripple r{q + rate / w, w * q + rate, w * (w * q + rate),
+           Vector::Zero(static_cast<Eigen::Index>(2 * model_.contacts.size()))};
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
+    const Contact& contact = model_.contacts[c];
+    const double N = contact.normal_stiffness * r.u + contact.normal_damping * r.v;
+    const double T = contact.tangential_stiffness.value_or(0.0) * r.u;
+    r.forces[static_cast<Eigen::Index>(normal_slot(c))] = N * norm(basis_.normal(c));
+    r.forces[static_cast<Eigen::Index>(tangent_slot(c))] =
+        T * norm(basis_.tangent(c)) + static_friction(contact) * N * norm(basis_.normal(c));
+  }
+  return r;
 }
 
 double ModalEngine::residual() {

@@ -41,6 +41,12 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] bool knows_low_flights() const override { return true; }
   [[nodiscard]] Expansion expansion() const override { return modal_ ? Expansion{} : taylor_.expansion(); }
   [[nodiscard]] double dependence() const override { return modal_ ? flow_->dependence() : 1.0; }
+  [[nodiscard]] double turns() const override { return modal_ ? Stepper::turns() : taylor_.turns(); }
+  [[nodiscard]] std::optional<Ripple> ripple(double omega) const override;
+  [[nodiscard]] Ripple whole() const override;
+  [[nodiscard]] double reach(const Combination& form) const override {
+    return basis_.amplitudes_of(form).norm();
+  }
   [[nodiscard]] ModalSystem* modes() override { return flow_ ? flow_->modes() : nullptr; }
   void count() override;
 

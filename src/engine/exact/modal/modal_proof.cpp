@@ -147,7 +147,7 @@ Shown ModalProof::shown(std::size_t c, const ModalPoint& at) const {
 }
 
 void ModalProof::measure(const ModalPoint& at) {
-  measure_amplitudes(at);
+  oscillators_->amplitudes(at, *forces_, amplitude_, pair_amplitude_);
   for (Watched& guard : guards_) guard.now = leaves(guard) ? derivative(guard, at) : value(guard, at);
   const std::size_t contacts = model_.contacts.size();
   normal_size_.resize(contacts);

@@ -72,7 +72,6 @@ class ModalProof {
   void watch(const Segment& segment, const StateModes& state);
   [[nodiscard]] double value(const Watched& guard, const ModalPoint& at) const;
   [[nodiscard]] double derivative(const Watched& guard, const ModalPoint& at) const;
-  void measure_amplitudes(const ModalPoint& at);
   void measure(const ModalPoint& at);
   void part_modes(bool all_slow);
   [[nodiscard]] std::size_t first_fast() const;

@@ -16,26 +16,6 @@ constexpr std::size_t most_degree = 30;
 
 }  // namespace
 
-void ModalProof::measure_amplitudes(const ModalPoint& at) {
-  const std::vector<double>&l = oscillators_->real(), &w = oscillators_->turning();
-  amplitude_.resize(l.size());
-  for (std::size_t k = 0; k < l.size(); ++k) {
-    if (!(w[k] > 0.0)) {
-      amplitude_[k] = never;
-      continue;
-    }
-    const double y = at.z.real[k] - forces_->real[k] / l[k], b = (at.rate.real[k] + 0.5 * alpha_ * y) / w[k];
-    amplitude_[k] = std::sqrt(y * y + b * b);
-  }
-  const std::vector<Complex>& pairs = oscillators_->pairs();
-  pair_amplitude_.resize(pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const Complex y = at.z.pair[k] - forces_->pair[k] * inverse(pairs[k]);
-    pair_amplitude_[k] =
-        size_of(y) + size_of(at.rate.pair[k] + y * (0.5 * alpha_)) / std::sqrt(size_of(pairs[k]));
-  }
-}
-
 /// Which modes a step of length h_ follows as polynomials.
 void ModalProof::part_modes(bool all_slow) {
   const std::vector<double>& l = oscillators_->real();
@@ -114,14 +94,14 @@ void ModalProof::see_begin(const ModalPoint& at, double time, TurningPoints& tur
 
 double ModalProof::expand_beside(const ModalPoint& at, const TurningPoints& known, double share,
                                  double remaining) {
-  measure_amplitudes(at);
+  oscillators_->amplitudes(at, *forces_, amplitude_, pair_amplitude_);
   const std::size_t n = amplitude_.size();
   std::size_t first = 0;
   for (std::size_t c = 0; c < slow_.size(); ++c) {
     const ForceLaw& law = laws_[c];
     const auto allowed = [&](ContactSeries::Field field, double factor) {
       const TurningPoints::Range& range = known.range(c, field);
-      return factor == 0.0 ? never : share * (range.greatest - range.least) / std::abs(factor);
+      return factor == 0.0 ? Oscillators::never : share * (range.greatest - range.least) / std::abs(factor);
     };
     const double normal = std::min({allowed(ContactSeries::gap, 1.0), allowed(ContactSeries::N, law.N_gap),
                                     allowed(ContactSeries::T, law.T_gap)});

@@ -121,6 +121,25 @@ void Oscillators::advance(const ModalPoint& from, const Amplitudes& p, double ti
       by_series(to.z.pair[k], to.rate.pair[k], complex_area, p.pair[k], pairs_[k], alpha_, time);
 }
 
+void Oscillators::amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,
+                             std::vector<double>& pair) const {
+  real.resize(real_.size());
+  for (std::size_t k = 0; k < real_.size(); ++k) {
+    const double w = turning_[k];
+    if (!(w > 0.0)) {
+      real[k] = never;
+      continue;
+    }
+    const double y = at.z.real[k] - p.real[k] / real_[k], b = (at.rate.real[k] + 0.5 * alpha_ * y) / w;
+    real[k] = std::sqrt(y * y + b * b);
+  }
+  pair.resize(pairs_.size());
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const Complex y = at.z.pair[k] - p.pair[k] * inverse(pairs_[k]);
+    pair[k] = size_of(y) + size_of(at.rate.pair[k] + y * (0.5 * alpha_)) / std::sqrt(size_of(pairs_[k]));
+  }
+}
+
 Amplitudes Oscillators::second(const ModalPoint& at, const Amplitudes& p) const {
   Amplitudes second;
   for (std::size_t k = 0; k < at.z.real.size(); ++k)

@@ -7,6 +7,8 @@
 // conjugate.
 #pragma once
 
+#include <cmath>
+
 #include "engine/exact/modal/spectrum.hpp"
 
 namespace signorini {
@@ -19,6 +21,20 @@ struct ModalPoint {
   double time = 0.0;
 };
 
+/// Bounds |sum_k x_k A_k| with |x_k| = 1: by the root of the sum of squares where the shapes are orthogonal, by the
+/// sum of the A_k else.
+class SumOfModes {
+ public:
+  /// As Stepper::dependence().
+  explicit SumOfModes(double dependence) : orthogonal_(dependence <= 1.0 + 1e-6) {}
+  void add(double amplitude) { sum_ += orthogonal_ ? amplitude * amplitude : amplitude; }
+  [[nodiscard]] double value() const { return orthogonal_ ? std::sqrt(sum_) : sum_; }
+
+ private:
+  bool orthogonal_;
+  double sum_ = 0.0;
+};
+
 class Oscillators {
  public:
   Oscillators() = default;
@@ -29,10 +45,17 @@ class Oscillators {
   [[nodiscard]] const std::vector<Complex>& pairs() const { return pairs_; }
   /// w of real modes; 0 of those that do not oscillate.
   [[nodiscard]] const std::vector<double>& turning() const { return turning_; }
+  /// The same of pairs: its imaginary part is the rate at which one of each pair grows beside e^(-alpha t/2).
+  [[nodiscard]] const std::vector<Complex>& pair_turning() const { return pair_turning_; }
   /// The motion a time later; alpha time <= 4. Forces p are constant.
   void advance(const ModalPoint& from, const Amplitudes& p, double time, ModalPoint& to) const;
   /// z''
   [[nodiscard]] Amplitudes second(const ModalPoint& at, const Amplitudes& p) const;
+  /// Of a mode that does not swing: more than anything, and no infinity, which times zero is no number.
+  static constexpr double never = 1e300;
+  /// How far each mode swings about p/l; of a pair, which may grow or decay, at first.
+  void amplitudes(const ModalPoint& at, const Amplitudes& p, std::vector<double>& real,
+                  std::vector<double>& pair) const;
   /// Integrals of z over the time between the two.
   void integrate(const ModalPoint& from, const ModalPoint& to, const Amplitudes& p, double time,
                  Amplitudes& out) const;

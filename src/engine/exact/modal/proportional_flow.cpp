@@ -43,6 +43,43 @@ void ProportionalFlow::find_turns(const ModalPoint& from, double begin, double l
   find_passage_turns(proof_, advance, from, begin, length, observed, turning, turns);
 }
 
+std::optional<Ripple> ProportionalFlow::ripple(const ModalPoint& from, double time, double omega) const {
+  std::vector<double> real, pair;
+  oscillators_.amplitudes(from, forces_, real, pair);
+  const std::size_t contacts = model_.contacts.size();
+  std::vector<double> normal(contacts, 0.0), tangent(contacts, 0.0);
+  SumOfModes u(dependence()), v(dependence()), a(dependence());
+  const auto add = [&](double rate, double most, const auto& shown) {
+    u.add(most);
+    v.add(most * rate);
+    a.add(most * rate * rate);
+    for (std::size_t c = 0; c < contacts; ++c) {
+      normal[c] += shown(state_->normal[c]) * most;
+      tangent[c] += shown(state_->tangent[c]) * most;
+    }
+  };
+  for (std::size_t k = 0; k < real.size(); ++k) {
+    const double rate = std::sqrt(std::abs(oscillators_.real()[k]));
+    if (!(std::max(rate, oscillators_.alpha()) > omega)) continue;
+    if (!(oscillators_.turning()[k] > 0.0)) return std::nullopt;
+    add(rate, real[k], [&](const Amplitudes& of) { return std::abs(of.real[k]); });
+  }
+  for (std::size_t k = 0; k < pair.size(); ++k) {
+    const double rate = std::sqrt(size_of(oscillators_.pairs()[k]));
+    if (!(rate > omega)) continue;
+    const double grown = std::exp(std::abs(oscillators_.pair_turning()[k].im) * time);
+    add(rate, 2.0 * pair[k] * grown, [&](const Amplitudes& of) { return size_of(of.pair[k]); });
+  }
+  Ripple r{u.value(), v.value(), a.value(), Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * contacts))};
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const ForceLaw law = proof_.law(c);
+    r.forces[static_cast<Eigen::Index>(normal_slot(c))] = std::abs(law.N_gap) * normal[c];
+    r.forces[static_cast<Eigen::Index>(tangent_slot(c))] =
+        std::abs(law.T_gap) * normal[c] + std::abs(law.T_ut) * tangent[c];
+  }
+  return r;
+}
+
 void ProportionalFlow::motion(const ModalPoint& z, Vector& q, Vector& rate, Vector* change) const {
   if (!change) return state_->spectrum.from_modes({&z.z, &z.rate}, {&q, &rate});
   const Amplitudes second = oscillators_.second(z, forces_);

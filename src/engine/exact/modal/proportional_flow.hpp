@@ -34,6 +34,8 @@ class ProportionalFlow final : public ModalFlow {
   void add_works(const ModalPoint& from, const ModalPoint& to, double time, Works& works) const override {
     works_.add(proof_, from, to, time, works);
   }
+  [[nodiscard]] std::optional<Ripple> ripple(const ModalPoint& from, double time,
+                                             double omega) const override;
   [[nodiscard]] ModalSystem* modes() override { return &system_; }
   [[nodiscard]] double dependence() const override { return state_ ? state_->spectrum.condition() : 1.0; }
   [[nodiscard]] long states_made() const override { return system_.made(); }

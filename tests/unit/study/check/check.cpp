@@ -139,22 +139,16 @@ TEST_SUITE("unit/study/check/check") {
     CHECK_FALSE(r.mass);
   }
 
-  TEST_CASE("rigid sliders on one motion are refused by name, so is one without mass under it") {
+  TEST_CASE("rigid sliders on one motion share their forces; one without mass under it is refused by name") {
     Scene s = matrices({{1, 0}, {0, 1}}, {{0, 0}, {0, 0}}, {{4, 0}, {0, 4}});
     const Direction first{"", {}, {{"d0", 1.0}}, {}};
     s.contacts = {slider("left", first, 1.0, 0.3),
                   slider("other", Direction{"", {}, {{"d1", 1.0}}, {}}, 1.0, 0.3),
                   slider("right", first, 1.0, 0.3)};
-    const std::string message = why_not(s);
-    CHECK(contains(message, "contacts.right: the run cannot start, t = 0: "));
-    CHECK(contains(message, "'left' and 'right' stick rigidly to one and the same motion"));
-    CHECK(contains(message, "tangential_stiffness"));
-    Scene sliding = s;  // all well while the surface moves, not for ever
-    sliding.contacts[0].surface_velocity.amplitude = sliding.contacts[2].surface_velocity.amplitude = 0.2;
-    CHECK(contains(checked(sliding).warnings.at(0), "'left' and 'right'"));
-    s.contacts[2].tangential_stiffness = 1e3;
     CHECK(why_not(s).empty());
-    CHECK(checked(s).warnings.empty());
+    Scene sliding = s;
+    sliding.contacts[0].surface_velocity.amplitude = sliding.contacts[2].surface_velocity.amplitude = 0.2;
+    CHECK(checked(sliding).warnings.empty());
 
     Scene light = matrices({{1, 0}, {0, 0}}, {{0, 0}, {0, 0}}, {{4, -1}, {-1, 4}});
     light.contacts = {slider("pad", Direction{"", {}, {{"d1", 1.0}}, {}}, 1.0, 0.3)};

@@ -1,0 +1,16 @@
+// dof_place.hpp: where in the file of a scene a degree of freedom comes from.
+//
+//   a named node       its line in [nodes]
+//   an inner node      the member that it stands on, as does the rotation of a hinged end
+//   matrices           the stiffness
+#pragma once
+
+#include "model/assembly/dofs.hpp"
+
+namespace signorini {
+
+[[nodiscard]] SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof);
+/// Of the structure as a whole: its first member or node, or its mass matrix.
+[[nodiscard]] SourcePlace place_of_structure(const Scene& scene);
+
+}  // namespace signorini

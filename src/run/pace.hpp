@@ -1,0 +1,46 @@
+// pace.hpp: how fast the motion of a step turns, as far as outputs show it.
+//
+//   omega   the least rate, to a factor of 2, above which all motion together is rounding of every output:
+//             reach_u U + reach_v V + reach_a A + sum |N_k| n_k + |T_k| t_k  <=  what counts        (engine/ripple.hpp)
+//
+// A stiff structure at rest has modes whose swings are nothing but the rounding of its displacements. They turn
+// thousands of times faster than the motion, and their peaks are nobody's. Loads and their like count as they are.
+#pragma once
+
+#include <functional>
+
+#include "engine/stepper.hpp"
+
+namespace signorini {
+
+/// Of the parts of a linear output.
+struct Reach {
+  double u = 0.0, v = 0.0, a = 0.0;
+};
+[[nodiscard]] Reach reach_of(const Stepper& engine, const Output& linear);
+/// What a ripple may add to it.
+[[nodiscard]] double added(const Ripple& ripple, const Reach& reach, const Output& linear);
+
+/// All rates in rad per time.
+class Pace {
+ public:
+  /// The model must outlive it.
+  Pace(const Model& model, double t_end);
+
+  /// The model's loads are others from here on.
+  void loads_changed();
+  /// Of structure and loads, where a step of that length was made.
+  [[nodiscard]] double of_all(const Stepper& engine, double length) const;
+  /// No more than `all`, and no less than loads ask for.
+  [[nodiscard]] double of_what_counts(const Stepper& engine, double all,
+                                      const std::function<bool(const Ripple&)>& is_rounding) const;
+  /// At which a run turns by so many radians.
+  [[nodiscard]] double fastest(double radians) const { return radians / t_end_; }
+
+ private:
+  const Model& model_;
+  double t_end_;
+  double given_ = 0.0;  // the fastest load, and at least 1/t_end
+};
+
+}  // namespace signorini

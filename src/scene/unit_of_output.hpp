@@ -1,0 +1,19 @@
+// unit_of_output.hpp: what unit an output has.
+//
+//   N, V, T: force     M: force length     stress: force/length^2     gap, slip: length     loss: force length
+//   motions: length or 1, over time once or twice     combination: that of its terms, times that of their factors
+#pragma once
+
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+[[nodiscard]] bool same_unit(const Unit& a, const Unit& b);
+[[nodiscard]] Unit product_of_units(const Unit& a, const Unit& b);
+
+/// `all`: the outputs of the scene, at least those before it.
+[[nodiscard]] Unit unit_of_output(const OutputSpec& spec, const std::vector<OutputSpec>& all);
+/// Of a term of a combination, with its factor. Its name must be known.
+[[nodiscard]] Unit unit_of_term(const OutputTerm& term, const std::vector<OutputSpec>& all);
+
+}  // namespace signorini

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace signorini {
 namespace {
@@ -17,19 +16,18 @@ struct Stiffness {
 };
 
 void add_members(const Scene& scene, const DofMap& map, std::vector<Stiffness>& all) {
-  for (const MeshElement& e : map.mesh.elements) {
-    const MeshNode &a = map.mesh.nodes[static_cast<std::size_t>(e.a)],
-                   &b = map.mesh.nodes[static_cast<std::size_t>(e.b)];
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    const Section& section = scene.sections[static_cast<std::size_t>(e.section)];
-    const Member& member = scene.members[static_cast<std::size_t>(e.member)];
-    const std::string key = fmt::format("members.{}.section", e.member + 1);
-    all.push_back({section.EA / length, member.place, key,
-                   fmt::format("EA/L of an element of section '{}'", section.name)});
-    if (e.type == MemberType::beam)
-      all.push_back({section.EI / e.flexibility / length / length / length, member.place, key,
-                     fmt::format("EI/L^3 of an element of section '{}'", section.name)});
-  }
+  for (const MeshPiece& piece : map.mesh.pieces)
+    for (std::size_t i = 0; i < piece.count; ++i) {
+      const LineData& line = map.mesh.line(piece.first + i).data();
+      const double length = line.axis.length;
+      const Member& member = scene.members[static_cast<std::size_t>(line.member)];
+      const std::string key = fmt::format("members.{}.section", line.member + 1);
+      all.push_back({line.EA / length, member.place, key,
+                     fmt::format("EA/L of an element of section '{}'", member.section)});
+      if (member.type == MemberType::beam)
+        all.push_back({line.EI / length / length / length, member.place, key,
+                       fmt::format("EI/L^3 of an element of section '{}'", member.section)});
+    }
 }
 
 }  // namespace
@@ -45,15 +43,12 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
     all.push_back({contact.normal_stiffness, contact.place, contact.key("normal_stiffness"),
                    fmt::format("normal_stiffness of contact '{}'", contact.name)});
   std::erase_if(all, [](const Stiffness& k) { return !(k.value > 0.0); });
-  std::set<std::string> seen;  // elements of one section count once
-  std::erase_if(all, [&](const Stiffness& k) { return !seen.insert(k.key + k.what).second; });
   if (all.size() < 2) return;
   const auto less = [](const Stiffness& a, const Stiffness& b) { return a.value < b.value; };
   std::sort(all.begin(), all.end(), less);
   const Stiffness &low = all.front(), &high = all.back();
   if (low.value >= high.value / widest) return;
-  const double middle = std::log(all[all.size() / 2].value);
-  const bool too_stiff = std::log(high.value) - middle > middle - std::log(low.value);
+  const bool too_stiff = std::abs(std::log(high.value)) > std::abs(std::log(low.value));
   const Stiffness &odd = too_stiff ? high : low, &other = too_stiff ? low : high;
   throw SceneError(
       odd.place, odd.key,

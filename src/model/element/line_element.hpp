@@ -49,6 +49,7 @@ class LineElement : public FiniteElement {
   explicit LineElement(const LineData& data)
       : FiniteElement({data.nodes[0], data.nodes[1]}, data.member), data_(data) {}
 
+  [[nodiscard]] const LineData& data() const { return data_; }
   [[nodiscard]] const Axis& axis() const { return data_.axis; }
   [[nodiscard]] double extent() const override { return data_.axis.length; }
   [[nodiscard]] double density() const override { return data_.mass_per_length; }
@@ -64,7 +65,6 @@ class LineElement : public FiniteElement {
  protected:
   using Ends = Eigen::Matrix<double, 6, 1>;  // ux, uy, rz at a and b
 
-  [[nodiscard]] const LineData& data() const { return data_; }
   /// Without the rotations that it does not have.
   [[nodiscard]] ElementVector of_unknowns(const Ends& ends) const;
   /// How far b has moved from a, along the line.

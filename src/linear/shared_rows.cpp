@@ -64,15 +64,18 @@ bool SharedRows::has_mass(const Combination& form) const {
   });
 }
 
-/// Rigid contacts, and sliders that stick rigidly, that act on common degrees of freedom.
+/// Rigid contacts that act on common degrees of freedom; and sliders on ground that stands, apart from those: what presses
+/// is another matter, and what sticks to surfaces that move differently holds no common motion.
 std::vector<std::vector<std::size_t>> SharedRows::together() const {
   DisjointSets sets(model_.contacts.size());
-  std::unordered_map<int, std::size_t> first;  // that acts on a degree of freedom
+  std::unordered_map<int, std::size_t> feet, sliders;  // the first that acts on a degree of freedom
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
-    if (!contact.takes_impulses() && !(contact.sticks_rigidly() && has_mass(contact.tangent))) continue;
+    const bool slides = contact.sticks_rigidly() && contact.surface_motion.is_constant();
+    if (!contact.takes_impulses() && !(slides && has_mass(contact.tangent))) continue;
     for (const Combination* form : {&contact.normal, &contact.tangent})
-      for (const auto& term : form->terms) sets.join(k, first.emplace(term.first, k).first->second);
+      for (const auto& term : form->terms)
+        sets.join(k, (contact.takes_impulses() ? feet : sliders).emplace(term.first, k).first->second);
   }
   std::vector<std::vector<std::size_t>> groups = sets.sets();
   std::erase_if(groups, [](const std::vector<std::size_t>& group) { return group.size() < 2; });

@@ -5,7 +5,8 @@
 //
 // With s z z' in place of 0 the matrix is regular, and where z.b = 0 its solution has H' a = b and z.f = 0: the motion
 // is the same, and of all forces that go with it those are taken whose sum of squares is least. s > 0 is of the
-// size of H' M^-1 H, which changes no digit of either. What sticks to a point without mass takes no part: it is refused.
+// size of H' M^-1 H, which changes no digit of either. Sliders share among themselves, on ground that stands and where
+// there is mass; beside rigid contacts they are refused.
 #pragma once
 
 #include <Eigen/Core>

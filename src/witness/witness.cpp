@@ -51,7 +51,9 @@ bool held_beside(const Model& model, std::size_t k) {
   };
   if (!foot.sticks_rigidly()) return false;
   for (std::size_t j = 0; j < model.contacts.size(); ++j)
-    if (j != k && model.contacts[j].sticks_rigidly() && shares(model.contacts[j])) return true;
+    if (j != k && model.contacts[j].sticks_rigidly() &&
+        model.contacts[j].takes_impulses() == foot.takes_impulses() && shares(model.contacts[j]))
+      return true;
   return false;
 }
 

@@ -216,8 +216,11 @@ TEST_CASE("pictures of parts that run apart: contacts, displacements and sums of
 
 namespace {
 
-/// Unit masses with Coulomb friction. One, free, of velocity 2.4, has two sliders, whose shares nobody knows when it comes to
-/// rest, at 2.4 / 0.8; the other, of stiffness 5 and first displacement 10, turns at k pi / sqrt(5).
+constexpr const char* later =
+    "surface_velocity = { type = \"rectangle\", start = 50.0, end = 60.0, amplitude = 1.0 }\n";
+
+/// Unit masses with Coulomb friction. One, free, of velocity 2.4, has two sliders, one of them on a belt that starts later: their
+/// shares are not told when it comes to rest, at 2.4 / 0.8; the other, of stiffness 5 and first displacement 10, turns at k pi / sqrt(5).
 std::string oscillators(bool twice_first, const std::string& run = "output_dt = 0.01") {
   const std::string stops = twice_first ? "d0" : "d1", turns = twice_first ? "d1" : "d0";
   std::string text = fmt::format(
@@ -231,8 +234,8 @@ std::string oscillators(bool twice_first, const std::string& run = "output_dt = 
   for (const auto& [name, dof] : {std::pair{"one", stops}, {"swings", turns}, {"other", stops}})
     text += fmt::format(
         "[[contacts]]\nname = \"{}\"\nlaw = \"slider\"\ntangent = {{ {} = 1.0 }}\nnormal_force = "
-        "1.0\nfriction = 0.4\n",
-        name, dof);
+        "1.0\nfriction = 0.4\n{}",
+        name, dof, std::string(name) == "other" ? later : "");
   return text;
 }
 
@@ -278,7 +281,8 @@ TEST_CASE("what is refused at the start leaves no rows and no events of other pa
           "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4",
           "[[contacts]]\nname = \"ground\"\nlaw = \"rigid\"\nnormal = { d1 = 1.0 }\nrestitution = 0.5\n"
           "[[contacts]]\nname = \"other\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\n"
-          "normal_force = 1.0\nfriction = 0.4\n"),
+          "normal_force = 1.0\nfriction = 0.4\n" +
+              std::string(later)),
       "exact");
   CHECK(result.report.outcome.kind == Outcome::Kind::stopped);
   CHECK(result.report.outcome.t == 0.0);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace signorini {
 namespace {
@@ -45,15 +44,12 @@ void check_stiffness_range(const Scene& scene, const DofMap& map) {
     all.push_back({contact.normal_stiffness, contact.place, contact.key("normal_stiffness"),
                    fmt::format("normal_stiffness of contact '{}'", contact.name)});
   std::erase_if(all, [](const Stiffness& k) { return !(k.value > 0.0); });
-  std::set<std::string> seen;  // elements of one section count once
-  std::erase_if(all, [&](const Stiffness& k) { return !seen.insert(k.key + k.what).second; });
   if (all.size() < 2) return;
   const auto less = [](const Stiffness& a, const Stiffness& b) { return a.value < b.value; };
   std::sort(all.begin(), all.end(), less);
   const Stiffness &low = all.front(), &high = all.back();
   if (low.value >= high.value / widest) return;
-  const double middle = std::log(all[all.size() / 2].value);
-  const bool too_stiff = std::log(high.value) - middle > middle - std::log(low.value);
+  const bool too_stiff = std::abs(std::log(high.value)) > std::abs(std::log(low.value));
   const Stiffness &odd = too_stiff ? high : low, &other = too_stiff ? low : high;
   throw SceneError(
       odd.place, odd.key,

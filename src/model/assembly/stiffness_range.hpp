@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// Errors: SceneError at the member, spring or contact that is further from the middle of all.
+/// Errors: SceneError at the member, spring or contact whose number has the greater power of ten, up or down.
 void check_stiffness_range(const Scene& scene, const DofMap& map);
 
 }  // namespace signorini

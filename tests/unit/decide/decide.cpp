@@ -188,8 +188,9 @@ TEST_CASE("a trace hears of every mode that is tried, and the last one holds") {
 }
 
 TEST_CASE("a refusal says what kind it is") {
-  Model model = blocks({{2.0}}, {0.1}, 0.4);
-  model.contacts.push_back(model.contacts[0]);
+  Model model = blocks({{2.0, 0.0}, {0.0, 0.0}}, {0.1, 0.1}, 0.4);  // two on a point without mass
+  model.stiffness = matrix({{3.0, -1.0}, {-1.0, 4.0}});
+  model.contacts.push_back(model.contacts[1]);
   CHECK(start(model).refusal.kind == Refusal::Kind::dependent);
   CHECK(start(blocks({{2.0}}, {0.5}, 0.4)).refusal.kind == Refusal::Kind::none);
 }

@@ -133,7 +133,8 @@ TEST_CASE("what an engine knows to be rounding of an output is not looked for, w
     // 2e4 rad are 625 parts of five points at least
     CHECK((motion.asked < 100) == (fast < 1e-12));
     CHECK((motion.asked > 3125) == (fast > 1e-12));
-    CHECK(watch.extremes()[0].minimum == doctest::Approx(-2.0 * (1.0 + fast)).epsilon(1e-13));
+    // Near its turn the slow part falls by 4e-7 within a period of the fast one.
+    CHECK(std::abs(watch.extremes()[0].minimum + 2.0) <= 2.0 * fast + 1e-15);
     CHECK(!watch.coarse());
   }
 }

@@ -42,7 +42,7 @@ less stiffness across, a bar under a tension is a string, a rigid body with its 
 springs and contacts keep their directions. A static start is found again with this stiffness, and refused where the structure would
 buckle, with its load factor; `check` prints the lowest ones. A frictional start comes to its end without it, and then it grows as a
 last stage, "geometric". Where the state is given, the forces are those of the static equilibrium, which must exist. A run that goes
-on has the forces of the run before, if that had any; they stand in its geometric.csv. What changes in the run changes no force
+on has the forces of the run before, if that had any; they stand in its geometric.csv, without which it is refused. What changes in the run changes no force
 that is frozen.)"},
     {"run.atol", "### `run.atol`",
      R"(The scales are printed in `summary.json`. Give these where the scene has no natural scale, or where only small
@@ -341,7 +341,8 @@ tangent is t = (ny, -nx), [1, 0] for a floor; tangential motion is `t . u` less 
   impact, with `restitution` along n and Coulomb's law for the impulse along t. Rebounds slower than `capture_velocity`
   rest, so bouncing ends. Stick and slip as above, without springs.
 - `slider`: the compression is given, `normal_force`, and there is no gap. Without `tangential_stiffness` it is
-  rigid in stick. While `normal_force` is 0 over an interval it is `open`. With `[nodes]` a normal may stand for the
+  rigid in stick; several on one motion and on ground that stands, as two on one rigid body, share its force by the least
+  sum of squares within their limits. While `normal_force` is 0 over an interval it is `open`. With `[nodes]` a normal may stand for the
   tangent that belongs to it.
 
 A dashpot acts beside its spring: N = kn g + cn g' while closed, T = kt (ut - p) + ct ut' in stick. The contact

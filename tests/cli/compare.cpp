@@ -192,7 +192,10 @@ TEST_CASE("cli compare: engines that stop early or refuse the scene are rows") {
       "[[contacts]]\nname = \"one\"\n" +
       contact;
   const Shell shell;
-  shell.write("twice.toml", scene + "[[contacts]]\nname = \"other\"\n" + contact);
+  // On a belt that starts later it shares no force with the first.
+  shell.write("twice.toml",
+              scene + "[[contacts]]\nname = \"other\"\n" + contact +
+                  "surface_velocity = { type = \"rectangle\", start = 50.0, end = 60.0, amplitude = 1.0 }\n");
   const Ending stopped = shell.run({"compare", "twice.toml", "--engines", "exact,ida", "--no-plots", "--set",
                                     "exact:contacts.other.friction=0"});
   CHECK(stopped.code == 4);

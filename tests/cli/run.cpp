@@ -368,7 +368,8 @@ TEST_CASE("cli run: what is certain of a run that stops is certain to there, not
       "initial = { u = [0.0], v = [0.0] }\n[matrices]\nmass = [[1.0]]\nstiffness = [[1.0]]\n";
   for (const char* name : {"a", "b"})
     text += std::string("[[contacts]]\nname = \"") + name +
-            "\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4\n";
+            "\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.4\n"
+            "surface_velocity = { type = \"rectangle\", start = 50.0, end = 60.0, amplitude = 1.0 }\n";
   shell.write("two.toml", text);
   const Ending ending = shell.run({"run", "two.toml", "--no-plots", "--certify", "--engine", "exact"});
   CHECK(ending.code == 4);

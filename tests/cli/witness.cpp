@@ -130,15 +130,16 @@ TEST_CASE("cli witness: a run that nobody touched keeps all laws, by its files a
 }
 
 TEST_CASE("cli witness: a run that stops has rows of a step that leads to no instant, and no peak of it") {
-  // Slides from 1.5 m/s until two sliders would stick on the one degree of freedom, on belts that start later: they share no force.
+  // Slides from 1.5 m/s until two sliders would stick on the one degree of freedom,
+  // which share no force, as one is on a belt that starts later.
   std::string text =
       "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
       "5.0\noutput_dt = 0.01\ninitial = { u = [0.0], v = [1.5] }\n[matrices]\nmass = [[1.0]]\n"
       "stiffness = [[1.0]]\n";
   for (const char* name : {"a", "b"})
     text += std::string("[[contacts]]\nname = \"") + name +
-            "\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 2.0\nfriction = 0.4\n"
-            "surface_velocity = { type = \"rectangle\", start = 50.0, end = 60.0, amplitude = 1.0 }\n";
+            "\"\nlaw = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 2.0\nfriction = 0.4\n";
+  text += "surface_velocity = { type = \"rectangle\", start = 50.0, end = 60.0, amplitude = 1.0 }\n";
   for (const char* engine : {"exact", "ida"}) {
     CAPTURE(engine);
     const Shell shell;

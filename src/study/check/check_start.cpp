@@ -35,17 +35,18 @@ Vector heavy_part(const Model& model, const Combination& tangent) {
   return t;
 }
 
-bool has_mass(const Model& model, const Combination& tangent) {
-  return std::none_of(tangent.terms.begin(), tangent.terms.end(), [&](const auto& term) {
-    return model.dofs[static_cast<std::size_t>(term.first)].massless;
-  });
+/// On ground that stands, with mass all over: several such that hold one motion share their force (linear/shared_rows.hpp).
+bool may_share(const Model& model, const Contact& contact) {
+  return contact.surface_motion.is_constant() &&
+         std::none_of(contact.tangent.terms.begin(), contact.tangent.terms.end(), [&](const auto& term) {
+           return model.dofs[static_cast<std::size_t>(term.first)].massless;
+         });
 }
 
-/// The same for contacts whose tangents lie on common degrees of freedom. Several that hold one motion with mass share
-/// their forces (linear/shared_rows.hpp).
+/// The same for contacts whose tangents lie on common degrees of freedom.
 std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<std::size_t>& contacts) {
   std::vector<std::string> names;  // of the columns of `held`
-  std::vector<bool> heavy;         // have they mass all over?
+  std::vector<bool> shares;        // may they share?
   Eigen::MatrixXd held(model.size(), 0);
   for (const std::size_t k : contacts) {
     const Contact& c = model.contacts[k];
@@ -54,7 +55,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
       return Ambiguity{k, fmt::format("contact '{}' sticks rigidly to a point without mass; give it a "
                                       "tangential_stiffness, or the point a mass",
                                       c.name)};
-    bool share = has_mass(model, c.tangent);
+    bool share = may_share(model, c);
     if (held.cols() > 0) {
       const Eigen::MatrixXd x = solve_dense(held.transpose() * held, held.transpose() * t);
       if ((t - held * x).norm() <= 1e-12 * t.norm()) {
@@ -62,7 +63,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         for (Eigen::Index j = 0; j < held.cols(); ++j) {
           if (!(std::abs(x(j, 0)) * held.col(j).norm() > 1e-9 * t.norm())) continue;
           group.push_back(names[static_cast<std::size_t>(j)]);
-          share = share && heavy[static_cast<std::size_t>(j)];
+          share = share && shares[static_cast<std::size_t>(j)];
         }
         if (share) continue;
         group.push_back(c.name);
@@ -75,7 +76,7 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
     held.rightCols(1) = t;
     names.push_back(c.name);
-    heavy.push_back(share);
+    shares.push_back(may_share(model, c));
   }
   return std::nullopt;
 }

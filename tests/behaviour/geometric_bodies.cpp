@@ -303,7 +303,7 @@ TEST_CASE("what contacts hold wholly has no scale of its own, and ida follows th
   }
 }
 
-TEST_CASE("how far the linear block parts from Housner's: the table of docs/theory.md") {
+TEST_CASE("how far the linear block parts from Housner's: the table of docs/decisions/frozen-forces.md") {
   // I_O th'' = -m g R sin(alpha - th) from rest at th0, by th = th0 (1 - s^2) and the midpoint rule.
   const auto nonlinear = [](double alpha, double tilt) {
     constexpr int n = 4000;

@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SweepOptions : OutputOptions {
-  std::string scene;
+  std::string scene, engine;
   std::vector<std::string> varied, settings, merge, responses, samples;
   bool together = false;
   std::optional<long> sample_count, seed;
@@ -278,7 +278,8 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   if (!options.quiet) {
     print_patterns(options.scene, options.settings);
     print_patterns(options.scene, options.settings, "--vary", options.varied);
-    print_patterns(options.scene, options.settings, "--sample", options.samples);
+    for (const Vary& vary : spec.vary)
+      if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
@@ -340,8 +341,21 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
-  (void)table_style_of(options.table, options);
+/// --engine is a setting: sweep.json has it, and another engine is another sweep.
+SweepOptions with_engine(SweepOptions options) {
+  if (options.engine.empty()) return options;
+  for (const std::string& varied : options.varied)
+    if (varied.starts_with("run.engine="))
+      throw UsageError(fmt::format("--engine {}: has no effect, --vary {} sets it anew in every run",
+                                   options.engine, varied));
+  const Override engine = engine_override(options.engine, "--engine");
+  options.settings.push_back(engine.path + "=" + engine.value);
+  return options;
+}
+
+ExitCode sweep_or_merge(const SweepOptions& given, const std::vector<std::string>& command_line) {
+  (void)table_style_of(given.table, given);
+  const SweepOptions options = with_engine(given);
   if (!options.merge.empty()) return merge(options);
   if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
   if (options.varied.empty() && options.samples.empty())
@@ -375,8 +389,8 @@ void add_sweep(Program& program) {
   command
       ->add_option("--sample", options->samples,
                    "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
-                   "triangular(least,likely,greatest) (may be repeated)")
-      ->option_text("PATH=DISTRIBUTION")
+                   "triangular(least,likely,greatest); keys with commas between share each draw (may be repeated)")
+      ->option_text("PATH[,PATH...]=DISTRIBUTION")
       ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
                              "");
@@ -391,6 +405,8 @@ void add_sweep(Program& program) {
                    "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")
       ->option_text("DIR");
   add_settings(*command, options->settings);
+  command->add_option("--engine", options->engine, "of all runs, instead of the scene's run.engine")
+      ->option_text("NAME");
   command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")
       ->option_text("N")
       ->check(given);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/duration.hpp"
 #include "base/fingerprint.hpp"
 #include "base/machine.hpp"
 #include "base/number.hpp"
@@ -164,7 +165,7 @@ fs::path output_directory(const SweepOptions& options, const Share& share) {
 class Progress {
  public:
   Progress(const SweepDirectory& directory, std::size_t all, bool line)
-      : directory_(directory), all_(all), line_(line && stderr_is_terminal()) {}
+      : directory_(directory), all_(all), there_(directory.rows().size()), line_(line && stderr_is_terminal()) {}
   ~Progress() {
     if (line_) progress_line("");
   }
@@ -180,14 +181,23 @@ class Progress {
       directory_.write_table();
     }
     if (line_)
-      progress_line(
-          fmt::format("{} of {}, {} running", directory_.rows().size(), count_of(all_, "run"), running));
+      progress_line(fmt::format("{} of {}, {} running{}", directory_.rows().size(), count_of(all_, "run"),
+                                running, time_left(now)));
   }
 
  private:
+  [[nodiscard]] std::string time_left(std::chrono::steady_clock::time_point now) const {
+    const std::size_t done = directory_.rows().size() - there_;
+    if (done == 0) return "";
+    const double s = std::chrono::duration<double>(now - start_).count();
+    return ", about " +
+           duration_text(s * static_cast<double>(all_ - there_ - done) / static_cast<double>(done)) + " left";
+  }
+
   const SweepDirectory& directory_;
-  std::size_t all_, written_ = 0;
+  std::size_t all_, there_, written_ = 0;  // there: before this process began
   bool line_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
 };
 

@@ -139,7 +139,7 @@ class Others(unittest.TestCase):
         # x = 0.075 (6 - 10 f) / f
         self.assertAlmostEqual(table["way"][0], 0.75, places=9)
         self.assertAlmostEqual(table["way"][1], 0.15, places=9)
-        self.assertTrue(numpy.isnan(table["way"][2]))
+        self.assertTrue(np.isnan(table["way"][2]))
         self.assertEqual(signorini.columns([])["outcome"].size, 0)
         with self.assertRaises(ValueError):
             signorini.columns(rows, outcome=len)

@@ -1,5 +1,8 @@
 // charts.js: curves over time on canvases. All of them share the times shown and the cursor, which is the player's time.
-const palette = ["#2166ac", "#c0182b", "#1b7837", "#b35806", "#762a83", "#008080", "#7a5195", "#525252"];
+// On paper, and on dark ground.
+const palette = [["#2166ac", "#6aaef0"], ["#c0182b", "#ff7b7b"], ["#1b7837", "#5fc97e"], ["#b35806", "#f0a350"],
+  ["#762a83", "#c792d8"], ["#008080", "#4fd0d0"], ["#a0508a", "#f0a8dc"], ["#525252", "#b0b0b0"]];
+const darkGround = matchMedia("(prefers-color-scheme: dark)");
 
 // Round steps, about `count` of them, from low to high.
 const ticksOf = (low, high, count) => {
@@ -26,7 +29,7 @@ class Chart {
     });
     const order = spans.map((_, k) => k).sort((a, b) => spans[b] - spans[a]), most = Math.max(...spans);
     order.forEach((k, place) => {
-      this.series[k].colour = palette[place % palette.length];
+      this.series[k].colours = palette[place % palette.length];
       this.series[k].dash = place >= palette.length;
     });
     this.series.forEach((one, k) => { one.shown = order.indexOf(k) < 6 && (spans[k] > 1e-9 * most || series.length <= 6); });
@@ -56,7 +59,7 @@ class Chart {
     button.setAttribute("aria-pressed", one.shown);
     button.title = "show or hide";
     chip.className = "chip";
-    chip.style.background = one.colour;
+    one.chip = chip;
     one.value = document.createElement("output");
     button.append(chip, one.name, " ", one.value);
     button.addEventListener("click", () => {
@@ -173,7 +176,11 @@ class Chart {
     pen.beginPath();
     pen.rect(this.left, 0, wide - this.left - this.right, high - below + 1);
     pen.clip();
-    for (const one of this.series) if (one.shown) this.curve(pen, one, X, Y);
+    for (const one of this.series) {
+      one.colour = one.colours[darkGround.matches && !this.charts.printed ? 1 : 0];
+      one.chip.style.background = one.colour;
+      if (one.shown) this.curve(pen, one, X, Y);
+    }
     pen.restore();
     pen.strokeStyle = ink;
     pen.strokeRect(this.left, above, wide - this.left - this.right, high - above - below);
@@ -201,10 +208,11 @@ class Chart {
     pen.setLineDash([]);
   }
   // Values at the cursor.
-  read(t) {
+  read(t, tells = true) {
     const inside = t >= this.charts.from && t <= this.charts.to;
     this.cursor.style.display = inside ? "block" : "none";
     if (inside && this.X) this.cursor.style.transform = `translateX(${this.X(t).toFixed(1)}px)`;
+    if (!tells) return;
     for (const one of this.series) {
       if (!one.shown) { one.value.textContent = ""; continue; }
       const [row, part] = between(one.t, t), a = one.y[row], b = one.y[Math.min(row + 1, one.y.length - 1)];
@@ -245,7 +253,7 @@ class Charts {
     this.controls();
     this.draw();
     window.addEventListener("resize", () => this.draw());
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    darkGround.addEventListener("change", () => this.draw());
     window.addEventListener("beforeprint", () => this.print(true));
     window.addEventListener("afterprint", () => this.print(false));
   }
@@ -282,7 +290,8 @@ class Charts {
     byId("timesShown").textContent = `${Number(this.from.toPrecision(6))} to ${Number(this.to.toPrecision(6))} ${data.units[2]}`;
     this.read(this.player.t);
   }
-  read(t) {
-    for (const chart of this.list) chart.read(t);
+  // tells: values, too; while it plays they follow ten times a second.
+  read(t, tells = true) {
+    for (const chart of this.list) chart.read(t, tells);
   }
 }

@@ -43,7 +43,8 @@ TEST_CASE("cli new: scenes of earthquakes come with their accelerograms, which `
     const Ending check = shell.run({"check", name + ".toml"});
     CAPTURE(check.err);
     CHECK(check.code == 0);
-    const Ending run = shell.run({"run", name + ".toml", "-o", "out", "--force", "--no-plots", "--quiet"});
+    const Ending run = shell.run({"run", name + ".toml", "-o", "out", "--force", "--no-plots", "--quiet",
+                                  "--set", "run.t_end=3"});
     CAPTURE(run.err);
     CHECK(run.code == 0);
     CHECK(has(shell.read("out/events.csv"), ",slip,stick,"));

@@ -58,6 +58,8 @@ class FileError : public Error {
  public:
   FileError(const std::string& path, const std::string& message)
       : Error(ExitCode::file, path + ": " + message) {}
+  /// The same, and what that meant.
+  FileError(const FileError& error, const std::string& more) : Error(ExitCode::file, error.what() + more) {}
 };
 
 }  // namespace signorini

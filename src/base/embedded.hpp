@@ -12,6 +12,8 @@ struct EmbeddedFile {
 
 /// Scenes to start from: src/cli/scenes.
 [[nodiscard]] std::span<const EmbeddedFile> scene_templates();
+/// Words of the reference of scenes: src/cli/texts.
+[[nodiscard]] std::span<const EmbeddedFile> reference_texts();
 /// Parts of the page of `report`: src/report/page.
 [[nodiscard]] std::span<const EmbeddedFile> page_parts();
 

@@ -250,6 +250,11 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
     result.why_not = "run.certify = false";
     return result;
   }
+  if (recorder.steers()) {
+    plain();
+    result.why_not = "loads are changed on the way, which no companion could follow";
+    return result;
+  }
   RunSpec run = settings;
   run.engine = choose_engine(model, settings).engine;
   engine_row(run.engine).refuse(model, run);

@@ -7,7 +7,7 @@ namespace signorini {
 void Tracker::event(const Event& event) {
   events.push_back(timed(event));
   events.back().t -= moved * events.back().t;
-  if (next_ != nullptr) next_->event(event);
+  Relay::event(event);
 }
 
 void Tracker::sample(const Sample& sample) {
@@ -25,7 +25,7 @@ void Tracker::sample(const Sample& sample) {
     else
       rows.values.resize(rows.t.size() * rows.width, std::numeric_limits<double>::quiet_NaN());
   }
-  if (next_ != nullptr) next_->sample(sample);
+  Relay::sample(sample);
 }
 
 void Tracker::response(double t, const std::vector<double>& values) {
@@ -35,19 +35,11 @@ void Tracker::response(double t, const std::vector<double>& values) {
     if (!rows.t.empty() && rows.t.back() == t)
       std::copy(values.begin(), values.end(), rows.values.end() - static_cast<std::ptrdiff_t>(values.size()));
   }
-  if (next_ != nullptr) next_->response(t, values);
-}
-
-void Tracker::frame(const Sample& sample) {
-  if (next_ != nullptr) next_->frame(sample);
-}
-
-void Tracker::motion(int contact, const std::vector<MotionRow>& motion_rows) {
-  if (next_ != nullptr) next_->motion(contact, motion_rows);
+  Relay::response(t, values);
 }
 
 bool Tracker::progress(double t) {
-  if (next_ != nullptr) return next_->progress(t);
+  if (!companion_) return Relay::progress(t);
   too_long = ++steps_ > most_steps;
   return !too_long && (leash == nullptr || leash->allows(t));
 }

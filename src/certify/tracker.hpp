@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "certify/judge.hpp"
-#include "signorini/result.hpp"
+#include "run/relay.hpp"
 
 namespace signorini {
 
@@ -32,28 +32,18 @@ class Leash {
   std::atomic<double> end_{std::numeric_limits<double>::infinity()};
 };
 
-class Tracker : public Recorder {
+class Tracker : public Relay {
  public:
   /// Both must outlive it; without a recorder nothing is passed on.
   /// `all`: forces and outputs, too.
   explicit Tracker(const Model& model, bool all, Recorder* next = nullptr)
-      : model_(model), all_(all), next_(next) {
+      : Relay(next), model_(model), all_(all), companion_(next == nullptr) {
     rows.width = model.columns.size() + (all ? 2 * model.contacts.size() + model.outputs.size() : 0);
   }
 
   void event(const Event& event) override;
   void sample(const Sample& sample) override;
-  void frame(const Sample& sample) override;
-  [[nodiscard]] bool wants_motion() const override { return next_ != nullptr && next_->wants_motion(); }
-  void motion(int contact, const std::vector<MotionRow>& rows) override;
-  void curves(const Curves& curves) override {
-    if (next_ != nullptr) next_->curves(curves);
-  }
   void response(double t, const std::vector<double>& values) override;
-  [[nodiscard]] bool wants_instants() const override { return next_ != nullptr && next_->wants_instants(); }
-  void instant(const InstantRow& row) override {
-    if (next_ != nullptr) next_->instant(row);
-  }
   bool progress(double t) override;
 
   std::vector<TimedEvent> events;
@@ -65,8 +55,7 @@ class Tracker : public Recorder {
 
  private:
   const Model& model_;
-  bool all_;
-  Recorder* next_;
+  bool all_, companion_;
   double last_time_ = std::numeric_limits<double>::quiet_NaN();  // of the outputs that came last
   std::vector<double> last_outputs_;
   double steps_ = 0.0;

@@ -16,10 +16,8 @@
 #include "cli/settings.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
-#include "result/run_directory.hpp"
-#include "signorini/simulate.hpp"
 #include "study/compare/comparison_plots.hpp"
-#include "study/reduction/find_cutoff.hpp"
+#include "study/prepared_run.hpp"
 
 namespace signorini::cli {
 
@@ -88,30 +86,19 @@ struct Outcomes {
   bool interrupted = false, stopped = false;
 };
 
-void run_engine(const CompareOptions& options, const fs::path& path, const Scene& scene,
+void run_engine(const CompareOptions& options, const fs::path& path, const PreparedRun& run,
                 const std::vector<std::string>& command_line, Outcomes& outcomes) {
   const std::string& engine = options.engines[outcomes.report.runs.size() + outcomes.report.refused.size()];
-  const Model model = build_model(scene);
-  RunDirectory directory(path / engine, scene, model, {options.force, command_line});
+  RunDirectory directory(path / engine, run.scene, run.model, {options.force, command_line});
   Report report;
-  double reached = 0.0;
   try {
-    Live live(directory, model, scene.run.t_end, !options.quiet);
-    try {
-      report = simulate(model, scene.run, live);
-    } catch (const FileError&) {
-      reached = live.reached();
-      throw;
-    }
+    Live live(directory, run.model, run.scene.run.t_end, !options.quiet);
+    report = run.keep(directory, live).certified.report;
   } catch (const SceneError& error) {
     if (options.force) remove_run(path / engine);  // an earlier one's would be taken for this one's
     outcomes.report.refused.emplace_back(engine, error.what());
     return;
-  } catch (const FileError& error) {
-    directory.abandon(reached, error.what());
-    throw;
   }
-  directory.finish(report);
   print_warnings(options, report.warnings, engine + ": ");
   outcomes.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   outcomes.stopped = outcomes.stopped || report.outcome.kind == Outcome::Kind::stopped;
@@ -120,15 +107,14 @@ void run_engine(const CompareOptions& options, const fs::path& path, const Scene
 
 Outcomes run_engines(const CompareOptions& options, const fs::path& path,
                      const std::vector<std::string>& command_line) {
-  std::vector<Scene> scenes;
+  std::vector<PreparedRun> runs;  // what cannot be built is refused before anything is written
   for (const std::string& engine : options.engines)
-    scenes.push_back(
-        find_cutoff(scene_for(options, engine), scenes.empty() ? std::nullopt : scenes.front().reduction));
-  (void)build_model(scenes.front());  // what no engine can run is refused before anything is written
+    runs.push_back(
+        prepare_run(scene_for(options, engine), runs.empty() ? std::nullopt : runs.front().scene.reduction));
   begin(path);
   Outcomes outcomes;
-  for (const Scene& scene : scenes) {
-    run_engine(options, path, scene, command_line, outcomes);
+  for (const PreparedRun& run : runs) {
+    run_engine(options, path, run, command_line, outcomes);
     if (outcomes.interrupted) return outcomes;
     if (outcomes.report.runs.empty()) {  // nothing to compare the others with
       leave_folder(path, compare_folder());

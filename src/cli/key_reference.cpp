@@ -6,6 +6,7 @@
 #include <cctype>
 #include <vector>
 
+#include "base/embedded.hpp"
 #include "base/listed.hpp"
 #include "cli/table.hpp"
 #include "scene/keys.hpp"
@@ -130,18 +131,21 @@ std::string key_list(const std::vector<std::string>& words) {
 }
 
 std::string scene_reference() {
-  std::string text(reference_introduction());
+  constexpr std::string_view begin = "@keys ", end = "@\n";
+  std::string_view words = reference_texts().front().text;
+  std::string text;
   std::vector<std::string_view> done;
-  const auto add = [&](std::string_view table, std::string_view heading, std::string_view words) {
-    done.push_back(table);
-    text += fmt::format("\n{}\n\n", heading);
-    if (!words.empty()) text += fmt::format("{}\n\n", words);
-    text += key_table(table);
-  };
-  for (const TableText& t : table_texts()) add(t.table, t.heading, t.text);
+  for (std::size_t at; (at = words.find(begin)) != std::string_view::npos;) {
+    text += words.substr(0, at);
+    words.remove_prefix(at + begin.size());
+    done.push_back(words.substr(0, words.find(end)));
+    text += key_table(done.back());
+    words.remove_prefix(done.back().size() + end.size());
+  }
+  text += words;
   for (const std::string_view table : tables())
     if (std::find(done.begin(), done.end(), table) == done.end())
-      add(table, fmt::format("## `{}`", table), "");
+      text += fmt::format("\n## `{}`\n\n{}", table, key_table(table));
   return text;
 }
 

@@ -1,12 +1,10 @@
 // key_reference.hpp: the key table as text: for a terminal, and as docs/scene.md.
 //
-// Keys, types, units, defaults and meanings come from scene/keys.hpp; the words around them stand in
-// key_introduction.cpp and key_examples.cpp.
+// Keys, types, units, defaults and meanings come from scene/keys.hpp; the words around them are texts/scene.md, in which
+// a line "@keys TABLE@" stands for the keys of that table. Tables that it does not name come at its end.
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace signorini::cli {
@@ -17,17 +15,5 @@ namespace signorini::cli {
 
 /// docs/scene.md, whole.
 [[nodiscard]] std::string scene_reference();
-
-/// What the reference says about one table besides its keys.
-struct TableText {
-  std::string_view table;    ///< its path in the key table
-  std::string_view heading;  ///< Markdown, with the #s
-  std::string_view text;     ///< below the heading
-};
-
-/// In the order of the reference.
-[[nodiscard]] std::span<const TableText> table_texts();
-/// What comes before the first table.
-[[nodiscard]] std::string_view reference_introduction();
 
 }  // namespace signorini::cli

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "cli/interrupt.hpp"
-#include "signorini/result.hpp"
+#include "run/relay.hpp"
 
 namespace signorini::cli {
 
-class Live : public Recorder {
+class Live : public Relay {
  public:
   Live(Recorder& next, const Model& model, double t_end, bool show_progress, bool keep_all_events = false);
   ~Live() override;
@@ -27,17 +27,6 @@ class Live : public Recorder {
   Live& operator=(const Live&) = delete;
 
   void event(const Event& event) override;
-  void sample(const Sample& sample) override {
-    next_.sample(sample);
-    reached_ = sample.t;  // a file that fails within a step leaves rows beyond the step before
-  }
-  void frame(const Sample& sample) override { next_.frame(sample); }
-  [[nodiscard]] bool wants_motion() const override { return next_.wants_motion(); }
-  void motion(int contact, const std::vector<MotionRow>& rows) override { next_.motion(contact, rows); }
-  void curves(const Curves& curves) override { next_.curves(curves); }
-  void response(double t, const std::vector<double>& values) override { next_.response(t, values); }
-  [[nodiscard]] bool wants_instants() const override { return next_.wants_instants(); }
-  void instant(const InstantRow& row) override { next_.instant(row); }
   bool progress(double t) override;
   /// Asked once, after two seconds, with the seconds that the run will take in all: a note, or nothing.
   void when_long(std::function<std::string(double)> advice) { advice_ = std::move(advice); }
@@ -47,7 +36,6 @@ class Live : public Recorder {
   [[nodiscard]] const std::vector<Event>& first_events() const { return first_; }
   [[nodiscard]] const std::deque<Event>& last_events() const { return last_; }
   [[nodiscard]] long event_count() const { return count_; }
-  [[nodiscard]] double reached() const { return reached_; }
 
  private:
   void advise(double t);
@@ -55,7 +43,6 @@ class Live : public Recorder {
   [[nodiscard]] std::string time_left(double t);
 
   Interrupt interrupt_;
-  Recorder& next_;
   const Model& model_;
   double t_end_;
   bool show_progress_, keep_all_, line_shown_ = false;
@@ -63,7 +50,6 @@ class Live : public Recorder {
   std::vector<Event> first_;  // the first most_shown, or all
   std::deque<Event> last_;    // the last shown_last
   long count_ = 0;
-  double reached_ = 0.0;
   std::function<std::string(double)> advice_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point pace_from_ = start_, next_pace_from_ = start_;

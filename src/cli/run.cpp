@@ -13,7 +13,6 @@
 #include "cli/terminal.hpp"
 #include "model/modes/frequencies.hpp"
 #include "result/plots.hpp"
-#include "result/run_directory.hpp"
 #include "result/trace_writer.hpp"
 #include "run/choose_engine.hpp"
 #include "run/trial.hpp"
@@ -121,30 +120,21 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
   RunDirectory directory(path, scene, model,
                          {options.force, command_line, options.instants, !options.no_plots});
 
-  CertifiedReport certified;
+  KeptRun kept;
+  const CertifiedReport& certified = kept.certified;
   const Report& report = certified.report;
   std::string events;
   {
     Live live(directory, model, scene.run.t_end, !options.quiet, !plain);
     if (!options.quiet && stderr_is_terminal())
       live.when_long([&](double seconds) { return what_is_quicker(scene, model, seconds); });
-    try {
-      certified = simulate_certified(model, scene.run, live, {listener, [] { return !Interrupt::asked(); }});
-    } catch (const FileError& error) {
-      if (!directory.started()) throw;
-      directory.abandon(live.reached(), error.what());
-      throw Error(error.code(),
-                  fmt::format("{}; the run stopped at t = {:.9g} {}; what was computed until then "
-                              "is kept in {}",
-                              error.what(), live.reached(), model.units.time, path.string()));
-    }
+    kept = prepared.keep(directory, live, CertifyOptions{listener, [] { return !Interrupt::asked(); }});
     if (options.tables() || !plain)
       events = event_table(live, model, certified.certificate ? &*certified.certificate : nullptr, style);
   }
-  const std::string summary = directory.finish(certified);
   print_warnings(options, report.warnings);
 
-  if (options.json) print(summary);
+  if (options.json) print(kept.summary);
   if (!plain) {
     print(stacked({support_table(model, report, style), response_table(model, report, style),
                    start_table(model, style), events, contact_table(model, report, style),

@@ -1,7 +1,11 @@
 #include "study/prepared_run.hpp"
 
+#include <fmt/core.h>
+
 #include <utility>
 
+#include "signorini/error.hpp"
+#include "signorini/simulate.hpp"
 #include "study/reduction/find_cutoff.hpp"
 
 namespace signorini {
@@ -22,6 +26,29 @@ PreparedRun prepare_run(const std::string& file, const std::vector<Override>& ch
 
 PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found) {
   return built(find_cutoff(std::move(scene), found));
+}
+
+Report PreparedRun::ends(Recorder& recorder) const {
+  return simulate(model, without_rows(scene.run), recorder);
+}
+
+KeptRun PreparedRun::keep(RunDirectory& directory, Relay& watch,
+                          const std::optional<CertifyOptions>& certified) const {
+  KeptRun kept;
+  try {
+    if (certified)
+      kept.certified = simulate_certified(model, scene.run, watch, *certified);
+    else
+      kept.certified.report = simulate(model, scene.run, watch);
+  } catch (const FileError& error) {
+    if (!directory.started()) throw;
+    directory.abandon(watch.reached(), error.what());
+    throw FileError(error, fmt::format("; the run stopped at t = {:.9g} {}; what was computed until then "
+                                       "is kept in {}",
+                                       watch.reached(), model.units.time, directory.path().string()));
+  }
+  kept.summary = directory.finish(kept.certified);
+  return kept;
 }
 
 RunSpec without_rows(RunSpec run) {

@@ -1,6 +1,8 @@
-// prepared_run.hpp: a scene, changed or not, ready to run.
+// prepared_run.hpp: a scene, changed or not, ready to run; and the run of it, in memory or on disk.
 //
 //   file + overrides -read-> Scene -cutoff of [reduction] tolerance-> Scene -build-> Model
+//   in memory: run.ends(recorder), or simulate(run.model, run.scene.run, recorder)
+//   on disk:   RunDirectory directory(...);  Relay watch(&directory);  run.keep(directory, watch)
 #pragma once
 
 #include <functional>
@@ -8,14 +10,30 @@
 #include <string>
 #include <vector>
 
+#include "result/run_directory.hpp"
+#include "run/relay.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/model.hpp"
 #include "signorini/scene.hpp"
 
 namespace signorini {
 
+/// A run that is on disk.
+struct KeptRun {
+  CertifiedReport certified;
+  std::string summary;  ///< the text of summary.json
+};
+
 struct PreparedRun {
   Scene scene;  ///< with the cutoff that was found
   Model model;
+
+  /// In memory, with rows of output at both ends only. Errors: SceneError for what the engine refuses.
+  Report ends(Recorder& recorder) const;
+  /// Into `directory`, to which `watch` passes all on; certified where options are given. Where a file cannot be
+  /// written the directory says how far the run came. Errors: as of ends(); FileError.
+  KeptRun keep(RunDirectory& directory, Relay& watch,
+               const std::optional<CertifyOptions>& certified = std::nullopt) const;
 };
 
 /// go_on: as of find_cutoff. Errors: those of read_scene, find_cutoff and build_model.
@@ -24,7 +42,6 @@ struct PreparedRun {
     const std::function<bool()>& go_on = [] { return true; });
 /// One of several runs that are compared, with the cutoff that was `found` for the first.
 [[nodiscard]] PreparedRun prepare_run(Scene scene, const std::optional<ReductionSpec>& found);
-
 /// The same run with rows of output at both ends only.
 [[nodiscard]] RunSpec without_rows(RunSpec run);
 

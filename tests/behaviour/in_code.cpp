@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/quantities.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/error.hpp"
 #include "signorini/simulate.hpp"
 #include "signorini/smooth.hpp"
@@ -218,6 +219,19 @@ TEST_CASE("exact, whose steps are long, is steered at breakpoints") {
   CHECK(hand.changed == 0.5);
   // 3 m/s^2 for 0.5 s, then 0.5 N against 3
   CHECK(hand.rows.back().u[0] == doctest::Approx(0.375 + 1.5 * 1.5 / 5.0).epsilon(1e-12));
+}
+
+TEST_CASE("what is asked to be certified is steered all the same, and has no certificate") {
+  Scene scene = pushed_scene("exact");
+  scene.run.certify = Certify::yes;
+  Hand hand;
+  hand.next = History({0.5}, {History::constant(6.0).piece(0.0), Piece{}});
+  const CertifiedReport run = simulate_certified(build_model(scene), scene.run, hand);
+  CHECK(hand.changed == 0.0);
+  CHECK_FALSE(run.certificate);
+  CHECK(run.why_not == "loads are changed on the way, which no companion could follow");
+  // 3 m/s^2 for 0.5 s, then friction alone takes the 1.5 m/s, at 3 m/s^2
+  CHECK(hand.rows.back().u[0] == doctest::Approx(0.375 + 0.375).epsilon(1e-12));
 }
 
 TEST_CASE("a change at the start, a history that goes on changing, and a stop") {

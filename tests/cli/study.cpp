@@ -52,6 +52,29 @@ TEST_CASE("cli study: errors fall with the setting, every run is a row, all file
   CHECK(study["frontier"]["event_time"].back() == "exact");
 }
 
+TEST_CASE("cli study: outputs have errors, too") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20) + R"([[output]]
+name = "speed"
+kind = "velocity"
+at = "block"
+direction = [1.0, 0.0]
+)");
+  const Ending ending = shell.run({"study", "belt.toml", "--engines", "exact,ida", "--rtol", "1e-5,1e-9",
+                                   "--repeats", "1", "--no-plots"});
+  CHECK(ending.code == 0);
+  const json study = json::parse(shell.read("belt-study/study.json"));
+  const json& rows = study["rows"];
+  REQUIRE(rows.size() == 3);
+  const auto error = [&](std::size_t row) {
+    REQUIRE(rows[row]["errors"].contains("response:speed"));
+    return rows[row]["errors"]["response:speed"]["value"].get<double>();
+  };
+  CHECK(error(0) < 1e-12);
+  CHECK(error(2) > 0.0);
+  CHECK(error(2) < 0.1 * error(1));
+}
+
 TEST_CASE("cli study: the table alone, for papers") {
   const Shell shell;
   shell.write("belt.toml", belt(20));

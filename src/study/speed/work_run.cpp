@@ -1,8 +1,7 @@
 #include "study/speed/work_run.hpp"
 
 #include <chrono>
-
-#include "result/run_directory.hpp"
+#include <utility>
 
 namespace signorini {
 
@@ -11,54 +10,43 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Ends a run after its time. The clock is asked now and then: asking costs as much as a short step.
-class Deadline : public Recorder {
+class Deadline : public Relay {
  public:
-  Deadline(const WorkLimits& limits, Recorder* next) : limits_(limits), next_(next) {}
+  explicit Deadline(const WorkLimits& limits, Recorder* next = nullptr) : Relay(next), limits_(limits) {}
 
-  void event(const Event& event) override {
-    if (next_) next_->event(event);
-  }
-  void sample(const Sample& sample) override {
-    if (next_) next_->sample(sample);
-  }
   bool progress(double t) override {
-    if (next_ && !next_->progress(t)) return false;
+    if (!Relay::progress(t)) return false;
     constexpr int seldom = 16;
     if (++calls_ % seldom != 0) return true;
-    too_slow = std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds;
-    interrupted = !limits_.go_on();
-    return !too_slow && !interrupted;
+    too_slow_ = std::chrono::duration<double>(Clock::now() - start_).count() > limits_.seconds;
+    interrupted_ = !limits_.go_on();
+    return !too_slow_ && !interrupted_;
   }
 
-  bool too_slow = false, interrupted = false;
+  [[nodiscard]] WorkOutcome outcome(Report report) const {
+    return {std::move(report), too_slow_, interrupted_};
+  }
 
  private:
   const WorkLimits& limits_;
-  Recorder* next_;
   Clock::time_point start_ = Clock::now();
   int calls_ = 0;
+  bool too_slow_ = false, interrupted_ = false;
 };
-
-WorkOutcome simulated(const Model& model, const RunSpec& settings, const WorkLimits& limits, Recorder* next) {
-  Deadline deadline(limits, next);
-  WorkOutcome outcome{simulate(model, settings, deadline)};
-  outcome.too_slow = deadline.too_slow;
-  outcome.interrupted = deadline.interrupted;
-  return outcome;
-}
 
 }  // namespace
 
 WorkOutcome record_run(const PreparedRun& run, const std::filesystem::path& directory,
                        const WorkLimits& limits) {
-  RunDirectory recorder(directory, run.scene, run.model, {false, limits.command_line});
-  WorkOutcome outcome = simulated(run.model, run.scene.run, limits, &recorder);
-  recorder.finish(outcome.report);
-  return outcome;
+  RunDirectory recorder(directory, run.scene, run.model,
+                        {.command_line = limits.command_line, .pictures = false});
+  Deadline deadline(limits, &recorder);
+  return deadline.outcome(run.keep(recorder, deadline).certified.report);
 }
 
 WorkOutcome time_run(const PreparedRun& run, const WorkLimits& limits) {
-  return simulated(run.model, without_rows(run.scene.run), limits, nullptr);
+  Deadline deadline(limits);
+  return deadline.outcome(run.ends(deadline));
 }
 
 }  // namespace signorini

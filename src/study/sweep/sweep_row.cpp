@@ -8,8 +8,6 @@
 #include "base/fingerprint.hpp"
 #include "base/input_file.hpp"
 #include "base/json.hpp"
-#include "result/run_directory.hpp"
-#include "signorini/simulate.hpp"
 #include "study/prepared_run.hpp"
 #include "study/sweep/response_query.hpp"
 
@@ -42,13 +40,14 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
 }
 
 /// The row's own run has a row of output at both ends only, kept or not: so it is the same, and quicker.
-Report run(const RowTask& task, const Scene& scene, const Model& model, Answers& answers) {
+Report run(const RowTask& task, const PreparedRun& prepared, Answers& answers) {
   if (!task.keep.empty()) {
     remove_run(task.keep);  // what an interrupted sweep left
-    RunDirectory directory(task.keep, scene, model, {false, task.command_line});
-    directory.finish(simulate(model, scene.run, directory));
+    RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
+    Relay all(&directory);
+    prepared.keep(directory, all);
   }
-  return simulate(model, without_rows(scene.run), answers);
+  return prepared.ends(answers);
 }
 
 /// Outputs that no query asks for cost and tell nothing; a kept run has them all the same.
@@ -80,12 +79,13 @@ SweepRow compute_row(const RowTask& task) {
   row.index = task.index;
   row.values = task.values;
   try {
-    auto [scene, model] = prepare_run(task.scene, task.changes);
+    PreparedRun prepared = prepare_run(task.scene, task.changes);
+    Model& model = prepared.model;
     std::vector<ResponseQuery> queries;
     for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));
     drop_outputs(task, queries, model);
     Answers answers(queries, model);
-    const Report report = run(task, scene, model, answers);
+    const Report report = run(task, prepared, answers);
     take_report(row, model, report);
     row.responses = answers.values(report);
     row.sequence = answers.sequence();

@@ -9,7 +9,7 @@
 #include "result/instants.hpp"
 #include "run/witnessed_motion.hpp"
 #include "signorini/error.hpp"
-#include "study/reduction/find_cutoff.hpp"
+#include "study/prepared_run.hpp"
 #include "study/witness/table_rows.hpp"
 #include "study/witness/told_run.hpp"
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_violations = 100;  // that are kept; all are counted
 
-Scene scene_of(const fs::path& directory) {
+PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
   std::error_code missing;
   if (!fs::exists(path, missing))
@@ -28,7 +28,7 @@ Scene scene_of(const fs::path& directory) {
   if (!fs::exists(directory / instants_file, missing))
     throw FileError((directory / instants_file).string(),
                     "is not there; `signorini run --instants` writes it");
-  return find_cutoff(read_scene(path.string()), [] { return true; });
+  return prepare_run(path.string(), {});
 }
 
 bool follows_low_flights(const Model& model, Engine engine) {
@@ -190,10 +190,10 @@ class DirectoryWitness {
 }  // namespace
 
 DirectoryTestimony witness_directory(const fs::path& directory) {
-  const Scene scene = scene_of(directory);
+  PreparedRun prepared = prepared_of(directory);
   DirectoryTestimony result;
-  result.model = build_model(scene);
-  DirectoryWitness(directory, scene, result).run();
+  result.model = std::move(prepared.model);
+  DirectoryWitness(directory, prepared.scene, result).run();
   return result;
 }
 

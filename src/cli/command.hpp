@@ -30,6 +30,7 @@ void add_paraview(Program& program);
 void add_study(Program& program);
 void add_sweep(Program& program);
 void add_verify(Program& program);
+void add_orbit(Program& program);
 void add_sensitivity(Program& program);
 void add_fit(Program& program);
 void add_keys(Program& program);

@@ -96,6 +96,7 @@ int main_program(int argc, char** argv) {
   add_run(program);
   add_check(program);
   add_verify(program);
+  add_orbit(program);
   add_sensitivity(program);
   add_fit(program);
   add_compare(program);

@@ -26,10 +26,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 17> run_files = {
+constexpr std::array<std::string_view, 18> run_files = {
     "events.csv", "history.csv", "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
     "loads.csv",  "energy.csv",  "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
-    "states.csv", "report.html", "response.csv", "instants.csv",       frozen_file};
+    "states.csv", "report.html", "response.csv", "instants.csv",       "orbit.json",   frozen_file};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {

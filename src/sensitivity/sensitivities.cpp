@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "contact/friction.hpp"
 #include "model/build.hpp"
 #include "model/rescale.hpp"
 #include "sensitivity/discrete_run.hpp"
+#include "sensitivity/known_laws.hpp"
 #include "sensitivity/parameter.hpp"
 #include "sensitivity/rate_record.hpp"
 #include "sensitivity/tangent_run.hpp"
@@ -46,23 +46,6 @@ void make_room_for_weight(const SceneReader& read, const Scene& scene, const std
     }
 }
 
-/// What no tangent knows.
-void check_contacts(const Scene& scene, const Model& model) {
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = model.contacts[k];
-    const bool rises = c.friction.rises();
-    const char* what = c.bowl             ? "a pendulum whose normal force varies"
-                       : rises && c.shear ? "friction that rises with the slip rate beside a "
-                                            "tangential_stiffness"
-                       : rises && c.takes_impulses()
-                           ? "friction that rises with the slip rate at a rigid contact"
-                           : nullptr;
-    if (what != nullptr)
-      throw SceneError(scene.contacts[k].place, scene.contacts[k].key(c.bowl ? "radius" : "friction"),
-                       fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
-  }
-}
-
 /// A companion has no part in derivatives.
 RunSpec without_companion(RunSpec run) {
   run.certify = Certify::no;
@@ -83,7 +66,7 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
                             Recorder* recorder, const SensitivityOptions& options) {
   const Scene scene = read({});
   Model model = build_model(scene);
-  check_contacts(scene, model);
+  check_tangent_laws(scene, model);
   make_room_for_weight(read, scene, paths, model);
   const RunSpec run = without_companion(scene.run);
   check_options(run, options);

@@ -1,0 +1,83 @@
+// orbit.hpp: periodic motions of a scene, and their stability.
+//
+//   z = (u, v, T of contacts with a tangential spring)      the state at a section of the period
+//   R(z) = z(T; z) - z = 0                                  forced: T is that of the loads, or n times it
+//   R(z, T) = 0,  z' . dz = 0                               driven by itself (belts): T is unknown, too
+//   Phi = dz(T)/dz,   multipliers = eig Phi                 |multiplier| < 1: disturbances die out
+//
+// Newton's method solves R = 0. Phi goes through every event (sensitivity.hpp), so the convergence is quadratic as
+// long as the sequence of events stays.
+//
+//   Orbit orbit = find_orbit(reader_of("models/frame.toml"));
+//   if (orbit.found) simulate(orbit_scene(reader_of("models/frame.toml"), orbit), recorder);     one period
+//
+// Units: those of the scene. Source: Leine and Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical Systems,
+// 2004, chapters 7 and 8.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "signorini/sensitivity.hpp"
+
+namespace signorini {
+
+struct OrbitOptions {
+  /// Of the loads; absent: as the scene's periodic loads say.
+  std::optional<double> period = {};
+  int times = 1;       ///< the orbit closes after so many periods of the loads
+  int transient = 20;  ///< periods that are run before Newton's method begins
+  /// Residual over amplitude that Newton's method aims at; it goes on as long as the residual falls.
+  double tolerance = 1e-12;
+};
+
+/// Kind of loss of stability.
+enum class OrbitLoss { none, fold, flip, neimark_sacker };
+[[nodiscard]] const char* to_string(OrbitLoss loss);
+
+/// Newton's method, one iteration.
+struct OrbitStep {
+  double residual = 0.0;  ///< max |R| over amplitude, before the step
+  double damping = 1.0;   ///< part of the step that was taken; 0: none, it ended here
+};
+
+struct Orbit {
+  bool found = false;
+  std::string reason;       ///< why none was found, or what is not known of it; one sentence
+  double period = 0.0;      ///< after which the motion repeats itself
+  bool autonomous = false;  ///< the period is that of the motion, not of loads
+  /// Loads, compressions and surfaces are at this time of the scene where the orbit's time is 0.
+  double phase = 0.0;
+  double residual = 0.0;   ///< max |z(T) - z| over amplitude
+  double amplitude = 0.0;  ///< half the greatest range of a displacement; length
+  std::vector<OrbitStep> steps;
+
+  /// Of all directions in which the state at the section may move; by magnitude, descending. Of an autonomous orbit
+  /// one of them is 1, along the motion.
+  std::vector<std::complex<double>> multipliers;
+  double multiplier_error = 0.0;  ///< change between two evaluations that share no state
+  std::optional<bool> stable;     ///< nothing: a multiplier is on the unit circle within its error
+  OrbitLoss loss = OrbitLoss::none;
+  double max_multiplier = 0.0;  ///< greatest magnitude, without those of families and of time
+  /// Directions with a multiplier of 1, one orbit beside the other: what holds still all the time, one name each. The
+  /// orbit found is the one that is nearest to where the search began.
+  std::vector<std::string> families;
+
+  std::vector<Event> sequence;  ///< events of one period, from phase on; no jumps of loads
+  Energy cycle;          ///< change over one period: of what is dissipated, of works, of what is stored
+  double section = 0.0;  ///< time after `phase` at which Newton's method closed the orbit
+  SavedState start;      ///< the state at the orbit's time 0
+};
+
+/// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
+/// `period`, for engines and laws that have no tangents (exact and ida have). A search that fails is a value: found is
+/// false, and `reason` says why. `recorder`: asked for `progress` only, which may stop the search.
+[[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
+                               Recorder* recorder = nullptr);
+
+/// The scene of one period of the orbit, beginning on it.
+[[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
+
+}  // namespace signorini

@@ -1,0 +1,175 @@
+// signorini orbit SCENE: the periodic motion of a scene, and its stability.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/command.hpp"
+#include "cli/gnuplot.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/settings.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "result/plots.hpp"
+#include "result/run_directory.hpp"
+#include "signorini/certify.hpp"
+#include "study/orbit/orbit_files.hpp"
+
+namespace signorini::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct OrbitCommand : OutputOptions {
+  std::string scene;
+  std::optional<std::string> directory;
+  std::vector<std::string> settings;
+  OrbitOptions search;
+};
+
+fs::path directory_of(const OrbitCommand& options) {
+  if (!options.directory) return fs::path(options.scene).stem().string() + "-orbit";
+  if (options.directory->empty()) throw UsageError("-o: expected the name of a directory");
+  return *options.directory;
+}
+
+/// Stops the search where an interrupt asks for it.
+class SearchWatch final : public Recorder {
+ public:
+  void event(const Event& /*event*/) override {}
+  void sample(const Sample& /*sample*/) override {}
+  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+};
+
+std::string multiplier_text(std::complex<double> mu) {
+  return mu.imag() == 0.0
+             ? fmt::format("{:.9g}", mu.real())
+             : fmt::format("{:.9g} {} {:.9g} i", mu.real(), mu.imag() < 0.0 ? "-" : "+", std::abs(mu.imag()));
+}
+
+std::string multiplier_table(const Orbit& orbit) {
+  constexpr std::size_t most = 12;
+  Table table({"multiplier", "magnitude"}, {false, true});
+  for (std::size_t i = 0; i < std::min(most, orbit.multipliers.size()); ++i)
+    table.row({multiplier_text(orbit.multipliers[i]), fmt::format("{:.9g}", std::abs(orbit.multipliers[i]))});
+  if (orbit.multipliers.size() > most)
+    table.line(fmt::format("all {} are in orbit.json", orbit.multipliers.size()));
+  return orbit.multipliers.empty() ? "" : table.str() + "\n";
+}
+
+std::string sequence_table(const Model& model, const Orbit& orbit) {
+  constexpr std::size_t most = 20;
+  Table table({"t [" + model.units.time + "]", "contact", "event", "from -> to"},
+              {true, false, false, false});
+  for (std::size_t i = 0; i < std::min(most, orbit.sequence.size()); ++i) {
+    const Event& e = orbit.sequence[i];
+    table.row({fmt::format("{:.9g}", e.t), model.contacts[static_cast<std::size_t>(e.contact)].name,
+               to_string(e.type), fmt::format("{} -> {}", to_string(e.from), to_string(e.to))});
+  }
+  if (orbit.sequence.size() > most)
+    table.line(fmt::format("all {} are in events.csv", orbit.sequence.size()));
+  return orbit.sequence.empty() ? "no events\n\n" : table.str() + "\n";
+}
+
+std::string stability_line(const Orbit& orbit) {
+  const std::string size =
+      fmt::format("greatest multiplier {:.9g}, error {:.1g}", orbit.max_multiplier, orbit.multiplier_error);
+  if (orbit.multipliers.empty()) return "stability: not known: " + orbit.reason + "\n";
+  if (!orbit.stable)
+    return "stability: undecided: a multiplier lies on the unit circle within its error (" + size + ")\n";
+  return *orbit.stable ? "stable (" + size + ")\n"
+                       : fmt::format("unstable, {} ({})\n", to_string(orbit.loss), size);
+}
+
+std::string cycle_line(const Model& model, const Orbit& orbit) {
+  const Energy& e = orbit.cycle;
+  return fmt::format(
+      "per period: friction {:.9g}, damping {:.9g}, impacts {:.9g}; loads {:.9g}, surfaces {:.9g} {} {}\n",
+      e.friction, e.damping, e.impact, e.loads, e.surface, model.units.force, model.units.length);
+}
+
+std::string text_of(const Scene& scene, const Model& model, const Orbit& orbit, const fs::path& path) {
+  std::string text = scene.title.empty() ? "" : scene.title + "\n\n";
+  text += sequence_table(model, orbit) + multiplier_table(orbit);
+  text += fmt::format(
+      "period {:.15g} {}{}, residual {:.2g} of the amplitude {:.6g} {} ({} steps of Newton's method)\n",
+      orbit.period, model.units.time, orbit.autonomous ? " (of the motion itself)" : "", orbit.residual,
+      orbit.amplitude, model.units.length, orbit.steps.size() - 1);
+  text += stability_line(orbit);
+  for (const std::string& family : orbit.families) text += "one of a family of orbits: " + family + "\n";
+  text += cycle_line(model, orbit);
+  return text + "results: " + path.string() + "/ (orbit.json, and a run of one period)\n";
+}
+
+ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
+  if (Interrupt::asked()) {
+    print_error("interrupted; nothing was written");
+    return ExitCode::interrupted;
+  }
+  print_error(fmt::format("no orbit found in {}: {}", options.scene, orbit.reason));
+  return ExitCode::stopped;
+}
+
+ExitCode run(const OrbitCommand& options, const std::vector<std::string>& command_line) {
+  const std::vector<Override> changes = overrides_of(options.settings);
+  const fs::path path = directory_of(options);
+  check_run_directory(path, options.force);
+  const SceneReader read = reader_of(options.scene, changes);
+  if (!options.quiet) print_patterns(options.scene, options.settings);
+  Interrupt interrupt;
+  SearchWatch watch;
+  const Orbit orbit = find_orbit(read, options.search, &watch);
+  if (!orbit.found) return not_found(options, orbit);
+  const Scene scene = scene_beginning_in(orbit_scene(read, orbit), path);
+  const Model model = build_model(scene);
+  RunDirectory directory(path, scene, model, {options.force, command_line, false, !options.no_plots});
+  const CertifiedReport certified =
+      simulate_certified(model, scene.run, directory, {{}, [] { return !Interrupt::asked(); }});
+  directory.finish(certified);
+  write_orbit(path, scene, model, orbit);
+  print_warnings(options, certified.report.warnings);
+  if (options.json) print(orbit_json(model, orbit));
+  if (options.tables()) print(text_of(scene, model, orbit, path));
+  const bool done = certified.report.outcome.kind == Outcome::Kind::done;
+  const std::string drawn = options.no_plots || !done ? ""
+                                                      : draw_pictures(path, write_plots(path),
+                                                                      " (signorini plot draws them later)");
+  if (options.tables()) print(drawn);
+  if (!done) print_error("the run of one period stopped: " + certified.report.outcome.reason);
+  return done ? ExitCode::done : ExitCode::stopped;
+}
+
+}  // namespace
+
+void add_orbit(Program& program) {
+  auto options = std::make_shared<OrbitCommand>();
+  CLI::App* command =
+      program.app.add_subcommand("orbit", "find the periodic motion of a scene, and whether it is stable");
+  command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
+  command
+      ->add_option("-o,--output", options->directory,
+                   "directory of the results (default: SCENE's name with -orbit)")
+      ->option_text("DIR");
+  command
+      ->add_option(
+          "--period", options->search.period,
+          "period of the loads, in the scene's unit of time (default: as the loads say); without periodic "
+          "loads the guess that the search begins with")
+      ->option_text("T");
+  command->add_option("--times", options->search.times, "the orbit closes after so many periods of the loads")
+      ->option_text("N");
+  command
+      ->add_option("--transient", options->search.transient,
+                   "periods that are run before Newton's method begins (default: 20)")
+      ->option_text("N");
+  add_settings(*command, options->settings);
+  add_output_options(*command, *options, "replace an earlier orbit, or run, in the directory", "orbit.json");
+  command->callback([&program, options] {
+    program.action = [options, line = program.command_line] { return run(*options, line); };
+  });
+}
+
+}  // namespace signorini::cli

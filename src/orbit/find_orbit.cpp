@@ -1,0 +1,247 @@
+// find_orbit(): the period, a transient, a section away from events, Newton's method, multipliers.
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/number.hpp"
+#include "model/rescale.hpp"
+#include "orbit/load_period.hpp"
+#include "orbit/multipliers.hpp"
+#include "orbit/recurrence.hpp"
+#include "orbit/shooting.hpp"
+#include "run/choose_engine.hpp"
+#include "sensitivity/known_laws.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int most_transients = 3;  // each twice as long as the one before
+
+/// One search.
+class Search {
+ public:
+  Search(const SceneReader& read, const OrbitOptions& options, Recorder* recorder);
+  [[nodiscard]] Orbit find();
+
+ private:
+  void set_period(const Scene& scene);
+  [[nodiscard]] bool forced();
+  [[nodiscard]] bool by_itself();
+  [[nodiscard]] bool close(const OrbitState& state, double section, double period);
+  void stability();
+  void tell(const OrbitState& at_section, double section);
+  bool stop(std::string reason) {
+    orbit_.reason = std::move(reason);
+    return false;
+  }
+
+  const SceneReader& read_;
+  OrbitOptions options_;
+  Recorder* recorder_;
+  Model given_;  // in the scene's units, loads as at `phase`
+  std::optional<PeriodMap> map_;
+  double unit_ = 1.0;    // of time
+  double before_ = 0.0;  // machine's time of the scene at which the loads repeat themselves
+  double period_ = 0.0;  // of the loads times `times`, machine's
+  double tolerance_, closed_ = 0.0;
+  Orbit orbit_;
+  Shot shot_;
+  OrbitState initial_;
+  Model first_;  // as the scene begins, in the machine's units
+  RunSpec run_;
+};
+
+/// Time over which histories that begin anew must be known.
+double long_enough(const LoadPeriod& loads, const OrbitOptions& options) {
+  const double T = loads.period.value_or(0.0) * options.times;
+  return loads.settled + T * (4.0 * options.transient + 4.0);
+}
+
+void check_options(const OrbitOptions& options) {
+  if (options.times < 1) throw UsageError("--times: expected an integer of at least 1");
+  if (options.transient < 0) throw UsageError("--transient: expected an integer of at least 0");
+  if (options.period && !(*options.period > 0.0 && std::isfinite(*options.period)))
+    throw UsageError("--period: expected a time > 0");
+}
+
+Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* recorder)
+    : read_(read), options_(options), recorder_(recorder), tolerance_(options.tolerance) {
+  check_options(options);
+  const Scene scene = read({});
+  set_period(scene);
+}
+
+/// The model, its engine, and what the loads say of the period.
+void Search::set_period(const Scene& scene) {
+  LoadPeriod loads = options_.period ? check_period(scene, *options_.period) : load_period(scene);
+  orbit_.autonomous = !loads.period || (options_.period && !load_period(scene).period && loads.surfaces_move);
+  if (orbit_.autonomous && !loads.surfaces_move)
+    throw SceneError(
+        {}, "loads",
+        "found no load that repeats itself and no surface that moves, expected one of them, or --period");
+  const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
+  const Scene longer = read_({{"run.t_end", shortest(t_end)}});
+  given_ = build_model(longer);
+  check_tangent_laws(longer, given_);
+  run_ = longer.run;
+  run_.engine = choose_engine(given_, run_).engine;
+  if (run_.engine != Engine::exact && run_.engine != Engine::ida)
+    throw SceneError(
+        scene.run.place, "run.engine",
+        fmt::format("found \"{}\", expected \"exact\" or \"ida\": orbits need the motion between events to "
+                    "rounding, or its tangents",
+                    to_string(run_.engine)));
+  closed_ = run_.engine == Engine::ida ? 100.0 * run_.rtol : 0.0;
+  const Factors to_machine = inverse(given_.machine);
+  first_ = rescaled(given_, to_machine);
+  run_ = rescaled(run_, to_machine);
+  run_.t_end = scene.run.t_end / given_.machine.time;
+  unit_ = given_.machine.time;
+  for (const Contact& c : first_.contacts) {
+    initial_.shears.push_back(c.initial_shear);
+    initial_.slips.push_back(c.initial_slip);
+  }
+  initial_.u = first_.u0;
+  initial_.v = first_.v0;
+  const double period = loads.period.value_or(0.0);
+  period_ = period * options_.times / unit_;
+  const double whole = period > 0.0 ? std::ceil(loads.settled / period - 1e-9) * period : loads.settled;
+  before_ = std::max(0.0, whole) / unit_;
+  orbit_.phase = before_ * unit_;
+}
+
+bool Search::forced() {
+  const PeriodMap scene(first_, run_, recorder_);
+  OrbitState state = initial_;
+  double length = before_ + options_.transient * period_;
+  const Model base = driven_from(first_, before_);
+  const PeriodMap at_phase(base, run_, recorder_);
+  for (int i = 0; i < most_transients; ++i) {
+    const OrbitPass transient =
+        length > 0.0 ? (i == 0 ? scene : at_phase).pass({state, length, false}) : OrbitPass{};
+    if (length > 0.0) {
+      if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
+      state = orbit_state(transient.end);
+    }
+    length = std::max(1, options_.transient) * period_ * (i + 1);
+    const OrbitPass once = at_phase.pass({state, period_, false});
+    if (!once.done()) return stop("the run over one period stopped: " + once.outcome.reason);
+    const double section = section_away_from(once.instants, period_);
+    OrbitState at_section = state;
+    if (section > 0.0) {
+      const OrbitPass to_section = at_phase.pass({state, section, false});
+      if (!to_section.done()) return stop("the run to the section stopped: " + to_section.outcome.reason);
+      at_section = orbit_state(to_section.end);
+    }
+    map_.emplace(driven_from(base, section), run_, recorder_);
+    if (close(at_section, section, period_)) return true;
+    if (shot_.interrupted) return false;
+  }
+  return false;
+}
+
+bool Search::by_itself() {
+  const PeriodMap scene(first_, run_, recorder_);
+  const double length = before_ + std::max(run_.t_end, options_.transient * period_);
+  const OrbitPass transient = scene.pass({initial_, length, false});
+  if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
+  const Recurrence found = recurrence(first_, transient.instants);
+  if (!(found.period > 0.0))
+    return stop(fmt::format(
+        "no event of the transient, up to t = {:.6g}, comes back to a state near to an earlier one; "
+        "a longer t_end lets more of it die out",
+        length * unit_));
+  const OrbitPass to_section = scene.pass({initial_, found.section, false});
+  if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
+  map_.emplace(driven_from(first_, found.section), run_, recorder_);
+  const double period = period_ > 0.0 ? period_ : found.period * options_.times;
+  return close(orbit_state(to_section.end), 0.0, period);
+}
+
+bool Search::close(const OrbitState& state, double section, double period) {
+  shot_ = shoot(*map_, {state, period, orbit_.autonomous, closed_}, tolerance_);
+  orbit_.steps = shot_.steps;
+  orbit_.residual = shot_.residual;
+  if (!shot_.closed) return stop(shot_.reason);
+  orbit_.reason.clear();
+  orbit_.period = shot_.duration * unit_;
+  orbit_.section = section * unit_;
+  return true;
+}
+
+/// Multipliers, families.
+void Search::stability() {
+  const OrbitPass& pass = shot_.pass;
+  if (pass.end_rates.size() == 0) {
+    orbit_.reason = "multipliers are not known: " + pass.reason;
+    return;
+  }
+  const Model& model = map_->model();
+  const Eigen::MatrixXd phi = monodromy(model, pass);
+  const OrbitPass next = map_->pass({orbit_state(pass.end), shot_.duration});
+  const Eigen::MatrixXd again = next.done() && next.end_rates.size() == pass.end_rates.size()
+                                    ? monodromy(model, next)
+                                    : Eigen::MatrixXd();
+  const std::size_t ones = count_ones(phi), of_time = orbit_.autonomous ? 1 : 0;
+  std::size_t families = ones > of_time ? ones - of_time : 0;
+  for (std::size_t c = 0; c < pass.held.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    const bool anchored = contact.tangential_stiffness || contact.sticks_rigidly();
+    if (families == 0 || !pass.held[c] || !anchored || pass.begin.mode[c].state != State::stick) continue;
+    orbit_.families.push_back("contact '" + contact.name + "' never slips");
+    --families;
+  }
+  if (families > 0) orbit_.families.push_back("a motion that no force drives back");
+  set_multipliers(phi, again, orbit_.families.size() + of_time, orbit_);
+}
+
+/// The run from the orbit's time 0.
+void Search::tell(const OrbitState& at_section, double section) {
+  const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
+  const PeriodMap map(base, run_, nullptr);
+  OrbitState start = at_section;
+  if (section > 0.0) start = orbit_state(map_->pass({at_section, shot_.duration - section, false}).end);
+  const Result rows = map.rows(start, shot_.duration);
+  orbit_.start = last_state(driven_from(given_, orbit_.phase), rows);
+  const OrbitPass once = map.pass({start, shot_.duration, false});
+  orbit_.sequence = once.events;
+  orbit_.cycle = once.cycle;
+  orbit_.amplitude = once.u_amplitude * first_.scales.displacement * given_.machine.length;
+}
+
+Orbit Search::find() {
+  orbit_.found = orbit_.autonomous ? by_itself() : forced();
+  if (!orbit_.found) return std::move(orbit_);
+  stability();
+  tell(shot_.state, orbit_.section / unit_);
+  return std::move(orbit_);
+}
+
+}  // namespace
+
+Orbit find_orbit(const SceneReader& read, const OrbitOptions& options, Recorder* recorder) {
+  return Search(read, options, recorder).find();
+}
+
+Scene orbit_scene(const SceneReader& read, const Orbit& orbit) {
+  Scene scene = read({});
+  if (orbit.phase > 0.0) {
+    std::vector<Override> changes = driven_earlier(scene, orbit.phase);
+    changes.push_back({"run.t_end", shortest(std::max(scene.run.t_end, orbit.phase + 2.0 * orbit.period))});
+    scene = read(changes);
+  }
+  constexpr double rows = 200.0;
+  scene.run.t_end = orbit.period;
+  scene.run.frames.clear();
+  scene.run.output_times.reset();
+  scene.run.output_dt = std::min(scene.run.output_dt.value_or(orbit.period), orbit.period / rows);
+  scene.initial.is_static = scene.initial.is_frictional = false;
+  scene.initial.stages.clear();
+  scene.initial.components.clear();
+  scene.initial.saved = orbit.start;
+  return scene;
+}
+
+}  // namespace signorini

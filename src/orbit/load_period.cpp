@@ -1,0 +1,143 @@
+#include "orbit/load_period.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "base/number.hpp"
+#include "scene/history_from_spec.hpp"
+
+namespace signorini {
+namespace {
+
+// Of a period: that two are one, or in a ratio of integers. Periods are given with at least so many digits. Chosen.
+constexpr double same_period = 1e-9;
+constexpr int most_multiples = 100;
+
+/// A history of the scene, and the key that holds it.
+struct Driver {
+  const HistorySpec* spec;
+  std::string key;
+  bool surface = false;
+};
+
+std::vector<Driver> drivers(const Scene& scene) {
+  std::vector<Driver> all;
+  const auto add = [&](const HistorySpec& spec, std::string key, bool surface = false) {
+    if (spec.amplitude != 0.0 || spec.in_code) all.push_back({&spec, std::move(key), surface});
+  };
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    if (scene.loads[i].amplitude != 0.0) add(scene.loads[i].history, fmt::format("loads.{}.history", i + 1));
+  for (std::size_t i = 0; i < scene.base_motion.size(); ++i)
+    add(scene.base_motion[i].acceleration, fmt::format("base_motion.{}.acceleration", i + 1));
+  for (const Support& s : scene.supports)
+    if (s.motion) add(*s.motion, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"));
+  for (std::size_t i = 0; i < scene.members.size(); ++i) {
+    add(scene.members[i].temperature, fmt::format("members.{}.temperature", i + 1));
+    add(scene.members[i].initial_strain, fmt::format("members.{}.initial_strain", i + 1));
+  }
+  for (const ContactSpec& c : scene.contacts) {
+    add(c.normal_force, c.key("normal_force"));
+    add(c.surface_velocity, c.key("surface_velocity"), true);
+  }
+  return all;
+}
+
+bool repeats(const HistorySpec& spec) {
+  return spec.period > 0.0 ||
+         (spec.type == HistoryType::harmonic && std::isinf(spec.end) && spec.omega != 0.0 && !spec.in_code);
+}
+
+double own_period(const HistorySpec& spec) {
+  return spec.period > 0.0 ? spec.period : 2.0 * std::numbers::pi / std::abs(spec.omega);
+}
+
+/// From when on it repeats itself, or stands still.
+double settled_at(const HistorySpec& spec) {
+  if (spec.in_code) return spec.in_code->starts().empty() ? 0.0 : spec.in_code->starts().back();
+  if (spec.type == HistoryType::table)
+    return (spec.period > 0.0 ? spec.times.front() : spec.times.back()) + spec.shift;
+  if (spec.period > 0.0 || std::isinf(spec.end)) return spec.start_given ? spec.start + spec.shift : 0.0;
+  return spec.end + spec.shift;
+}
+
+LoadPeriod settled(const std::vector<Driver>& all) {
+  LoadPeriod found;
+  for (const Driver& d : all) {
+    found.settled = std::max(found.settled, settled_at(*d.spec));
+    if (d.surface) found.surfaces_move = true;
+  }
+  return found;
+}
+
+/// Smallest common multiple; nothing: there is none.
+std::optional<double> common(double a, double b) {
+  if (a < b) std::swap(a, b);
+  for (int k = 1; k <= most_multiples; ++k) {
+    const double ratio = k * a / b;
+    if (std::abs(ratio - std::round(ratio)) <= same_period * ratio) return k * a;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+LoadPeriod load_period(const Scene& scene) {
+  const std::vector<Driver> all = drivers(scene);
+  LoadPeriod found = settled(all);
+  for (const Driver& d : all) {
+    if (!repeats(*d.spec)) continue;
+    const double own = own_period(*d.spec);
+    const std::optional<double> both = found.period ? common(*found.period, own) : own;
+    if (!both)
+      throw SceneError(
+          d.spec->place, d.key,
+          fmt::format("found a period of {} beside one of {}, expected periods with a common multiple "
+                      "(up to {} of the longer one)",
+                      shortest(own), shortest(*found.period), most_multiples));
+    found.period = both;
+  }
+  return found.period ? check_period(scene, *found.period) : found;
+}
+
+LoadPeriod check_period(const Scene& scene, double period) {
+  constexpr int places = 41;
+  const std::vector<Driver> all = drivers(scene);
+  LoadPeriod found = settled(all);
+  found.period = period;
+  for (const Driver& d : all) {
+    HistorySpec spec = *d.spec;
+    if (spec.period > 0.0)
+      spec.rounds = static_cast<int>(std::ceil((found.settled + 3.0 * period) / spec.period)) + 1;
+    const History f = make_history(spec, d.key);
+    double size = 0.0, differ = 0.0;
+    for (int i = 0; i < places; ++i) {
+      const double t = found.settled + period * (i + 1.0 / std::numbers::sqrt2) / places;
+      const double now = f.value(t), then = f.value(t + period);
+      size = std::max({size, std::abs(now), std::abs(then)});
+      differ = std::max(differ, std::abs(now - then));
+    }
+    if (differ > same_period * 2.0 * std::numbers::pi * size)
+      throw SceneError(
+          d.spec->place, d.key,
+          fmt::format(
+              "found a history that differs by {:.2g} of its greatest value after {}, expected one that "
+              "repeats itself with the period of the orbit",
+              differ / size, shortest(period)));
+  }
+  return found;
+}
+
+std::vector<Override> driven_earlier(const Scene& scene, double time) {
+  std::vector<Override> changes;
+  for (const Driver& d : drivers(scene)) {
+    const bool always =
+        d.spec->type == HistoryType::constant && !d.spec->start_given && std::isinf(d.spec->end);
+    if (!always && !d.spec->in_code) changes.push_back({d.key + ".shift", shortest(d.spec->shift - time)});
+  }
+  return changes;
+}
+
+}  // namespace signorini

@@ -1,0 +1,24 @@
+// multipliers.hpp: Floquet multipliers of an orbit, and which way it loses stability.
+//
+//   Phi x = mu x;    stable where |mu| < 1 for all but those of families, and of time where the orbit is driven by itself
+//   fold: mu > 1,  flip: mu < -1,  Neimark-Sacker: a pair outside the unit circle
+//
+// error: how far the multipliers of two matrices are apart that were computed from two states of one orbit, and what
+// rounding leaves of the greatest entry of Phi.
+#pragma once
+
+#include "signorini/orbit.hpp"
+
+#include <Eigen/Core>
+
+namespace signorini {
+
+/// Puts multipliers, their error, stability and loss into the orbit. again: Phi from the image of the state, or empty;
+/// ones: how many multipliers are 1 for reasons of their own.
+void set_multipliers(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again, std::size_t ones,
+                     Orbit& orbit);
+
+/// Multipliers that are 1 within the rounding of Phi.
+[[nodiscard]] std::size_t count_ones(const Eigen::MatrixXd& phi);
+
+}  // namespace signorini

@@ -1,0 +1,222 @@
+#include "orbit/period_map.hpp"
+
+#include <cmath>
+
+#include "run/observer.hpp"
+#include "sensitivity/tangent_run.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int rows_a_period = 24;  // of which amplitudes are made; chosen
+
+/// Amplitudes, events.
+class CycleRecorder final : public Recorder {
+ public:
+  CycleRecorder(const Model& model, Recorder* outer, OrbitPass& pass)
+      : model_(model), outer_(outer), pass_(pass) {}
+
+  void event(const Event& event) override {
+    if (event.contact >= 0 && event.type != EventType::time) pass_.events.push_back(event);
+  }
+  void sample(const Sample& sample) override {
+    const std::vector<Dof>& dofs = model_.physical_dofs();
+    const Scales& s = model_.scales;
+    const double length = s.displacement * model_.unit.length;
+    const double velocity = s.velocity * model_.unit.length / model_.unit.time;
+    const double spin = s.angular_velocity / model_.unit.time;
+    if (first_) {
+      u_low_ = u_high_ = *sample.u;
+      v_low_ = v_high_ = *sample.v;
+      for (const ContactSample& c : sample.contacts) T_.emplace_back(c.T, c.T);
+      first_ = false;
+    }
+    u_low_ = u_low_.cwiseMin(*sample.u);
+    u_high_ = u_high_.cwiseMax(*sample.u);
+    v_low_ = v_low_.cwiseMin(*sample.v);
+    v_high_ = v_high_.cwiseMax(*sample.v);
+    for (Eigen::Index i = 0; i < u_low_.size(); ++i) {
+      const bool turns = dofs[static_cast<std::size_t>(i)].rotation;
+      grow(pass_.u_amplitude, u_high_[i] - u_low_[i], turns ? s.rotation : length);
+      grow(pass_.v_amplitude, v_high_[i] - v_low_[i], turns ? spin : velocity);
+    }
+    for (std::size_t c = 0; c < T_.size(); ++c) {
+      T_[c].first = std::min(T_[c].first, sample.contacts[c].T);
+      T_[c].second = std::max(T_[c].second, sample.contacts[c].T);
+      grow(pass_.T_amplitude, T_[c].second - T_[c].first, s.force * model_.unit.force);
+    }
+  }
+  bool progress(double t) override { return outer_ == nullptr || outer_->progress(t); }
+
+ private:
+  static void grow(double& amplitude, double range, double scale) {
+    amplitude = std::max(amplitude, 0.5 * range / scale);
+  }
+
+  const Model& model_;
+  Recorder* outer_;
+  OrbitPass& pass_;
+  bool first_ = true;
+  Vector u_low_, u_high_, v_low_, v_high_;
+  std::vector<std::pair<double, double>> T_;
+};
+
+class NoRows final : public TangentListener {
+ public:
+  void sample(const TangentSample& /*sample*/, bool /*row*/, bool /*turn*/) override {}
+  void instant(const InstantMotion& /*motion*/, const std::vector<TangentState>& /*states*/) override {}
+  [[nodiscard]] bool exceeds(std::size_t /*contact*/, std::size_t /*which*/,
+                             double /*value*/) const override {
+    return false;
+  }
+};
+
+/// A derivative of the model that moves nothing.
+ModelDerivative still(const Model& model) {
+  ModelDerivative d;
+  d.mass = d.damping = d.stiffness = SparseMatrix(model.size(), model.size());
+  d.loads.resize(model.loads.size());
+  d.contacts.resize(model.contacts.size());
+  d.u0 = d.v0 = Vector::Zero(model.size());
+  return d;
+}
+
+/// The tangents of all columns of a section's basis, and of a parameter.
+class Bundle {
+ public:
+  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, const ModelDerivative* parameter)
+      : section_(model, begin) {
+    for (Eigen::Index k = 0; k < section_.size(); ++k) {
+      const OrbitState column = section_.unscaled(section_.basis().col(k));
+      ModelDerivative d = still(model);
+      d.u0 = column.u;
+      d.v0 = column.v;
+      for (std::size_t c = 0; c < d.contacts.size(); ++c) d.contacts[c].initial_shear = column.shears[c];
+      columns_.push_back(std::move(d));
+    }
+    if (parameter != nullptr) {
+      columns_.push_back(*parameter);
+      columns_.back().u0 = columns_.back().v0 = Vector::Zero(model.size());
+      for (ContactRates& c : columns_.back().contacts) c.initial_shear = 0.0;
+    }
+    sizes_.assign(columns_.size(), 1.0);
+    tangents_.emplace(model, run, columns_, sizes_, listener_);
+  }
+
+  [[nodiscard]] TangentRun& run() { return *tangents_; }
+
+  void finish(OrbitPass& pass) const {
+    const std::vector<TangentState>& states = tangents_->states();
+    for (const TangentState& state : states)
+      if (!state.alive) {
+        pass.reason = state.reason;
+        return;
+      }
+    const auto columns = section_.size();
+    pass.end_rates.resize(section_.basis().rows(), columns);
+    for (Eigen::Index k = 0; k < columns; ++k)
+      pass.end_rates.col(k) = end_of(states[static_cast<std::size_t>(k)]);
+    if (states.size() > static_cast<std::size_t>(columns)) pass.parameter_rates = end_of(states.back());
+  }
+
+ private:
+  [[nodiscard]] Vector end_of(const TangentState& state) const {
+    return section_.coordinates(state.now.start.u, state.now.start.v, state.now.point.forces);
+  }
+
+  OrbitSection section_;
+  std::vector<ModelDerivative> columns_;
+  std::vector<double> sizes_;
+  NoRows listener_;
+  std::optional<TangentRun> tangents_;
+};
+
+/// Keeps what a pass is made of, and leads the tangents along.
+class Follower final : public MotionObserver {
+ public:
+  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass)
+      : model_(model), run_(run), leg_(leg), pass_(pass) {}
+
+  void begin(const ObservedInstant& start) override {
+    pass_.begin = pass_.end = orbit_point(start.t, start.after);
+    for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+      pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
+    if (!leg_.tangents) return;
+    bundle_.emplace(model_, run_, pass_.begin, leg_.parameter);
+    bundle_->run().begin(start);
+  }
+  void step(const ObservedStep& step) override {
+    if (bundle_) bundle_->run().step(step);
+  }
+  void instant(const ObservedInstant& instant) override {
+    if (bundle_) bundle_->run().instant(instant);
+    pass_.end = orbit_point(instant.t, instant.after);
+    bool changes = !instant.after.impulses.empty();
+    for (std::size_t c = 0; c < instant.mode_before.size(); ++c)
+      if (instant.mode_before[c].state != instant.after.mode[c].state) {
+        changes = true;
+        pass_.held[c] = false;
+      }
+    if (changes) pass_.instants.push_back(pass_.end);
+  }
+  void end(double t) override {
+    if (bundle_) bundle_->run().end(t);
+  }
+  void finish() const {
+    if (bundle_) bundle_->finish(pass_);
+  }
+
+ private:
+  const Model& model_;
+  const RunSpec& run_;
+  const OrbitLeg& leg_;
+  OrbitPass& pass_;
+  std::optional<Bundle> bundle_;
+};
+
+Energy change(const Energy& from, const Energy& to) {
+  Energy d;
+  for (const EnergyColumn& column : energy_columns) d.*column.value = to.*column.value - from.*column.value;
+  return d;
+}
+
+}  // namespace
+
+PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
+    : model_(std::move(model)), run_(run), recorder_(recorder) {
+  model_.machine = {};  // it is in those units already
+  model_.outputs.clear();
+  model_.reaction_sums.clear();
+  model_.warnings.clear();
+  run_.certify = Certify::no;
+  run_.output_times.reset();
+  run_.frames.clear();
+}
+
+OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
+  OrbitPass pass;
+  const Model model = begun_at(model_, leg.start);
+  RunSpec run = run_;
+  run.t_end = leg.duration;
+  run.output_dt = leg.duration / rows_a_period;
+  RunSpec bare = run;  // tangents want no rows
+  bare.output_dt = leg.duration;
+  CycleRecorder recorder(model, recorder_, pass);
+  Follower follower(model, bare, leg, pass);
+  const Report report = simulate(model, run, recorder, follower);
+  pass.outcome = report.outcome;
+  pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
+  pass.cycle = change(report.audit.initial, report.audit.final);
+  if (pass.done()) follower.finish();
+  return pass;
+}
+
+Result PeriodMap::rows(const OrbitState& start, double duration) const {
+  RunSpec run = run_;
+  run.t_end = duration;
+  run.output_dt = duration;
+  return simulate(begun_at(model_, start), run);
+}
+
+}  // namespace signorini

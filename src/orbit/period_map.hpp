@@ -1,0 +1,57 @@
+// period_map.hpp: the motion over a period from a state at a section, and how its end moves with that state.
+//
+//   z -> z(T; z),     Phi B = the tangent motions of all columns of B, beside one run
+//
+// Phi: the product of the stretches' propagators and of the events' rank-one jumps (sensitivity/tangent_run.hpp).
+// Units: of the model that is computed, the machine's; events and energies are those of the scene.
+#pragma once
+
+#include "orbit/orbit_state.hpp"
+#include "sensitivity/model_derivative.hpp"
+
+namespace signorini {
+
+/// One pass through the period.
+struct OrbitPass {
+  Outcome outcome;
+  OrbitPoint begin, end;
+  std::vector<OrbitPoint> instants;  ///< those in between at which a state changed, just after
+  std::vector<Event> events;         ///< without jumps of loads
+  Energy cycle;
+  /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
+  double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
+  Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
+  Vector parameter_rates;     ///< of the end by the parameter, where there is one
+  std::string reason;         ///< why they are not known
+  std::vector<bool> held;     ///< contacts that never changed their state, closed and not slipping
+  bool interrupted = false;
+
+  [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
+};
+
+/// What one pass is asked for.
+struct OrbitLeg {
+  const OrbitState& start;
+  double duration;
+  bool tangents = true;
+  const ModelDerivative* parameter = nullptr;  ///< of the model, the state aside
+};
+
+class PeriodMap {
+ public:
+  /// model, run: in the machine's units; recorder: for progress, or null.
+  PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] OrbitPass pass(const OrbitLeg& leg) const;
+  /// The row at the end, and all rows before: for last_state().
+  [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
+  [[nodiscard]] const RunSpec& run() const { return run_; }
+
+ private:
+  Model model_;
+  RunSpec run_;
+  Recorder* recorder_;
+};
+
+}  // namespace signorini

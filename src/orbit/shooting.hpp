@@ -1,0 +1,43 @@
+// shooting.hpp: Newton's method on the state at a section.
+//
+//   (Phi - I) B x = -(z(T) - z)                                   forced
+//   [ B^T Phi B - I   z'(T) ] [ x  ]   [ -B^T (z(T) - z) ]
+//   [ z'(0)^T B         0   ] [ dT ] = [        0         ]        driven by itself
+//
+// x is the shortest solution: directions with a multiplier of 1 are left as they are. A step is halved until the
+// residual falls. The residual is relative to the amplitude of the motion: that of u, v and T each by its own.
+#pragma once
+
+#include "orbit/period_map.hpp"
+#include "signorini/orbit.hpp"
+
+namespace signorini {
+
+struct ShootingStart {
+  OrbitState state;
+  double duration;
+  bool free_period = false;
+  double closed = 0.0;  ///< residual with which an orbit is closed whose residual no longer falls; 0: 1e-9
+};
+
+/// Where the iteration ended.
+struct Shot {
+  bool closed = false;
+  std::string reason;  ///< why not
+  bool interrupted = false;
+  OrbitState state;  ///< at the section
+  double duration = 0.0;
+  double residual = 0.0;
+  OrbitPass pass;  ///< from that state
+  std::vector<OrbitStep> steps;
+};
+
+/// max |z(T) - z| over the amplitude of its kind. Where nothing moves: over the scales.
+[[nodiscard]] double orbit_residual(const Model& model, const OrbitPass& pass);
+
+/// B^T Phi B of a pass that has tangents.
+[[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);
+
+[[nodiscard]] Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance);
+
+}  // namespace signorini

@@ -1,0 +1,25 @@
+#include "sensitivity/known_laws.hpp"
+
+#include <fmt/core.h>
+
+#include "signorini/error.hpp"
+
+namespace signorini {
+
+void check_tangent_laws(const Scene& scene, const Model& model) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    const bool rises = c.friction.rises();
+    const char* what = c.bowl             ? "a pendulum whose normal force varies"
+                       : rises && c.shear ? "friction that rises with the slip rate beside a "
+                                            "tangential_stiffness"
+                       : rises && c.takes_impulses()
+                           ? "friction that rises with the slip rate at a rigid contact"
+                           : nullptr;
+    if (what != nullptr)
+      throw SceneError(scene.contacts[k].place, scene.contacts[k].key(c.bowl ? "radius" : "friction"),
+                       fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
+  }
+}
+
+}  // namespace signorini

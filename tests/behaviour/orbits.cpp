@@ -1,0 +1,281 @@
+// Orbits against closed forms and independent computations.
+#include "signorini/orbit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "behaviour/one_mass.hpp"
+#include "behaviour/rates.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Orbit orbit_of(const std::string& text, const OrbitOptions& options = {}) {
+  return find_orbit(reader_of_text(text), options);
+}
+
+Result run_on(const std::string& text, const Orbit& orbit) {
+  return simulate(orbit_scene(reader_of_text(text), orbit));
+}
+
+double product(const Orbit& orbit) {
+  std::complex<double> det = 1.0;
+  for (const auto& mu : orbit.multipliers) det *= mu;
+  CHECK(std::abs(det.imag()) <= 1e-12 * (1.0 + std::abs(det)));
+  return det.real();
+}
+
+double saved(const Orbit& orbit, const std::string& name) {
+  for (const auto& [key, value] : orbit.start.motions)
+    if (key == name) return value;
+  REQUIRE_MESSAGE(false, name);
+  return 0.0;
+}
+
+/// NLvib's third example: a chain of two masses, the second before a one-sided spring.
+std::string chain(const std::string& omega) {
+  return matrix_scene(
+      "t_end = 9.0\ninitial = { u = [0.9471418552234623, 0.6753036568662564], "
+      "v = [0.37884121883540234, 0.10774812890179698] }",
+      "mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness = [[1.0, -1.0], [-1.0, 2.0]]\n"
+      "damping = [[0.03, -0.03], [-0.03, 0.06]]",
+      "law = \"compliant\"\nnormal = { d0 = -1.0 }\ngap = 1.0\nnormal_stiffness = 100.0",
+      "[[loads]]\ndirection = { d1 = 1.0 }\namplitude = 0.1\nhistory = { type = \"harmonic\", omega = " +
+          omega + ", phase = 1.5707963267948966 }\n");
+}
+
+std::string jenkins(const std::string& load = "3.0") {
+  return matrix_scene("t_end = 9.0", "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.02]]",
+                      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 1.0\n"
+                      "tangential_stiffness = 20.0\n",
+                      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = " + load +
+                          "\nhistory = { type = \"harmonic\", omega = 1.5, phase = 1.5707963267948966 }\n"
+                          "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/orbits");
+
+TEST_CASE("a chain before a one-sided spring: NLvib's third example, and Liouville's determinant") {
+  OrbitOptions options;
+  options.transient = 0;
+  const Orbit orbit = orbit_of(chain("0.62"), options);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  CHECK(orbit.residual <= 1e-13);
+  CHECK(orbit.period == doctest::Approx(2.0 * pi / 0.62).epsilon(1e-15));
+  CHECK(std::abs(saved(orbit, "d0.u") - 0.9719291853302878) <= 1e-11);
+  CHECK(std::abs(saved(orbit, "d1.u") - 0.6459326749109593) <= 1e-11);
+  CHECK(std::abs(saved(orbit, "d0.v") - 0.25416996239535306) <= 1e-11);
+  CHECK(std::abs(saved(orbit, "d1.v") - 0.0715593505999609) <= 1e-11);
+  const double det = std::exp(-0.09 * orbit.period);
+  CHECK(std::abs(product(orbit) - det) <= 1e-11 * det);
+  CHECK(orbit.steps.size() <= 7);
+}
+
+TEST_CASE("a Jenkins element that slips loses 4 f N (A - f N/kt) a cycle") {
+  const Orbit orbit = orbit_of(jenkins());
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  CHECK(orbit.residual <= 1e-12);
+  const Result run = run_on(jenkins(), orbit);
+  const OutputExtremes& x = run.report.response.front();
+  const double A = 0.5 * (x.maximum - x.minimum), loss = 4.0 * (A - 1.0 / 20.0);
+  CHECK(std::abs(orbit.cycle.friction - loss) <= 1e-11 * loss);
+  CHECK(std::abs(orbit.cycle.loads - orbit.cycle.friction - orbit.cycle.damping) <= 1e-11 * loss);
+  CHECK(orbit.stable.value_or(false));
+  CHECK(orbit.families.empty());
+  CHECK(orbit.sequence.size() == 4);
+}
+
+TEST_CASE("a Jenkins element that never slips has a multiplier of one: a family") {
+  const Orbit orbit = orbit_of(jenkins("0.3"));
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  REQUIRE(orbit.families.size() == 1);
+  CHECK(orbit.families.front() == "contact 'c' never slips");
+  REQUIRE(orbit.multipliers.size() == 3);
+  CHECK(std::abs(orbit.multipliers[0] - 1.0) <= 1e-12);
+  // The others are those of m = 1, c = 0.02, k = 21 over T.
+  const double decay = std::exp(-0.01 * orbit.period);
+  CHECK(std::abs(std::abs(orbit.multipliers[1]) - decay) <= 1e-12);
+  CHECK(orbit.stable.value_or(false));
+  CHECK(orbit.sequence.empty());
+}
+
+TEST_CASE(
+    "Den Hartog's oscillator has his amplitude without stops, and rests where the closed form does with "
+    "two") {
+  const auto text = [](const char* friction, const char* omega) {
+    return matrix_scene(
+        "t_end = 100.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
+        std::string("law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = ") + friction,
+        std::string("[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = \"harmonic\", "
+                    "omega = ") +
+            omega + " }\n[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
+  };
+  // X = sqrt(V^2 - F^2 U^2) with V = 1/(1 - b^2), U = sin(pi/b)/(b (1 + cos(pi/b)));  two stops: a root of the slide
+  for (const auto& [scene, amplitude, events] :
+       {std::tuple{text("0.5", "0.8"), 2.33223498754136, 2}, {text("0.8", "0.5"), 1.02078517361116, 4}}) {
+    const Orbit orbit = orbit_of(scene);
+    CAPTURE(orbit.reason);
+    REQUIRE(orbit.found);
+    const OutputExtremes& x = run_on(scene, orbit).report.response.front();
+    CHECK(std::abs(x.maximum - amplitude) <= 1e-10);
+    CHECK(std::abs(x.minimum + amplitude) <= 1e-10);
+    CHECK(orbit.sequence.size() == static_cast<std::size_t>(events));
+    CHECK(orbit.residual <= 1e-12);
+  }
+}
+
+TEST_CASE("an impact oscillator with one hit a cycle: det Phi = e^2 exp(-c T/m)") {
+  const std::string text =
+      matrix_scene("t_end = 100.0", "mass = [[2.0]]\nstiffness = [[2.0]]\ndamping = [[0.2]]",
+                   "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.1\nrestitution = 0.8",
+                   "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.0\nhistory = { type = \"harmonic\", "
+                   "omega = 2.3 }\n");
+  const Orbit orbit = orbit_of(text);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  const auto hits = static_cast<double>(orbit.sequence.size());
+  const double det = std::pow(0.8, 2.0 * hits) * std::exp(-0.1 * orbit.period);
+  CHECK(std::abs(product(orbit) - det) <= 1e-11 * det);
+}
+
+TEST_CASE("a block on a belt sticks and slips with the period pi + 2 atan 0.4 + 5") {
+  const std::string text = matrix_scene("t_end = 60.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                                        "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = "
+                                        "1.0\nfriction = { static = 1.0, kinetic = 0.5 }\n"
+                                        "surface_velocity = 0.2");
+  const Orbit orbit = orbit_of(text);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  CHECK(orbit.autonomous);
+  CHECK(std::abs(orbit.period - (pi + 2.0 * std::atan(0.4) + 5.0)) <= 1e-12);
+  CHECK(orbit.sequence.size() == 2);
+  CHECK(orbit.stable.value_or(false));
+  CHECK(orbit.max_multiplier <= 1e-10);  // what sticks has forgotten how it came
+}
+
+TEST_CASE("turned and mirrored, in other units, from a shifted load: the same orbit") {
+  const auto frame = [](double turn, double mirror, double length, double time, double start) {
+    const double c = std::cos(turn), s = std::sin(turn);
+    const auto vector = [&](double x, double y) {
+      y *= mirror;
+      return fmt::format("[{:.17g}, {:.17g}]", c * x - s * y, s * x + c * y);
+    };
+    const double force = length / (time * time);  // of a kilogram
+    const double k = 1.0 / (time * time);
+    return fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n[run]\nt_end "
+        "= {:.17g}\n"
+        "[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n"
+        "[[springs]]\nnode = \"A\"\ndirection = {}\nstiffness = {:.17g}\ndamping = {:.17g}\n"
+        "[[springs]]\nnode = \"A\"\ndirection = {}\nstiffness = {:.17g}\ndamping = {:.17g}\n"
+        "[[contacts]]\nname = \"c\"\nnode = \"A\"\nlaw = \"compliant\"\nnormal = {}\ntangent = {}\ngap = "
+        "{:.17g}\n"
+        "normal_stiffness = {:.17g}\ntangential_stiffness = {:.17g}\nfriction = 0.4\n"
+        "[[loads]]\nnode = \"A\"\ndirection = {}\namplitude = {:.17g}\nhistory = {{ type = \"harmonic\", "
+        "omega = {:.17g}, "
+        "start = {:.17g} }}\n",
+        40.0 * time, vector(1.0, 0.3), 1.0 * k, 0.1 / time, vector(-0.3, 1.0), 2.0 * k, 0.1 / time,
+        vector(0.0, 1.0), vector(1.0, 0.0), 0.02 * length, 30.0 * k, 20.0 * k, vector(0.6, 0.8), 1.0 * force,
+        1.1 / time, start * time);
+  };
+  const Orbit plain = orbit_of(frame(0.0, 1.0, 1.0, 1.0, 0.0));
+  CAPTURE(plain.reason);
+  REQUIRE(plain.found);
+  REQUIRE(plain.sequence.size() >= 2);
+  for (const auto& [turn, mirror, length, time, start] : {std::tuple{0.7, 1.0, 1.0, 1.0, 0.0},
+                                                          {2.3, -1.0, 1.0, 1.0, 0.0},
+                                                          {0.0, 1.0, 1000.0, 1.0, 0.0},
+                                                          {-1.1, -1.0, 0.01, 60.0, 0.0},
+                                                          {0.0, 1.0, 1.0, 1.0, 3.7}}) {
+    CAPTURE(turn);
+    CAPTURE(length);
+    CAPTURE(start);
+    const Orbit other = orbit_of(frame(turn, mirror, length, time, start));
+    CAPTURE(other.reason);
+    REQUIRE(other.found);
+    CHECK(std::abs(other.amplitude / length - plain.amplitude) <=
+          (turn == 0.0 ? 1e-2 : 1.0) * plain.amplitude);
+    CHECK(std::abs(other.max_multiplier - plain.max_multiplier) <= 1e-10);
+    REQUIRE(other.sequence.size() == plain.sequence.size());
+    const double force = length / (time * time);
+    CHECK(std::abs(other.cycle.friction / (force * length) - plain.cycle.friction) <=
+          1e-11 * plain.cycle.loads);
+    CHECK(std::abs(other.cycle.loads / (force * length) - plain.cycle.loads) <= 1e-11 * plain.cycle.loads);
+  }
+}
+
+TEST_CASE("a disturbed run leaves or returns by its multipliers") {
+  // The state a period later, of runs that begin 1e-6 to both sides of the orbit, along each degree of freedom.
+  const std::string text = chain("0.62");
+  OrbitOptions options;
+  options.transient = 0;
+  const Orbit orbit = orbit_of(text, options);
+  REQUIRE(orbit.found);
+  const std::vector<std::string> names{"d0.u", "d1.u", "d0.v", "d1.v"};
+  const double h = 1e-6;
+  Eigen::Matrix4d phi;
+  for (int j = 0; j < 4; ++j) {
+    Eigen::Vector4d ends[2];
+    for (int side = 0; side < 2; ++side) {
+      Scene scene = orbit_scene(reader_of_text(text), orbit);
+      for (auto& [name, value] : scene.initial.saved->motions)
+        if (name == names[static_cast<std::size_t>(j)]) value += side == 0 ? -h : h;
+      const Result run = simulate(scene);
+      ends[side] << run.rows.back().u, run.rows.back().v;
+    }
+    phi.col(j) = (ends[1] - ends[0]) / (2.0 * h);
+  }
+  CHECK(std::abs(phi.trace() - [&] {
+          std::complex<double> sum = 0.0;
+          for (const auto& mu : orbit.multipliers) sum += mu;
+          return sum.real();
+        }()) <= 1e-7);
+  CHECK(std::abs(phi.determinant() - product(orbit)) <= 1e-7);
+}
+
+TEST_CASE("scenes without an orbit say why") {
+  const auto text = [](const std::string& loads, const std::string& run = "") {
+    return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",
+                        "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.5",
+                        loads);
+  };
+  const auto load = [](const std::string& history) {
+    return "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = " + history + " }\n";
+  };
+  const auto refused = [&](const std::string& scene, const std::string& words,
+                           const OrbitOptions& options = {}) {
+    CAPTURE(words);
+    try {
+      static_cast<void>(orbit_of(scene, options));
+      FAIL_CHECK("not refused");
+    } catch (const Error& error) {
+      CAPTURE(error.what());
+      CHECK(std::string(error.what()).find(words) != std::string::npos);
+    }
+  };
+  refused(text(""), "no load that repeats itself");
+  refused(text(load("\"harmonic\", omega = 1.0") + load("\"harmonic\", omega = 1.4142135623730951")),
+          "loads.2.history");
+  refused(text(load("\"polynomial\", coefficients = [0.0, 1.0]") + load("\"harmonic\", omega = 1.0")),
+          "loads.1.history");
+  refused(text(load("\"harmonic\", omega = 1.0")), "loads.1.history", {.period = 3.0});
+  refused(text(load("\"harmonic\", omega = 1.0"), "engine = \"newmark\"\ndt = 0.01"), "run.engine");
+  refused(text(load("\"harmonic\", omega = 1.0")), "--times", {.times = 0});
+}
+
+TEST_SUITE_END();

@@ -210,6 +210,99 @@ bend = { radius = 0.457 }   # turns left from D to E
 
 The elements of an arc are chords: displacements and forces come to those of the arc with the square of their length.)"},
     {"members[].bend", "### `members.bend`", ""},
+    {"bodies[]", "## `[[bodies]]`",
+     R"(Plane continua: meshes of triangles and quadrilaterals in plane stress or plane strain. Displacements are small.
+
+```toml
+schema = 1
+title = "A block on a rough table"
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+gravity = [0.0, -9.81]
+
+[run]
+t_end = 0.05
+engine = "exact"
+
+[[bodies]]
+name = "block"
+rectangle = { from = [0.0, 0.0], size = [0.4, 0.2] }
+elements = [8, 4]
+E = 2e7
+nu = 0.3
+density = 2000.0
+thickness = 0.1
+plane = "stress"
+points = { corner = [0.4, 0.2] }
+
+[[seams]]
+name = "foot"
+slave = "block.bottom"
+master = "ground"
+law = "compliant"
+layer = { E = 1e6, G = 4e5, thickness = 0.01 }
+friction = 0.4
+
+[[loads]]
+group = "block.left"
+traction = 4000.0
+direction = [1.0, 0.0]
+history = { type = "half_sine", start = 0.0, duration = 0.02 }
+```
+
+Nodes of the mesh are called `block.1`, `block.2`, ...: by the numbers of the file, or row by row from the corner of bottom and left
+(of a ring: from the inside at its start). Members, masses, springs, rigid bodies, supports and contacts take them as other nodes. They have no
+columns in history.csv; a node with a name in `points` has. Where a table has `nodes`, a group stands for all its nodes,
+`nodes = ["block.left"]`, and the body's name for all of the body. In `[run.initial]`, too: `block = { vx = -1.0 }`.
+
+From a file of Gmsh, in ASCII, version 4.1 or 2.2:
+
+```toml
+[[bodies]]
+name = "saddle"
+mesh = "saddle.msh"
+groups = ["bed", "base"]      # must be there
+E = 3e7
+nu = 0.2
+density = 2.4
+plane = "strain"
+```
+
+Physical curves and points are the groups, by their names; a physical surface is chosen by `surfaces`. Elements are those with
+3 or 6 and 4 or 8 nodes (`Mesh.SecondOrderIncomplete = 1`). Elements that are inverted or folded, nodes that no element has,
+other types of elements and groups that are missing are refused, with the line of the file.
+
+The quadrilateral with 4 nodes has incompatible modes (QM6), so that it bends as it should; all elements hold a constant stress exactly, however distorted. The mass
+matrix is consistent, or lumped.)"},
+    {"bodies[].rectangle", "### `bodies.rectangle`", ""},
+    {"bodies[].ring", "### `bodies.ring`", ""},
+    {"bodies[].points", "### `bodies.points`", ""},
+    {"seams[]", "## `[[seams]]`",
+     R"(A boundary of a body, the slave, touches one of another body, the ground, or a straight line. The meshes need not match. Each node
+of the slave that the other side covers is a contact NAME.1, NAME.2, ..., in the course of the boundary, with the body to its left. Its gap and
+its slip are weighted means over the edges at the node (dual mortar), so that a constant pressure passes a straight seam exactly. Its
+force is pressure times `length` times thickness: lengths and normals follow from the undeformed geometry.
+
+```toml
+[[seams]]
+name = "joint"
+slave = "upper.bottom"
+master = "lower.top"
+law = "compliant"
+layer = { E = 5e6, G = 2e6, thickness = 0.01 }
+friction = { static = 0.6, kinetic = 0.5 }
+contact_mass = "none"
+```
+
+Stiffnesses are for each area: N = normal_stiffness * area * gap. Use the finer mesh as the slave. A boundary with a corner of more than 45 degrees needs
+a seam for each side. An edge of which a part is covered counts with that part; a quadratic one that is covered in part is refused where
+a node would get no length.
+
+`contact_mass = "none"` takes the mass off the slave's nodes and gives it to nodes near them: total mass, centre and inertia stay. A contact
+that has no mass before it changes its state less often.
+
+friction, surface_velocity, restitution and capture_velocity are those of [contacts](#contacts).)"},
+    {"seams[].line", "### `seams.line`", ""},
+    {"seams[].layer", "### `seams.layer`", ""},
     {"masses[]", "## `[[masses]]`",
      R"(```toml
 [[masses]]
@@ -459,7 +552,8 @@ acceleration = { type = "table", file = "up.txt", time_step = 0.005, unit = "g",
 ```)"},
     {"loads[]", "## `[[loads]]`",
      R"(A force amplitude * f(t) along a direction, a moment, or a force per length of members, with the end forces and moments
-that a beam under it would have if it were clamped. Several may act on one node.
+that a beam under it would have if it were clamped. Several may act on one node. On boundaries of bodies, `group`: a traction along a direction, or a
+pressure, both forces per area.
 
 ```toml
 [[loads]]

@@ -20,6 +20,7 @@
 #include "signorini/error.hpp"
 #include "signorini/history.hpp"
 #include "signorini/own_law.hpp"
+#include "signorini/plane_mesh.hpp"
 
 namespace signorini {
 
@@ -231,6 +232,7 @@ struct Node {
   std::string name = {};
   double x = 0.0, y = 0.0;
   SourcePlace place = {};
+  bool of_mesh = false;  ///< of a body's mesh, without a name in the scene: no column of history.csv
 };
 
 enum class MassKind { consistent, lumped };
@@ -256,6 +258,35 @@ struct Member {
   HistorySpec temperature = HistorySpec::zero();     ///< above that of the undeformed state
   HistorySpec initial_strain = HistorySpec::zero();  ///< along the member, positive: too long
   std::optional<Bend> bend = {};                     ///< absent: straight pieces
+};
+
+/// A plane continuum. Its nodes stand among Scene::nodes, called NAME.NUMBER, or as a point of the body is called.
+struct BodySpec {
+  std::string name = {};
+  PlaneMesh mesh = {};  ///< without nodes: indices are into Scene::nodes
+  std::size_t first_node = 0, node_count = 0;
+  double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
+  bool strain = false;  ///< plane strain, else plane stress
+  MassKind mass = MassKind::consistent;
+  double thermal_expansion = 0.0;                 ///< strain per temperature
+  HistorySpec temperature = HistorySpec::zero();  ///< above that of the undeformed state
+  std::vector<int> massless = {};                 ///< nodes whose mass is on others (contact_mass = "none")
+  SourcePlace place = {};
+};
+
+/// A node of a seam: one of Scene::contacts each, in the same order.
+struct SeamNode {
+  int node = 0;                            ///< index into Scene::nodes
+  double length = 0.0;                     ///< of the arc that belongs to it
+  std::array<double, 2> normal{0.0, 0.0};  ///< in which it opens; the tangent is (ny, -nx)
+};
+/// Surfaces of bodies against each other, or against the ground: contacts NAME.1, NAME.2, ... along the arc.
+struct SeamSpec {
+  std::string name = {};
+  std::size_t first_contact = 0;
+  std::vector<SeamNode> nodes = {};
+  double thickness = 1.0;
+  SourcePlace place = {};
 };
 
 struct PointMass {
@@ -380,9 +411,9 @@ struct BaseMotionSpec {
   SourcePlace place;
 };
 
-enum class LoadType { force, moment, distributed };
+enum class LoadType { force, moment, distributed, traction };
 
-/// A force or a moment at a node, or a force per length on pieces of members.
+/// A force or a moment at a node, a force per length on pieces of members, or a force per area on a boundary of a body.
 struct LoadSpec {
   Direction direction = {};  ///< moment: its node only
   double amplitude = 0.0;
@@ -392,6 +423,8 @@ struct LoadSpec {
   LoadType type = LoadType::force;
   std::vector<std::string> pieces = {};  ///< distributed: nodes; from each to the next a piece of a member
   bool member_axes = false;              ///< distributed: direction is (along, to the left) of the piece
+  std::string group = {};                ///< traction: "BODY.GROUP"
+  bool pressure = false;  ///< traction: against the outward normal instead of along a direction
 };
 
 /// What an [[output]] is; a row of all_output_kinds each.
@@ -489,6 +522,8 @@ struct Scene {
   std::vector<Section> sections;
   std::vector<Node> nodes;
   std::vector<Member> members;
+  std::vector<BodySpec> bodies;
+  std::vector<SeamSpec> seams;
   std::vector<PointMass> masses;
   std::vector<RigidBody> rigid;
   std::vector<Spring> springs;

@@ -70,6 +70,10 @@ Sizes sizes_of(const Scene& scene, int length) {
     sizes.stiffness.add(std::ldexp(s.EA, -length));
     sizes.mass.add(std::ldexp(s.mass_per_length, length));
   }
+  for (const BodySpec& b : scene.bodies) {  // a square of the extent
+    sizes.stiffness.add(b.E * b.thickness);
+    sizes.mass.add(std::ldexp(b.density * b.thickness, 2 * length));
+  }
   for (const PointMass& m : scene.masses) sizes.mass.add(m.mass);
   for (const Spring& s : scene.springs) sizes.stiffness.add(s.stiffness);
   for (const ContactSpec& c : scene.contacts) {

@@ -28,6 +28,8 @@ constexpr Key table_of_keys[] = {
     {"", "nodes", table, "", "", "", "Points of the structure, by name; their order is the order of the degrees of freedom."},
     {"", "lines", tables, "", "", "", "Nodes in a row, at equal distances."},
     {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
+    {"", "bodies", tables, "", "", "", "Plane continua: meshes of rectangles and rings, or from files of Gmsh."},
+    {"", "seams", tables, "", "", "", "Boundaries of bodies that touch each other, the ground or a line: contacts by dual mortar."},
     {"", "masses", tables, "", "", "", "Point masses."},
     {"", "rigid", tables, "", "", "", "Rigid bodies: nodes that move with a centre, which has their mass and inertia."},
     {"", "supports", tables, "", "", "", "Degrees of freedom that are held."},
@@ -158,6 +160,55 @@ constexpr Key table_of_keys[] = {
     {"members[].bend", "flexibility", positive, "", "", "", "EI is divided by it; of a pipe max(1, 1.65 / h) where absent, h = wall radius / r^2, r the mean radius of the wall; else 1."},
     {"members[].bend", "sif", positive, "", "", "", "Stresses of bending are multiplied by it; of a pipe max(1, 0.9 / h^(2/3)) where absent; else 1."},
 
+    {"bodies[]", "name", name, "", "required", "", "Name of the body; its nodes are NAME.NUMBER, by the numbers of the file, or from 1 on, row by row."},
+    {"bodies[]", "mesh", text, "", "", "", "File of Gmsh beside the scene, .msh 4.1 or 2.2 in ASCII; or rectangle, or ring."},
+    {"bodies[]", "surfaces", texts, "", "[]", "", "mesh: physical surfaces that the body consists of; all elements where absent."},
+    {"bodies[]", "groups", texts, "", "[]", "", "mesh: physical curves and points that the file must have; all that it has are taken anyway."},
+    {"bodies[]", "rectangle", table, "", "", "", "A rectangle, instead of mesh; its groups are bottom, right, top, left."},
+    {"bodies[]", "ring", table, "", "", "", "A sector of a ring, instead of mesh; its groups are inner, outer, start, end; of a whole ring inner and outer."},
+    {"bodies[]", "elements", numbers, "", "", "", "rectangle: elements [along its width, along its height]; ring: [from inside to outside, around]. Required without mesh."},
+    {"bodies[]", "shape", choice, "", "\"q4\"", "t3 t6 q4 q8", "rectangle, ring: triangles with 3 or 6 nodes, quadrilaterals with 4 (with incompatible modes) or 8."},
+    {"bodies[]", "grading", vector, "", "[1.0, 1.0]", "", "rectangle, ring: the last element is so many times as long as the first, in both directions of elements."},
+    {"bodies[]", "points", table, "", "", "", "Nodes of the mesh at these places get names of their own, and columns in history.csv."},
+    {"bodies[]", "E", positive, "force/length^2", "required", "", "Young's modulus."},
+    {"bodies[]", "nu", number, "", "required", "", "Poisson's ratio, from 0 to below 0.5."},
+    {"bodies[]", "density", positive, "mass/length^3", "required", "", "Density."},
+    {"bodies[]", "thickness", positive, "length", "1.0", "", "Extent out of the plane."},
+    {"bodies[]", "plane", choice, "", "required", "stress strain", "Plane stress or plane strain."},
+    {"bodies[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix."},
+    {"bodies[]", "thermal_expansion", number, "1/temperature", "0.0", "", "Coefficient of thermal expansion: strain for each unit of temperature, in whichever unit that is."},
+    {"bodies[]", "temperature", standing_history, "temperature", "0.0", "", "Temperature above that of the undeformed state, all over the body; a number or a history."},
+
+    {"bodies[].rectangle", "from", vector, "length", "[0.0, 0.0]", "", "Place [x, y] of the corner of bottom and left."},
+    {"bodies[].rectangle", "size", vector, "length", "required", "", "Width and height, both > 0."},
+    {"bodies[].rectangle", "degrees", number, "", "0.0", "", "Turned about that corner, counter-clockwise, in degrees."},
+
+    {"bodies[].ring", "centre", vector, "length", "[0.0, 0.0]", "", "Place [x, y] of the centre."},
+    {"bodies[].ring", "inner", positive, "length", "required", "", "Inner radius."},
+    {"bodies[].ring", "outer", positive, "length", "required", "", "Outer radius."},
+    {"bodies[].ring", "degrees", vector, "", "[0.0, 360.0]", "", "Angles [start, end] in degrees, counter-clockwise from x; 360 apart: a whole ring."},
+
+    {"bodies[].points", "*", vector, "length", "", "", "Place [x, y] of a node of the mesh, which gets this name."},
+
+    {"seams[]", "name", name, "", "required", "", "Name of the seam; its contacts are NAME.1, NAME.2, ... along the slave boundary."},
+    {"seams[]", "slave", text, "", "required", "", "Boundary \"BODY.GROUP\" whose nodes are the contacts; the finer mesh, as a rule."},
+    {"seams[]", "master", text, "", "", "", "Boundary \"BODY.GROUP\" that it touches, or \"ground\": what rests where the undeformed slave is; or line."},
+    {"seams[]", "line", table, "", "", "", "A straight line at rest that the slave touches, instead of master."},
+    {"seams[]", "law", choice, "", "required", "compliant rigid", "As of contacts."},
+    {"seams[]", "normal_stiffness", positive, "force/length^3", "", "", "compliant: stiffness for each area; or layer."},
+    {"seams[]", "tangential_stiffness", positive, "force/length^3", "", "", "compliant, with friction: stiffness along the seam for each area; or layer."},
+    {"seams[]", "layer", table, "", "", "", "compliant: material between the surfaces, kn = E / thickness, kt = G / thickness for each area, instead of normal_stiffness and tangential_stiffness."},
+    {"seams[]", "normal_damping", non_negative, "force*time/length^3", "0.0", "", "compliant: dashpot beside the normal stiffness, for each area."},
+    {"seams[]", "gap", number, "length", "", "", "Gap of the undeformed state all along the seam, < 0: interference; from the places of the nodes where absent."},
+    {"seams[]", "contact_mass", choice, "", "\"consistent\"", "consistent none", "\"none\": nodes of the slave boundary have no mass; nodes near them have it, with the same total, centre and inertia. Fewer events."},
+
+    {"seams[].line", "point", vector, "length", "required", "", "A point [x, y] of the line."},
+    {"seams[].line", "normal", vector, "", "required", "", "Direction in which the body lifts off from it; it is made a unit vector."},
+
+    {"seams[].layer", "E", positive, "force/length^2", "required", "", "Young's modulus of the layer."},
+    {"seams[].layer", "G", positive, "force/length^2", "", "", "Shear modulus of the layer; required with friction."},
+    {"seams[].layer", "thickness", positive, "length", "required", "", "Thickness of the layer."},
+
     {"masses[]", "node", name, "", "required", "", "Node that carries the mass."},
     {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
     {"masses[]", "inertia", non_negative, "mass*length^2", "0.0", "", "Moment of inertia about the node."},
@@ -255,6 +306,9 @@ constexpr Key table_of_keys[] = {
     {"loads[]", "amplitude", number, "force", "", "", "Factor of the history; or moment, or distributed."},
     {"loads[]", "moment", number, "force*length", "", "", "Factor of the history of a moment about the node, counter-clockwise, instead of amplitude."},
     {"loads[]", "distributed", number, "force/length", "", "", "Factor of the history of a force per length of pieces of members, instead of amplitude."},
+    {"loads[]", "traction", number, "force/length^2", "", "", "Factor of the history of a force per area of a boundary, along direction, instead of amplitude."},
+    {"loads[]", "pressure", number, "force/length^2", "", "", "Factor of the history of a pressure on a boundary, positive into the body, instead of amplitude."},
+    {"loads[]", "group", text, "", "", "", "Traction and pressure: boundary \"BODY.GROUP\" that is loaded."},
     {"loads[]", "nodes", texts, "", "", "", "Distributed: from each of these nodes to the next there is a piece of a member, which is loaded; \"P0..P9\" as in members."},
     {"loads[]", "axes", choice, "", "\"global\"", "global member", "Distributed: direction is [x, y], or with \"member\" [along the piece from node to node, to its left]."},
     {"loads[]", "history", KeyType::history, "", "{ type = \"constant\" }", "", "The load's course in time."},
@@ -333,6 +387,12 @@ constexpr std::string_view of_pendulums = "pendulums[]";
 /// Keys of contacts that a pendulum has, too.
 constexpr std::array borrowed_by_pendulums = {"friction", "tangential_stiffness", "tangential_damping",
                                               "initial_shear", "normal_damping"};
+/// And a seam.
+constexpr std::array borrowed_by_seams = {"friction", "surface_velocity", "restitution", "capture_velocity"};
+
+bool is_borrowed_by_seams(std::string_view name) {
+  return std::find(borrowed_by_seams.begin(), borrowed_by_seams.end(), name) != borrowed_by_seams.end();
+}
 
 }  // namespace
 
@@ -341,6 +401,9 @@ const Key* find_key(std::string_view table, std::string_view name) {
                         borrowed_by_pendulums.end();
   if (table.starts_with(of_pendulums) && (table != of_pendulums || borrowed))
     return find_key("contacts[]" + std::string(table.substr(of_pendulums.size())), name);
+  constexpr std::string_view seams = "seams[]";
+  if (table == "seams[].friction" || (table == seams && is_borrowed_by_seams(name)))
+    return find_key("contacts[]" + std::string(table.substr(seams.size())), name);
   constexpr std::string_view stops = "stops[]";
   if (table.starts_with(stops) && !(table == stops && (name == "normal" || name == "tangent"))) {
     for (const Key& key : table_of_keys)
@@ -362,6 +425,7 @@ std::vector<std::string> key_names(std::string_view table) {
   }
   if (table == of_pendulums)
     names.insert(names.end(), borrowed_by_pendulums.begin(), borrowed_by_pendulums.end());
+  if (table == "seams[]") names.insert(names.end(), borrowed_by_seams.begin(), borrowed_by_seams.end());
   if (table == "stops[]")
     for (const std::string& name : key_names("contacts[]"))
       if (find_key(table, name) && find_key(table, name)->table != table) names.push_back(name);

@@ -103,6 +103,16 @@ void visit_structure(Scene& scene, const Visit& visit) {
     visit_history(m.initial_strain, plain, visit);
     if (m.bend) visit(m.bend->radius, length);
   }
+  for (BodySpec& b : scene.bodies) {
+    visit(b.E, Unit{1, -2, 0});
+    visit(b.density, Unit{1, -4, 2});
+    visit(b.thickness, length);
+    visit_history(b.temperature, plain, visit);
+  }
+  for (SeamSpec& seam : scene.seams) {
+    visit(seam.thickness, length);
+    for (SeamNode& node : seam.nodes) visit(node.length, length);
+  }
   for (Support& s : scene.supports)
     if (s.motion) {
       const int rate = s.motion_is_acceleration ? -2 : 0;
@@ -130,6 +140,21 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);
   visit_optional(c.capture_velocity, velocity, visit);
+}
+
+/// Of a load's amplitude: force times length to this power.
+int lengths_of(LoadType type) {
+  switch (type) {
+    case LoadType::force:
+      return 0;
+    case LoadType::moment:
+      return 1;
+    case LoadType::distributed:
+      return -1;
+    case LoadType::traction:
+      break;
+  }
+  return -2;
 }
 
 /// x^n of a power of two is one, so products stay exact.
@@ -181,8 +206,7 @@ void visit_quantities(Scene& scene, const Visit& visit) {
   visit_structure(scene, visit);
   for (ContactSpec& c : scene.contacts) visit_contact(c, visit);
   for (LoadSpec& load : scene.loads) {
-    const int lengths = load.type == LoadType::moment ? 1 : load.type == LoadType::distributed ? -1 : 0;
-    visit(load.amplitude, Unit{1, lengths, 0});
+    visit(load.amplitude, Unit{1, lengths_of(load.type), 0});
     visit_history(load.history, plain, visit);
   }
   for (BaseMotionSpec& motion : scene.base_motion) visit_history(motion.acceleration, acceleration, visit);

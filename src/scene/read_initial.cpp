@@ -36,7 +36,9 @@ void read_list(Table& table, std::string_view key, const Space& space, std::vect
 
 void read_nodes_state(Table& table, InitialSpec& initial, const Space& space) {
   for (const Entry& entry : entries_of(table.node())) {
-    check_known(entry.name, space.names, "node", entry.place(), table.path(entry.name));
+    const auto group = space.groups.find(entry.name);
+    if (group == space.groups.end())
+      check_known(entry.name, space.names, "node", entry.place(), table.path(entry.name));
     const toml::node* node = table.raw(entry.name);
     if (!node->is_table()) table.wrong(entry.name, "a table { ux = ..., vx = ... }");
     Table state(node->as_table(), "run.initial.*", table.path(entry.name), place_of(*node));
@@ -44,7 +46,9 @@ void read_nodes_state(Table& table, InitialSpec& initial, const Space& space) {
       for (const PlaneComponent& c : plane_components) {
         const char* component = rate ? c.velocity : c.displacement;
         if (const auto value = state.optional_number(component))
-          initial.components.push_back({entry.name, component, *value, state.place(component)});
+          for (const std::string& name :
+               group == space.groups.end() ? std::vector<std::string>{entry.name} : group->second)
+            initial.components.push_back({name, component, *value, state.place(component)});
       }
     state.finish();
     table.record(entry.name, state.record().inline_table());

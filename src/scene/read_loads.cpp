@@ -36,6 +36,20 @@ void read_distributed(Table& table, LoadSpec& load, const Space& space) {
   load.amplitude = table.number("distributed");
 }
 
+/// On a boundary of a body.
+void read_traction(Table& table, LoadSpec& load, const Space& space, const Scene& scene) {
+  load.type = LoadType::traction;
+  load.pressure = table.has("pressure");
+  table.require("group", load.pressure ? " (pressure)" : " (traction)");
+  load.group = table.text("group");
+  static_cast<void>(find_boundary(table, "group", load.group, scene));
+  if (!load.pressure) {
+    table.require("direction", " (traction)");
+    load.direction = read_direction(table, "direction", space);
+  }
+  load.amplitude = table.number(load.pressure ? "pressure" : "traction");
+}
+
 BaseMotionSpec read_one_motion(Table& table, const Scene& scene) {
   BaseMotionSpec motion;
   motion.place = table.place();
@@ -73,7 +87,14 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
       if (table.has(other) && (moment || (distributed && table.has("amplitude"))))
         table.fail(other, fmt::format("stands beside {}, expected one of the two",
                                       moment ? "moment" : "distributed"));
-    if (space.matrices || !(moment || distributed))
+    const bool traction = table.has("traction") || table.has("pressure");
+    for (const char* other : {"amplitude", "moment", "distributed", "traction"})
+      if (traction && table.has(other) && (table.has("pressure") || std::string_view(other) != "traction"))
+        table.fail(other, fmt::format("stands beside {}, expected one of the two",
+                                      table.has("pressure") ? "pressure" : "traction"));
+    if (!space.matrices && traction)
+      read_traction(table, load, space, scene);
+    else if (space.matrices || !(moment || distributed))
       read_force(table, load, space);
     else if (moment)
       read_moment(table, load, space);
@@ -81,6 +102,7 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
       read_distributed(table, load, space);
     load.history = read_load_history(table, "history", scene);
     table.finish(space.matrices ? "has no meaning with [matrices]"
+                 : traction     ? "has no meaning for a load on a boundary"
                  : moment       ? "has no meaning for a moment"
                  : distributed  ? "has no meaning for a distributed load"
                                 : "has no meaning for a force at a node");

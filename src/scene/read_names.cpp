@@ -18,6 +18,13 @@ Space space_of(const Scene& scene) {
     for (const std::string& name : scene.matrices->dofs) space.names.add(name);
   } else {
     for (const Node& node : scene.nodes) space.names.add(node.name);
+    for (const BodySpec& body : scene.bodies) {
+      for (const PlaneMesh::Group& group : body.mesh.groups)
+        for (const int n : group.nodes)
+          space.groups[body.name + "." + group.name].push_back(scene.nodes[static_cast<std::size_t>(n)].name);
+      std::vector<std::string>& all = space.groups[body.name];
+      for (std::size_t i = 0; i < body.node_count; ++i) all.push_back(scene.nodes[body.first_node + i].name);
+    }
   }
   return space;
 }
@@ -74,6 +81,8 @@ std::vector<std::string> read_node_names(Table& table, std::string_view key, con
     if (names.size() > most) table.fail(key, fmt::format("found more than {} nodes", most));
     if (text.find("..") != std::string::npos) {
       add_range(text, table, key, space, names);
+    } else if (const auto group = space.groups.find(text); group != space.groups.end()) {
+      names.insert(names.end(), group->second.begin(), group->second.end());
     } else {
       check_known(text, space.names, "node", table.place(key), table.path(key));
       names.push_back(text);

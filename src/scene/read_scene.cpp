@@ -148,9 +148,12 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
     record.top.set("gravity", toml_numbers(scene.gravity));
     read_nodes(top, scene, record);
     read_lines(top, scene, record);
+    if (const auto t_end = root.at_path("run.t_end").value<double>(); t_end && *t_end > 0.0)
+      scene.run.t_end = *t_end;  // the histories of bodies are read up to it; read_run checks it
+    read_bodies(top, scene, record);
     read_rigid(top, scene, record);
     if (scene.nodes.empty())
-      throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes] or [matrices]");
+      throw SceneError({file, 1, 1}, "nodes", "missing, expected [nodes], [[bodies]] or [matrices]");
     read_run(top, scene, record);  // histories are read up to t_end
     read_sections(top, scene, record);
     read_members(top, scene, record);
@@ -163,6 +166,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   read_contacts(top, scene, record);  // compressions are checked up to t_end
   read_stops(top, scene, record);
   read_pendulums(top, scene, record);
+  read_seams(top, scene, record);
   read_loads(top, scene, record);
   read_base_motion(top, scene, record);
   read_outputs(top, scene, record);

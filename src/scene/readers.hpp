@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "scene/record.hpp"
@@ -19,7 +20,8 @@ namespace signorini {
 struct Space {
   bool matrices = false;
   Names names;
-  std::filesystem::path directory;  ///< where files are looked for
+  std::unordered_map<std::string, std::vector<std::string>> groups;  ///< "BODY.GROUP": its nodes
+  std::filesystem::path directory;                                   ///< where files are looked for
 };
 [[nodiscard]] Space space_of(const Scene& scene);
 
@@ -35,6 +37,10 @@ void read_reduction(Table& top, Scene& scene, RecordedScene& record);
 void read_sections(Table& top, Scene& scene, RecordedScene& record);
 void read_nodes(Table& top, Scene& scene, RecordedScene& record);
 void read_lines(Table& top, Scene& scene, RecordedScene& record);
+/// After all named nodes: their meshes add more.
+void read_bodies(Table& top, Scene& scene, RecordedScene& record);
+/// After contacts, stops and pendulums: each makes contacts.
+void read_seams(Table& top, Scene& scene, RecordedScene& record);
 /// Before what refers to centres, which may be new nodes.
 void read_rigid(Table& top, Scene& scene, RecordedScene& record);
 void read_members(Table& top, Scene& scene, RecordedScene& record);
@@ -56,7 +62,7 @@ void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
 /// The name of a node, required.
 [[nodiscard]] std::string read_node(Table& table, std::string_view key, const Space& space);
-/// Names of nodes, "P0..P9" and "P0..P9:3" written out; recorded as given.
+/// Names of nodes, "P0..P9" and "P0..P9:3" and groups "BODY.GROUP" written out; recorded as given.
 [[nodiscard]] std::vector<std::string> read_node_names(Table& table, std::string_view key,
                                                        const Space& space);
 /// `node`, or all of `nodes`; one of the two is required.
@@ -66,6 +72,14 @@ void read_base_motion(Table& top, Scene& scene, RecordedScene& record);
 [[nodiscard]] Direction read_direction(Table& table, std::string_view key, const Space& space);
 /// The column of numbers in the Matrix Market file that the key names, `size` of them.
 [[nodiscard]] std::vector<double> read_vector_file(Table& table, std::string_view key, const Space& space);
+
+/// A boundary of a body, "BODY.GROUP", with edges. Errors: SceneError, with the groups that there are.
+struct BoundaryRef {
+  std::size_t body = 0;
+  const PlaneMesh::Group* group = nullptr;
+};
+[[nodiscard]] BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
+                                        const Scene& scene);
 
 /// A load's history: offset 0, amplitude 1. The scene says where files are looked for, t_end and the units.
 [[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);

@@ -48,12 +48,33 @@ struct Builder {
     const std::vector<int> numbers = map.element_numbers(number);
     const ElementMatrix m = e.mass();
     if (!map.within_body(e)) add(stiffness, &SupportColumns::stiffness, e.stiffness(), numbers);
+    if (const auto moved = map.mesh.moved.find(number); moved != map.mesh.moved.end())
+      return add_moved_mass(m, moved->second);
     add(mass, &SupportColumns::mass, m, numbers);
     add_inertia(m * e.translation(scene.gravity), numbers,
                 [&](int n, double force) { add_weight(n, force); });
     for (std::size_t i = 0; i < base.size(); ++i)
       add_inertia(m * e.translation(scene.base_motion[i].direction.vector), numbers,
                   [&](int n, double force) { map.add(base[i], n, force); });
+  }
+
+  /// W^T m W; W maps translations of everything to themselves, so that weight and base act on the whole mass.
+  void add_moved_mass(const ElementMatrix& m, const MovedMass& moved) {
+    std::vector<int> numbers;
+    ElementVector gravity(static_cast<Eigen::Index>(2 * moved.nodes.size()));
+    std::vector<ElementVector> along(base.size(), gravity);
+    for (std::size_t i = 0; i < moved.nodes.size(); ++i)
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto at = static_cast<Eigen::Index>(2 * i + c);
+        numbers.push_back(map.numbers_at(moved.nodes[i])[c]);
+        gravity[at] = scene.gravity[c];
+        for (std::size_t k = 0; k < base.size(); ++k) along[k][at] = scene.base_motion[k].direction.vector[c];
+      }
+    const ElementMatrix own = moved.weights.transpose() * m * moved.weights;
+    add(mass, &SupportColumns::mass, own, numbers);
+    add_inertia(own * gravity, numbers, [&](int n, double force) { add_weight(n, force); });
+    for (std::size_t k = 0; k < base.size(); ++k)
+      add_inertia(own * along[k], numbers, [&](int n, double force) { map.add(base[k], n, force); });
   }
 
   /// Into what else holds stiffnesses.

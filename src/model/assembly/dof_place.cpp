@@ -7,6 +7,7 @@ namespace signorini {
 SourcePlace place_of_structure(const Scene& scene) {
   if (scene.matrices) return scene.matrices->mass.place;
   if (!scene.members.empty()) return scene.members.front().place;
+  if (!scene.bodies.empty()) return scene.bodies.front().place;
   return scene.nodes.empty() ? SourcePlace{scene.file, 1, 1} : scene.nodes.front().place;
 }
 
@@ -14,7 +15,8 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
   if (map.matrices()) return scene.matrices->stiffness.place;
   const int node = map.where[static_cast<std::size_t>(dof)].first;
   const auto member_place = [&](std::size_t element) {
-    return scene.members[static_cast<std::size_t>(map.mesh.element(element).member())].place;
+    const auto i = static_cast<std::size_t>(map.mesh.element(element).member());
+    return i < scene.members.size() ? scene.members[i].place : scene.bodies[i - scene.members.size()].place;
   };
   for (const auto& [unknown, number] : map.own)
     if (number == dof) return member_place(unknown.first);

@@ -68,7 +68,8 @@ void mark_needed(const Scene& scene, const Mesh& mesh, Numbers& numbers) {
 }
 
 void add_columns(DofMap& map) {
-  for (std::size_t node = 0; node < static_cast<std::size_t>(map.mesh.named); ++node)
+  for (std::size_t node = 0; node < static_cast<std::size_t>(map.mesh.named); ++node) {
+    if (!map.mesh.nodes[node].listed) continue;
     for (bool velocity : {false, true})
       for (int d : map.number[node])
         if (d >= 0) {
@@ -76,6 +77,7 @@ void add_columns(DofMap& map) {
                                           : map.dofs[static_cast<std::size_t>(d)];
           map.columns.push_back({velocity ? dof.velocity : dof.displacement, d, velocity});
         }
+  }
 }
 
 /// The one thing that support i holds moves.

@@ -10,7 +10,8 @@ namespace {
 
 DrawnNode drawn_node(const DofMap& map, std::size_t i) {
   const MeshNode& at = map.mesh.nodes[i];
-  DrawnNode node{at.name, at.x, at.y, {-1, -1, -1}, i < static_cast<std::size_t>(map.mesh.named), false};
+  DrawnNode node{at.name, at.x, at.y, {-1, -1, -1}, i < static_cast<std::size_t>(map.mesh.named) && at.listed,
+                 false};
   for (std::size_t c = 0; c < 3; ++c) {
     node.dofs[c] = std::max(map.number[i][c], -1);
     node.held = node.held || map.number[i][c] == DofMap::fixed;

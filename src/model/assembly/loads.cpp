@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mesh/plane_shapes.hpp"
 #include "model/assembly/pieces.hpp"
 #include "scene/components.hpp"
 #include "scene/history_from_spec.hpp"
@@ -58,6 +59,13 @@ Vector distributed_form(const LoadSpec& spec, const DofMap& map, const std::stri
   return form;
 }
 
+Vector traction_form(const Scene& scene, const LoadSpec& spec, const DofMap& map) {
+  Vector form = Vector::Zero(map.size());
+  for (const NodeForce& f : traction_forces(scene, map.mesh, spec))
+    for (std::size_t c = 0; c < 2; ++c) map.add(form, map.numbers_at(f.node)[c], f.force[c]);
+  return form;
+}
+
 /// The history, unless factors that are finite each have made it something else.
 History finite(History history, const SourcePlace& place, const std::string& key) {
   for (const Piece& p : history.pieces()) {
@@ -70,8 +78,8 @@ History finite(History history, const SourcePlace& place, const std::string& key
   return history;
 }
 
-/// Adds one of the three kinds of [[loads]].
-Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
+/// Adds one of the kinds of [[loads]].
+Load given_load(const Scene& scene, const LoadSpec& spec, const DofMap& map, std::size_t number) {
   const std::string key = fmt::format("loads.{}", number);
   Load load;
   load.name = name_of(spec, number);
@@ -93,6 +101,11 @@ Load given_load(const LoadSpec& spec, const DofMap& map, std::size_t number) {
       load.direction = form_of(distributed_form(spec, map, key), 1.0);
       load.of_direction = unit::length;
       break;
+    case LoadType::traction:
+      load.kind = LoadKind::distributed;
+      load.direction = form_of(traction_form(scene, spec, map), 1.0);
+      load.of_direction = {0, 2, 0};
+      break;
   }
   return load;
 }
@@ -105,6 +118,23 @@ Combination strain_form(const DofMap& map, int member) {
     if (e.member() == member && !map.within_body(e)) add_to(form, e.strain_forces(), map, i);
   }
   return form_of(form, 1.0);
+}
+
+void add_heat_of_bodies(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodySpec& body = scene.bodies[i];
+    const std::string path = fmt::format("bodies.{}.temperature", body.name);
+    const History history =
+        finite(make_history(body.temperature, path).scaled(body.thermal_expansion), body.place, path);
+    if (history.is_constant() && history.value(0.0) == 0.0) continue;
+    const auto owner = static_cast<int>(scene.members.size() + i);
+    Load load{fmt::format("temperature of body {}", body.name), strain_form(map, owner), history,
+              holds_since_ever(body.temperature, history)};
+    load.kind = LoadKind::temperature;
+    load.of_direction = unit::force;
+    load.of_history = unit::plain;
+    loads.push_back(std::move(load));
+  }
 }
 
 void add_strains(const Scene& scene, const DofMap& map, std::vector<Load>& loads) {
@@ -216,6 +246,35 @@ History motion_of_support(const Scene& scene, const DofMap& map, int i) {
   return support_motion(scene, map, static_cast<std::size_t>(i)).s;
 }
 
+std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh, const LoadSpec& spec) {
+  std::vector<NodeForce> forces;
+  for (const BodySpec& body : scene.bodies)
+    for (const PlaneMesh::Group& group : body.mesh.groups) {
+      if (body.name + "." + group.name != spec.group) continue;
+      for (const PlaneMesh::Edge& edge : group.edges) {
+        std::vector<NodeForce> own;
+        for (const int n : edge.nodes) own.push_back({n, {0.0, 0.0}});
+        for (const EdgePoint& point : edge_points()) {
+          const EdgeValues v = edge_shapes_at(edge.nodes.size(), point.s);
+          double dx = 0.0, dy = 0.0;
+          for (std::size_t i = 0; i < own.size(); ++i) {
+            dx += v.slopes[i] * mesh.node(own[i].node).x;
+            dy += v.slopes[i] * mesh.node(own[i].node).y;
+          }
+          const double ds = std::hypot(dx, dy);
+          const std::array<double, 2> q =  // into the body: (-dy, dx) / ds
+              spec.pressure ? std::array{-dy, dx}
+                            : std::array{ds * spec.direction.vector[0], ds * spec.direction.vector[1]};
+          for (std::size_t i = 0; i < own.size(); ++i)
+            for (std::size_t c = 0; c < 2; ++c)
+              own[i].force[c] += body.thickness * point.weight * v.values[i] * q[c];
+        }
+        forces.insert(forces.end(), own.begin(), own.end());
+      }
+    }
+  return forces;
+}
+
 std::string rate_of(const std::string& support_motion) {
   const std::string_view component = last_part(support_motion);
   return support_motion.substr(0, support_motion.size() - component.size()) +
@@ -236,6 +295,7 @@ std::string name_of_strain(LoadKind kind, int member) {
 Unit unit_of_history(LoadType type) {
   return type == LoadType::moment        ? unit::energy
          : type == LoadType::distributed ? unit::stiffness
+         : type == LoadType::traction    ? Unit{1, -2, 0}
                                          : unit::force;
 }
 
@@ -249,8 +309,9 @@ std::vector<Load> make_loads(const Scene& scene, const DofMap& map, const Assemb
   const bool stiffens = scene.run.geometric && (scene.gravity[0] != 0.0 || scene.gravity[1] != 0.0);
   if (!gravity.direction.terms.empty() || stiffens) loads.push_back(std::move(gravity));
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
-    loads.push_back(given_load(scene.loads[i], map, i + 1));
+    loads.push_back(given_load(scene, scene.loads[i], map, i + 1));
   add_strains(scene, map, loads);
+  add_heat_of_bodies(scene, map, loads);
   add_preloads(scene, map, loads);
   add_base(scene, assembly, loads);
   add_supports(scene, map, assembly, loads);

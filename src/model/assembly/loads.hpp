@@ -4,12 +4,14 @@
 //
 //   force, moment    on the node's own degrees of freedom
 //   distributed      q on an element of length L, in its axes:  q_x L/2, q_y L/2, +- q_y L^2/12 at its ends
+//   traction q on an edge of a body  t int N q ds;  pressure p: q = -p nu, nu outward
 //   preload F of a spring            -F d at its node, F d at the other end
 //   temperature T, initial strain    EA alpha T (-e, e), EA strain (-e, e), e along the element
 //   weight, base     M r g, -M r a(t)
 //   support s(t)     -K_fs s;   its rates: -C_fs s' - M_fs s'',   C = D + alpha M + beta K
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "model/assembly/assembly.hpp"
@@ -23,6 +25,13 @@ namespace signorini {
 [[nodiscard]] std::string name_of(const LoadSpec& load, std::size_t number);
 /// Of a strain of a member, temperature or initial strain.
 [[nodiscard]] std::string name_of_strain(LoadKind kind, int member);
+/// Forces of a traction of one on nodes of the mesh.
+struct NodeForce {
+  int node = 0;
+  std::array<double, 2> force{0.0, 0.0};
+};
+[[nodiscard]] std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh,
+                                                     const LoadSpec& spec);
 /// Of the preload of a spring, counted from 0.
 [[nodiscard]] std::string name_of_preload(std::size_t spring);
 /// Load::of_history.

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "model/element/body_mesh.hpp"
 #include "model/element/element_kinds.hpp"
 
 namespace signorini {
@@ -15,10 +16,11 @@ Mesh make_mesh(const Scene& scene) {
   Mesh mesh;
   for (const Node& node : scene.nodes) {
     mesh.by_name.emplace(node.name, static_cast<int>(mesh.nodes.size()));
-    mesh.nodes.push_back({node.name, node.x, node.y});
+    mesh.nodes.push_back({node.name, node.x, node.y, !node.of_mesh});
   }
   mesh.named = static_cast<int>(mesh.nodes.size());
   for (std::size_t i = 0; i < scene.members.size(); ++i) kind_of(scene.members[i].type).mesh(mesh, scene, i);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) mesh_body(mesh, scene, i);
   return mesh;
 }
 

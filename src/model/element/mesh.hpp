@@ -14,6 +14,13 @@ namespace signorini {
 struct MeshNode {
   std::string name;
   double x = 0.0, y = 0.0;  ///< length
+  bool listed = true;       ///< it has columns in history.csv; not of the inside of a body's mesh
+};
+
+/// Mass that an element has on other nodes: of the unknowns of its nodes by those of `nodes`.
+struct MovedMass {
+  std::vector<int> nodes;   ///< of the mesh, two unknowns each
+  Eigen::MatrixXd weights;  ///< element's unknowns x 2 nodes
 };
 
 /// A piece of a member of bars or beams between two named nodes; an arc has nodes on it, and chords as elements.
@@ -26,8 +33,9 @@ struct Mesh {
   std::vector<MeshNode> nodes;
   std::vector<std::shared_ptr<const FiniteElement>> elements;
   std::vector<MeshPiece> pieces;
-  int named = 0;                                 ///< the first `named` nodes are those of the file
-  std::unordered_map<std::string, int> by_name;  ///< of the named ones
+  std::unordered_map<std::size_t, MovedMass> moved;  ///< an element: contact_mass = "none"
+  int named = 0;                                     ///< the first `named` nodes are those of the file
+  std::unordered_map<std::string, int> by_name;      ///< of the named ones
 
   [[nodiscard]] const FiniteElement& element(std::size_t i) const { return *elements[i]; }
   /// An element of a piece.

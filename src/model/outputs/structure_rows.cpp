@@ -39,6 +39,8 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
     const std::string key = fmt::format("loads.{}", i + 1);
     loads_.push_back({make_history(load.history, key + ".history").scaled(load.amplitude),
                       name_of(load, i + 1), 1.0, unit_of_history(load.type)});
+    tractions_.emplace_back();
+    if (load.type == LoadType::traction) tractions_.back() = traction_forces(scene, map.mesh, load);
     for (std::size_t j = 0; j + 1 < load.pieces.size(); ++j) {
       const auto [piece, backwards] =
           piece_between(map, load.pieces[j], load.pieces[j + 1], load.place, key + ".nodes");
@@ -53,6 +55,9 @@ StructureRows::StructureRows(const Scene& scene, const DofMap& map, double alpha
         {make_history(member.temperature, key + "temperature").scaled(member.thermal_expansion),
          make_history(member.initial_strain, key + "initial_strain")});
   }
+  for (const BodySpec& body : scene.bodies)
+    strains_.push_back({make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
+                            .scaled(body.thermal_expansion)});
 }
 
 void StructureRows::add_motion(PhysicalRow& row, int number, double cu, double cv, double ca) const {
@@ -78,7 +83,9 @@ void StructureRows::add_frame(PhysicalRow& row, double x, double y, bool gravity
 
 void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bool stiff) const {
   const FiniteElement& e = element(i);
-  const ElementVector ca = e.mass() * cut.forces + cut.acceleration;
+  const auto moved = map_.mesh.moved.find(i);
+  ElementVector ca = cut.acceleration;
+  if (moved == map_.mesh.moved.end()) ca += e.mass() * cut.forces;
   ElementVector cu = ElementVector::Zero(ca.size()), frozen = cut.deflection;  // what is frozen is not damped
   if (stiff) cu = e.stiffness() * cut.forces;
   const AxialForces standing = map_.frozen_in(i);
@@ -101,6 +108,24 @@ void StructureRows::add_ends(PhysicalRow& row, std::size_t i, const Cut& cut, bo
   if (!stiff) return;
   for (const History& strain : strains_[static_cast<std::size_t>(e.member())])
     add_given(row, strain, -e.strain_work(cut.forces));
+}
+
+/// factor times the force that the moved mass of an element has on component c of a node; -1: on all.
+void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, std::size_t c,
+                                   double factor) const {
+  const MovedMass& moved = map_.mesh.moved.at(i);
+  ElementVector along = ElementVector::Zero(moved.weights.cols());
+  for (std::size_t j = 0; j < moved.nodes.size(); ++j)
+    if (node < 0 || moved.nodes[j] == node) along[static_cast<Eigen::Index>(2 * j + c)] = factor;
+  const ElementVector ca = moved.weights.transpose() * (element(i).mass() * (moved.weights * along));
+  PlaneVector frame{0.0, 0.0};
+  for (std::size_t j = 0; j < moved.nodes.size(); ++j)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double a = ca[static_cast<Eigen::Index>(2 * j + d)];
+      add_motion(row, map_.numbers_at(moved.nodes[j])[d], 0.0, alpha_ * a, a);
+      frame[d] += a;
+    }
+  add_frame(row, frame[0], frame[1]);
 }
 
 void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const Cut& cut) const {
@@ -148,6 +173,12 @@ void StructureRows::add_load(PhysicalRow& row, std::size_t i, double factor) con
 void StructureRows::add_force(PhysicalRow& row, std::size_t i, int node, std::size_t c, double factor) const {
   const LoadSpec& load = scene_.loads[i];
   if (load.type == LoadType::distributed) return;
+  if (load.type == LoadType::traction) {
+    double force = 0.0;
+    for (const NodeForce& f : tractions_[i])
+      if (c < 2 && (node < 0 || f.node == node)) force += f.force[c];
+    return add_load(row, i, factor * force);
+  }
   if (node >= 0 && map_.mesh.by_name.at(load.direction.node) != node) return;
   const bool moment = load.type == LoadType::moment;
   if (moment != (c == 2)) return;
@@ -187,6 +218,9 @@ void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, doub
       add_ends(row, i, cut, true);
     }
   }
+  for (const auto& [i, moved] : map_.mesh.moved)
+    if (c < 2 && std::find(moved.nodes.begin(), moved.nodes.end(), node) != moved.nodes.end())
+      add_moved_mass(row, i, node, c, factor);
   for (const Spring& spring : scene_.springs) {
     const double d = direction_of(spring)[c];
     if (map_.mesh.by_name.at(spring.node) == node) add_spring(row, spring, c == 2, factor * d);
@@ -205,6 +239,7 @@ void StructureRows::add_total(PhysicalRow& row, std::size_t c) const {
     Cut cut(element(i).unknowns().size());
     cut.forces = element(i).translation(along);
     add_ends(row, i, cut, false);
+    if (map_.mesh.moved.contains(i)) add_moved_mass(row, i, -1, c, -1.0);
   }
   for (const PointMass& mass : scene_.masses) add_mass(row, mass, c, -1.0);
   for (const Spring& spring : scene_.springs)

@@ -8,6 +8,7 @@
 // its history, those that rest are zero.
 #pragma once
 
+#include "model/assembly/loads.hpp"
 #include "model/assembly/pieces.hpp"
 #include "signorini/model.hpp"
 
@@ -46,6 +47,7 @@ class StructureRows {
   /// stiff: with the part of the stiffness.
   void add_ends(PhysicalRow& row, std::size_t element, const Cut& cut, bool stiff) const;
   void add_mass(PhysicalRow& row, const PointMass& mass, std::size_t c, double factor) const;
+  void add_moved_mass(PhysicalRow& row, std::size_t element, int node, std::size_t c, double factor) const;
   void add_load(PhysicalRow& row, std::size_t load, double factor) const;
   void add_force(PhysicalRow& row, std::size_t load, int node, std::size_t c, double factor) const;
   void add_contact(PhysicalRow& row, std::size_t contact, int node, std::size_t c, double factor) const;
@@ -59,9 +61,10 @@ class StructureRows {
     std::size_t load;
     std::array<double, 2> q;  // along x and y, of an amplitude of one
   };
-  std::vector<std::vector<Uniform>> uniform_;  // an element
-  std::vector<Output::Given> loads_;           // with amplitude
-  std::vector<std::vector<History>> strains_;  // a member
+  std::vector<std::vector<Uniform>> uniform_;      // an element
+  std::vector<std::vector<NodeForce>> tractions_;  // a load
+  std::vector<Output::Given> loads_;               // with amplitude
+  std::vector<std::vector<History>> strains_;      // a member; then of bodies
 };
 
 }  // namespace signorini

@@ -58,6 +58,9 @@ std::vector<std::string> loose_parts(const Scene& scene) {
   for (const ContactSpec& c : scene.contacts)
     for (const auto& direction : {c.normal, c.tangent})
       if (direction) nodes.insert(direction->node);
+  for (const BodySpec& body : scene.bodies)
+    for (const PlaneMesh::Element& e : body.mesh.elements)
+      for (const int n : e.nodes) nodes.insert(scene.nodes[static_cast<std::size_t>(n)].name);
   std::vector<std::string> loose, unused, result;
   for (const Node& node : scene.nodes)
     if (!nodes.contains(node.name)) loose.push_back(node.name);
@@ -99,10 +102,17 @@ MassFacts mass_of(const Scene& scene, const Model& model) {
   };
   const Mesh mesh = make_mesh(scene);
   for (const auto& e : mesh.elements) {
+    // Along x what is spread evenly has the shares of the nodes.
+    const ElementVector shares = e->spread({1.0 / e->extent(), 0.0});
+    const std::vector<ElementUnknown> unknowns = e->unknowns();
     double x = 0.0, y = 0.0;
-    for (const int node : e->nodes()) x += mesh.node(node).x, y += mesh.node(node).y;
-    const auto count = static_cast<double>(e->nodes().size());
-    add(e->density() * e->extent(), x / count, y / count);
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      if (unknowns[j].component != 0) continue;
+      const MeshNode& node = mesh.node(e->nodes()[unknowns[j].place]);
+      x += shares[static_cast<Eigen::Index>(j)] * node.x;
+      y += shares[static_cast<Eigen::Index>(j)] * node.y;
+    }
+    add(e->density() * e->extent(), x, y);
   }
   for (const PointMass& point : scene.masses) {
     const Node& node = *nodes.at(point.node);

@@ -1,0 +1,380 @@
+#include "mesh/gmsh_file.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "mesh/gmsh_words.hpp"
+#include "mesh/plane_shapes.hpp"
+
+namespace signorini {
+namespace {
+
+struct GmshType {
+  int number, dimension;
+  std::size_t nodes;
+  std::optional<PlaneShape> shape;
+};
+constexpr std::array gmsh_types = {GmshType{15, 0, 1, {}},
+                                   GmshType{1, 1, 2, {}},
+                                   GmshType{8, 1, 3, {}},
+                                   GmshType{2, 2, 3, PlaneShape::t3},
+                                   GmshType{9, 2, 6, PlaneShape::t6},
+                                   GmshType{3, 2, 4, PlaneShape::q4},
+                                   GmshType{16, 2, 8, PlaneShape::q8}};
+
+using Tag = std::pair<int, long>;  // dimension and number
+
+struct RawElement {
+  const GmshType* type = nullptr;
+  std::vector<int> nodes;
+  std::vector<long> physical;  // groups that it is in
+  long number = 0;
+  SourcePlace place;
+};
+
+/// What the file says, before a body is made of it.
+struct GmshContent {
+  std::vector<PlaneMesh::Node> nodes;
+  std::unordered_map<long, int> by_number;
+  std::vector<RawElement> elements;
+  std::map<Tag, std::string> names;              // of physical groups
+  std::map<Tag, std::vector<long>> of_entities;  // physical groups of an entity, 4.1
+
+  [[nodiscard]] std::string name(int dimension, long tag) const {
+    const auto known = names.find({dimension, tag});
+    return known != names.end() ? known->second : std::to_string(tag);
+  }
+};
+
+class GmshReader {
+ public:
+  GmshReader(std::istream& in, const std::string& file, const std::string& key) : words_(in, file, key) {}
+
+  GmshContent read() {
+    std::string section;
+    while (words_.next_section(section)) {
+      if (version_ == 0 && section != "MeshFormat")
+        words_.fail(fmt::format("found ${}, expected $MeshFormat first", section));
+      if (section == "MeshFormat")
+        read_format();
+      else if (section == "PhysicalNames")
+        read_names();
+      else if (section == "Entities" && version_ == 4)
+        read_entities();
+      else if (section == "Nodes")
+        version_ == 4 ? read_nodes() : read_old_nodes();
+      else if (section == "Elements")
+        version_ == 4 ? read_elements() : read_old_elements();
+      else {
+        words_.skip_section(section);
+        continue;
+      }
+      words_.end_section(section);
+    }
+    if (content_.elements.empty()) words_.fail("found no elements, expected $Elements");
+    return std::move(content_);
+  }
+
+ private:
+  void read_format() {
+    const double version = words_.number("the version");
+    if (version != 4.1 && version != 2.2)
+      words_.fail(fmt::format("found version {:.6g}, expected 4.1 or 2.2 (gmsh -format msh41)", version));
+    version_ = version == 4.1 ? 4 : 2;
+    if (words_.integer("the file type") != 0)
+      words_.fail("found a binary mesh, expected ASCII (gmsh -bin 0)");
+    static_cast<void>(words_.integer("the data size"));
+  }
+
+  void read_names() {
+    for (long n = words_.count("the number of names"); n > 0; --n) {
+      const auto dimension = static_cast<int>(words_.integer("a dimension"));
+      const long tag = words_.integer("a physical tag");
+      content_.names[{dimension, tag}] = words_.quoted("the name of a physical group");
+    }
+  }
+
+  void read_entities() {
+    std::array<long, 4> counts{};
+    for (long& n : counts) n = words_.count("a number of entities");
+    for (int dimension = 0; dimension < 4; ++dimension)
+      for (long n = counts[static_cast<std::size_t>(dimension)]; n > 0; --n) {
+        const long tag = words_.integer("the tag of an entity");
+        for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) static_cast<void>(words_.number("a coordinate"));
+        std::vector<long>& groups = content_.of_entities[{dimension, tag}];
+        for (long k = words_.count("a number of physical groups"); k > 0; --k)
+          groups.push_back(std::abs(words_.integer("a physical tag")));
+        if (dimension == 0) continue;
+        for (long k = words_.count("a number of bounding entities"); k > 0; --k)
+          static_cast<void>(words_.integer("the tag of an entity"));
+      }
+  }
+
+  void add_node(long number, SourcePlace place, double x, double y, double z) {
+    if (!content_.by_number.emplace(number, static_cast<int>(content_.nodes.size())).second)
+      words_.fail(fmt::format("found node {} twice", number));
+    if (content_.nodes.empty()) z_ = z;
+    if (z != z_)
+      words_.fail(
+          fmt::format("found z = {:.6g} of node {}, expected {:.6g} of all: a plane mesh", z, number, z_));
+    content_.nodes.push_back({x, y, number, std::move(place)});
+  }
+
+  void read_nodes() {
+    long blocks = words_.count("the number of blocks");
+    for (int i = 0; i < 3; ++i) static_cast<void>(words_.integer("the number of nodes, or a tag"));
+    for (; blocks > 0; --blocks) {
+      const long dimension = words_.integer("a dimension");
+      static_cast<void>(words_.integer("the tag of an entity"));
+      const bool parametric = words_.integer("0 or 1") != 0;
+      std::vector<std::pair<long, SourcePlace>> numbers(
+          static_cast<std::size_t>(words_.count("a number of nodes")));
+      for (auto& [number, place] : numbers) {
+        number = words_.integer("the tag of a node");
+        place = words_.place();
+      }
+      for (auto& [number, place] : numbers) {
+        const double x = words_.number("x"), y = words_.number("y"), z = words_.number("z");
+        for (long i = 0; parametric && i < dimension; ++i) static_cast<void>(words_.number("a parameter"));
+        add_node(number, words_.place(), x, y, z);
+      }
+    }
+  }
+
+  void read_old_nodes() {
+    for (long n = words_.count("the number of nodes"); n > 0; --n) {
+      const long number = words_.integer("the number of a node");
+      const double x = words_.number("x"), y = words_.number("y"), z = words_.number("z");
+      add_node(number, words_.place(), x, y, z);
+    }
+  }
+
+  const GmshType& type_of(long number, long element) const {
+    const auto found = std::find_if(gmsh_types.begin(), gmsh_types.end(),
+                                    [number](const GmshType& t) { return t.number == number; });
+    if (found != gmsh_types.end()) return *found;
+    const std::string hint = number == 10 ? " (nine nodes: set Mesh.SecondOrderIncomplete = 1 in Gmsh)" : "";
+    words_.fail(fmt::format(
+        "found an element ({}) of type {}{}, expected points (15), lines (1, 8), triangles (2, 9) or "
+        "quadrilaterals (3, 16)",
+        element, number, hint));
+  }
+
+  void read_element(const GmshType& type, long number, std::vector<long> physical) {
+    RawElement element{&type, {}, std::move(physical), number, words_.place()};
+    for (std::size_t i = 0; i < type.nodes; ++i) {
+      const long node = words_.integer("the number of a node");
+      const auto known = content_.by_number.find(node);
+      if (known == content_.by_number.end())
+        words_.fail(fmt::format("element {} has node {}, which $Nodes does not have", number, node));
+      element.nodes.push_back(known->second);
+    }
+    content_.elements.push_back(std::move(element));
+  }
+
+  void read_elements() {
+    long blocks = words_.count("the number of blocks");
+    for (int i = 0; i < 3; ++i) static_cast<void>(words_.integer("the number of elements, or a tag"));
+    for (; blocks > 0; --blocks) {
+      const auto dimension = static_cast<int>(words_.integer("a dimension"));
+      const long entity = words_.integer("the tag of an entity"), type = words_.integer("a type of elements");
+      const long n = words_.count("a number of elements");
+      for (long i = 0; i < n; ++i) {
+        const long number = words_.integer("the tag of an element");
+        read_element(type_of(type, number), number, content_.of_entities[{dimension, entity}]);
+      }
+    }
+  }
+
+  void read_old_elements() {
+    for (long n = words_.count("the number of elements"); n > 0; --n) {
+      const long number = words_.integer("the number of an element"),
+                 type = words_.integer("a type of elements");
+      std::vector<long> physical;
+      const long tags = words_.count("a number of tags");
+      for (long i = 0; i < tags; ++i) {
+        const long tag = words_.integer("a tag");
+        if (i == 0 && tag != 0) physical.push_back(std::abs(tag));
+      }
+      read_element(type_of(type, number), number, std::move(physical));
+    }
+  }
+
+  GmshWords words_;
+  GmshContent content_;
+  int version_ = 0;
+  double z_ = 0.0;
+};
+
+/// The groups of a body.
+class BodyBuilder {
+ public:
+  BodyBuilder(const GmshContent& content, const std::string& file, const std::string& key)
+      : content_(content), file_(file), key_(key), index_(content.nodes.size(), -1) {}
+
+  PlaneMesh build(const std::vector<std::string>& surfaces) {
+    check_used();
+    add_elements(surfaces);
+    check_elements(mesh_, key_);
+    find_edges();
+    for (const RawElement& raw : content_.elements)
+      if (raw.type->dimension < 2) add_to_groups(raw);
+    return std::move(mesh_);
+  }
+
+ private:
+  void check_used() const {
+    std::vector<bool> used(content_.nodes.size(), false);
+    for (const RawElement& raw : content_.elements)
+      for (const int n : raw.nodes) used[static_cast<std::size_t>(n)] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (!used[i])
+        throw SceneError(
+            content_.nodes[i].place, key_,
+            fmt::format("node {} belongs to no element: leave it out of the mesh", content_.nodes[i].number));
+  }
+
+  void add_elements(const std::vector<std::string>& surfaces) {
+    std::set<std::string> there, used;
+    std::set<std::vector<int>> known;  // version 2 repeats elements of two groups
+    for (const RawElement& raw : content_.elements) {
+      if (!raw.type->shape) continue;
+      bool wanted = surfaces.empty();
+      for (const long tag : raw.physical) {
+        const std::string name = content_.name(2, tag);
+        there.insert(name);
+        if (std::find(surfaces.begin(), surfaces.end(), name) == surfaces.end()) continue;
+        wanted = true;
+        used.insert(name);
+      }
+      std::vector<int> sorted = raw.nodes;
+      std::sort(sorted.begin(), sorted.end());
+      if (!wanted || !known.insert(std::move(sorted)).second) continue;
+      PlaneMesh::Element element{*raw.type->shape, {}, raw.number, raw.place};
+      for (const int n : raw.nodes) element.nodes.push_back(index_of(n));
+      mesh_.elements.push_back(std::move(element));
+    }
+    for (const std::string& name : surfaces)
+      if (!used.contains(name)) {
+        std::string all;
+        for (const std::string& have : there) all += (all.empty() ? "" : ", ") + have;
+        throw SceneError({file_, 0, 0}, key_,
+                         fmt::format("no physical surface is named \"{}\"; there are: {}", name,
+                                     all.empty() ? "none" : all));
+      }
+    if (mesh_.elements.empty())
+      throw SceneError({file_, 0, 0}, key_, "found no triangles or quadrilaterals, expected a plane mesh");
+  }
+
+  int index_of(int node) {
+    int& own = index_[static_cast<std::size_t>(node)];
+    if (own < 0) {
+      own = static_cast<int>(mesh_.nodes.size());
+      mesh_.nodes.push_back(content_.nodes[static_cast<std::size_t>(node)]);
+    }
+    return own;
+  }
+
+  void find_edges() {
+    for (const PlaneMesh::Element& element : mesh_.elements)
+      for (std::size_t i = 0; i < corner_count(element.shape); ++i) {
+        std::vector<int> nodes = edge_nodes(element, i);
+        edges_.emplace(std::minmax(nodes[0], nodes[1]), std::move(nodes));
+      }
+  }
+
+  PlaneMesh::Group& group(const std::string& name) {
+    for (PlaneMesh::Group& g : mesh_.groups)
+      if (g.name == name) return g;
+    return mesh_.groups.emplace_back(PlaneMesh::Group{name, {}, {}});
+  }
+
+  void add_to_groups(const RawElement& raw) {
+    std::vector<int> nodes;
+    for (const int n : raw.nodes) {
+      const int own = index_[static_cast<std::size_t>(n)];
+      if (own < 0) return;  // of another body
+      nodes.push_back(own);
+    }
+    const PlaneMesh::Edge* edge = nullptr;
+    PlaneMesh::Edge oriented;
+    if (raw.type->dimension == 1) {
+      const auto found = edges_.find(std::minmax(nodes[0], nodes[1]));
+      if (found == edges_.end()) return;
+      oriented.nodes = found->second;
+      edge = &oriented;
+    }
+    for (const long tag : raw.physical) {
+      PlaneMesh::Group& g = group(content_.name(raw.type->dimension, tag));
+      if (edge) g.edges.push_back(*edge);
+      for (const int n : edge ? edge->nodes : nodes)
+        if (std::find(g.nodes.begin(), g.nodes.end(), n) == g.nodes.end()) g.nodes.push_back(n);
+    }
+  }
+
+  const GmshContent& content_;
+  const std::string &file_, &key_;
+  std::vector<int> index_;
+  PlaneMesh mesh_;
+  std::map<std::pair<int, int>, std::vector<int>> edges_;
+};
+
+/// The least determinant at nodes and points of integration, and the greatest.
+std::pair<double, double> determinants(const PlaneMesh& mesh, const PlaneMesh::Element& element) {
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
+  const auto look = [&](double a, double b) {
+    const ShapeValues shapes = shapes_at(element.shape, a, b);
+    Eigen::Matrix2d j = Eigen::Matrix2d::Zero();
+    for (std::size_t k = 0; k < element.nodes.size(); ++k) {
+      const PlaneMesh::Node& node = mesh.nodes[static_cast<std::size_t>(element.nodes[k])];
+      j += Eigen::Vector2d(node.x, node.y) * shapes.slopes.row(static_cast<Eigen::Index>(k));
+    }
+    const double det = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
+    range = {std::min(range.first, det), std::max(range.second, det)};
+  };
+  for (const IntegrationPoint& p : points_of(element.shape)) look(p.a, p.b);
+  for (std::size_t i = 0; i < element.nodes.size(); ++i) {
+    const auto [a, b] = node_point(element.shape, i);
+    look(a, b);
+  }
+  return range;
+}
+
+void turn_round(PlaneMesh::Element& element) {
+  const auto corners = static_cast<std::ptrdiff_t>(corner_count(element.shape));
+  std::reverse(element.nodes.begin() + 1, element.nodes.begin() + corners);
+  std::reverse(element.nodes.begin() + corners, element.nodes.end());
+}
+
+}  // namespace
+
+void check_elements(PlaneMesh& mesh, const std::string& key) {
+  const bool clockwise = std::all_of(mesh.elements.begin(), mesh.elements.end(), [&](const auto& element) {
+    return determinants(mesh, element).second < 0.0;
+  });
+  for (PlaneMesh::Element& element : mesh.elements) {
+    if (clockwise) turn_round(element);
+    const auto [least, most] = determinants(mesh, element);
+    if (least > 0.0) continue;
+    throw SceneError(
+        element.place, key,
+        fmt::format("element {} is {}: expected nodes that run counter-clockwise round a convex shape",
+                    element.number,
+                    most < 0.0 ? "inverted, its nodes run clockwise while others do not" : "folded or flat"));
+  }
+}
+
+PlaneMesh read_gmsh(std::istream& in, const std::string& file, const std::string& key,
+                    const std::vector<std::string>& surfaces) {
+  const GmshContent content = GmshReader(in, file, key).read();
+  return BodyBuilder(content, file, key).build(surfaces);
+}
+
+}  // namespace signorini

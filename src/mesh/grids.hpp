@@ -1,0 +1,35 @@
+// grids.hpp: meshes of a rectangle and of a sector of a ring, from a few numbers.
+//
+//   rectangle  x = from + Q(angle) (u width, v height)        groups: bottom, right, top, left
+//   ring       r = inner + u (outer - inner), angle = start + v (end - start)   groups: inner, end, outer, start
+//
+// u and v go from 0 to 1 in elements[0] and elements[1] steps; grading: the last step is so many times the first (geometric).
+// Nodes of quadratic elements lie on the arcs. Nodes are numbered from 1 on, u first. A whole ring (2 pi) is closed: it has
+// neither start nor end.
+#pragma once
+
+#include <array>
+
+#include "signorini/plane_mesh.hpp"
+
+namespace signorini {
+
+struct GridSpec {
+  PlaneShape shape = PlaneShape::q4;
+  std::array<int, 2> elements{1, 1};
+  std::array<double, 2> grading{1.0, 1.0};
+};
+struct RectangleSpec {
+  std::array<double, 2> from{0.0, 0.0}, size{1.0, 1.0};  ///< length
+  double angle = 0.0;                                    ///< rad, about `from`
+};
+struct RingSpec {
+  std::array<double, 2> centre{0.0, 0.0};
+  double inner = 0.0, outer = 0.0;  ///< length
+  double start = 0.0, end = 0.0;    ///< rad, end > start
+};
+
+[[nodiscard]] PlaneMesh rectangle_mesh(const RectangleSpec& rectangle, const GridSpec& grid);
+[[nodiscard]] PlaneMesh ring_mesh(const RingSpec& ring, const GridSpec& grid);
+
+}  // namespace signorini

@@ -1,0 +1,58 @@
+// plane_shapes.hpp: shape functions of triangles and quadrilaterals, and points of integration.
+//
+//   x(a, b) = sum_k N_k(a, b) x_k;   triangles: 0 <= a, b, a + b <= 1;   quadrilaterals: -1 <= a, b <= 1
+//
+// Edges: -1 <= s <= 1, N = (1 -+ s)/2, or s(s -+ 1)/2 at the ends and 1 - s^2 in the middle.
+// Numbering of nodes: signorini/plane_mesh.hpp.
+// Source: Zienkiewicz, Taylor, The Finite Element Method (2000), chapters 8 and 9; rule of six points: Strang and Fix (1973).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "signorini/plane_mesh.hpp"
+
+namespace signorini {
+
+[[nodiscard]] std::size_t node_count(PlaneShape shape);
+[[nodiscard]] constexpr std::size_t corner_count(PlaneShape shape) {
+  return shape == PlaneShape::t3 || shape == PlaneShape::t6 ? 3 : 4;
+}
+[[nodiscard]] constexpr bool has_middles(PlaneShape shape) {
+  return shape == PlaneShape::t6 || shape == PlaneShape::q8;
+}
+
+/// Values of the shape functions and their derivatives by a and b: nodes x 1, nodes x 2.
+struct ShapeValues {
+  Eigen::VectorXd values;
+  Eigen::MatrixX2d slopes;
+};
+[[nodiscard]] ShapeValues shapes_at(PlaneShape shape, double a, double b);
+
+struct IntegrationPoint {
+  double a = 0.0, b = 0.0, weight = 0.0;
+};
+/// Exact for the mass of elements with straight edges: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
+[[nodiscard]] std::span<const IntegrationPoint> points_of(PlaneShape shape);
+
+/// Points (a, b) of the nodes.
+[[nodiscard]] std::array<double, 2> node_point(PlaneShape shape, std::size_t node);
+
+/// The nodes of edge i of an element: two ends, then the middle if there is one.
+[[nodiscard]] std::vector<int> edge_nodes(const PlaneMesh::Element& element, std::size_t i);
+
+/// Shape functions of an edge of two or three nodes and their derivatives; ends first.
+struct EdgeValues {
+  std::array<double, 3> values{}, slopes{};
+};
+[[nodiscard]] EdgeValues edge_shapes_at(std::size_t nodes, double s);
+
+/// Points and weights of Gauss's rule of five points on [-1, 1]: exact up to degree 9.
+struct EdgePoint {
+  double s, weight;
+};
+[[nodiscard]] std::span<const EdgePoint> edge_points();
+
+}  // namespace signorini

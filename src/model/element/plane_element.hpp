@@ -1,0 +1,72 @@
+// plane_element.hpp: triangles and quadrilaterals of a plane continuum.
+//
+//   k = t int B^T D B,   m = rho t int N^T N,   sigma = D (B u - alpha T e),   strains (e_x, e_y, g_xy)
+//
+//   plane stress  D = E/(1 - nu^2) [1 nu 0; nu 1 0; 0 0 (1 - nu)/2],             e = (1, 1, 0)
+//   plane strain  D = E/((1 + nu)(1 - 2 nu)) [1 - nu, nu, 0; nu, 1 - nu, 0; 0 0 (1 - 2 nu)/2],  e = (1 + nu)(1, 1, 0)
+//
+// q4 has two incompatible modes, 1 - a^2 and 1 - b^2, each for ux and uy (QM6): their derivatives by x, y are taken with the
+// Jacobian of the element's middle and det J_0 / det J, so that they do no work in a constant stress and distorted patches are
+// exact; they are eliminated in the element, as they have no mass.
+// A lumped mass: t3 and q4 by sums of rows; t6 and q8 by the diagonal, scaled to the whole mass, so that none is negative.
+// Source: Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct.
+// Dyn. 4 (1976) 245.
+#pragma once
+
+#include "mesh/plane_shapes.hpp"
+#include "model/element/element.hpp"
+
+namespace signorini {
+
+/// Of force/length^2 and mass/length^3.
+struct PlaneMaterial {
+  double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
+  bool strain = false;  ///< plane strain, else plane stress
+
+  [[nodiscard]] Eigen::Matrix3d stresses() const;      ///< D
+  [[nodiscard]] Eigen::Vector3d thermal_strain() const;  ///< e
+};
+
+class PlaneElement final : public FiniteElement {
+ public:
+  /// at: places of the nodes.
+  PlaneElement(std::vector<int> nodes, int member, PlaneShape shape, std::vector<PlaneVector> at,
+               const PlaneMaterial& material, MassKind mass);
+
+  [[nodiscard]] std::vector<ElementUnknown> unknowns() const override;
+  [[nodiscard]] double extent() const override { return area_; }
+  [[nodiscard]] double density() const override { return material_.density * material_.thickness; }
+  [[nodiscard]] ElementMatrix mass() const override;
+  [[nodiscard]] ElementMatrix stiffness() const override;
+  [[nodiscard]] ElementVector spread(const PlaneVector& load) const override;
+  [[nodiscard]] double strain_work(const ElementVector& motion) const override;
+  [[nodiscard]] Cut cut(OutputQuantity quantity, const PlaneVector& at,
+                        const AxialForces& forces) const override;
+  [[nodiscard]] std::vector<ElementLine> lines() const override;
+
+  [[nodiscard]] PlaneShape shape() const { return shape_; }
+  [[nodiscard]] const PlaneMaterial& material() const { return material_; }
+  /// sigma_x, sigma_y, tau_xy at (a, b) by the unknowns, without heat: 3 x unknowns.
+  [[nodiscard]] Eigen::MatrixXd stress_rows(double a, double b) const;
+
+ private:
+  struct Place {
+    Eigen::VectorXd values;
+    Eigen::MatrixX2d slopes;  // by x and y
+    double det;
+  };
+  [[nodiscard]] Place at_point(double a, double b) const;
+  [[nodiscard]] Eigen::Matrix2d jacobian(const Eigen::MatrixX2d& slopes) const;
+  [[nodiscard]] Eigen::MatrixXd strain_rows(const Place& place) const;
+  [[nodiscard]] Eigen::Matrix<double, 3, 4> inner_rows(double a, double b, double det) const;
+  [[nodiscard]] Eigen::MatrixXd inner_motion() const;
+  [[nodiscard]] Eigen::MatrixXd mass_of_nodes() const;
+
+  PlaneShape shape_;
+  std::vector<PlaneVector> at_;
+  PlaneMaterial material_;
+  MassKind mass_;
+  double area_ = 0.0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,208 @@
+// [[bodies]]: plane continua, and their boundaries.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/listed.hpp"
+#include "base/number.hpp"
+#include "mesh/gmsh_file.hpp"
+#include "mesh/grids.hpp"
+#include "mesh/plane_shapes.hpp"
+#include "scene/data_file.hpp"
+#include "scene/readers.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr int most_cells = 1'000'000;
+constexpr double rad_of_degree = std::numbers::pi / 180.0;
+
+GridSpec read_grid(Table& table) {
+  GridSpec grid;
+  const std::string shape = table.choice("shape");
+  grid.shape = shape == "t3"   ? PlaneShape::t3
+               : shape == "t6" ? PlaneShape::t6
+               : shape == "q8" ? PlaneShape::q8
+                               : PlaneShape::q4;
+  table.require("elements", " (without mesh)");
+  const std::vector<double> counts = *table.numbers("elements");
+  const bool whole = std::all_of(counts.begin(), counts.end(),
+                                 [](double n) { return n >= 1.0 && n <= most_cells && n == std::floor(n); });
+  if (counts.size() != 2 || !whole || counts[0] * counts[1] > most_cells)
+    table.wrong("elements", "two integers >= 1, at most 1e6 elements in all");
+  grid.elements = {static_cast<int>(counts[0]), static_cast<int>(counts[1])};
+  grid.grading = table.vector("grading");
+  if (!(grid.grading[0] > 0.0 && grid.grading[1] > 0.0)) table.wrong("grading", "two numbers > 0");
+  return grid;
+}
+
+PlaneMesh read_rectangle(Table& table) {
+  Table keys = table.child("rectangle");
+  RectangleSpec rectangle;
+  rectangle.from = keys.vector("from");
+  rectangle.size = keys.vector("size");
+  if (!(rectangle.size[0] > 0.0 && rectangle.size[1] > 0.0)) keys.wrong("size", "two numbers > 0");
+  rectangle.angle = rad_of_degree * keys.number("degrees");
+  keys.finish();
+  table.record("rectangle", keys.record().inline_table());
+  return rectangle_mesh(rectangle, read_grid(table));
+}
+
+PlaneMesh read_ring(Table& table) {
+  Table keys = table.child("ring");
+  RingSpec ring;
+  ring.centre = keys.vector("centre");
+  ring.inner = keys.number("inner");
+  ring.outer = keys.number("outer");
+  if (!(ring.outer > ring.inner))
+    keys.fail("outer", fmt::format("found the number {}, expected more than the inner radius, {}",
+                                   shortest(ring.outer), shortest(ring.inner)));
+  const auto [start, end] = keys.vector("degrees");
+  if (!(end > start && end - start <= 360.0))
+    keys.wrong("degrees", "[start, end], end at most 360 beyond start");
+  ring.start = rad_of_degree * start;
+  ring.end = end - start == 360.0 ? ring.start + 2.0 * std::numbers::pi : rad_of_degree * end;
+  keys.finish();
+  table.record("ring", keys.record().inline_table());
+  const GridSpec grid = read_grid(table);
+  const double widest = (end - start) / grid.elements[1];
+  if (!(widest < 180.0))
+    table.fail("elements", fmt::format("found elements of {:.4g} degrees, expected less than 180", widest));
+  return ring_mesh(ring, grid);
+}
+
+PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
+  const std::filesystem::path path = directory_of(scene) / table.text("mesh");
+  std::ifstream in = open_data_file(table, "mesh", path);
+  const std::vector<std::string> surfaces = table.texts("surfaces");
+  PlaneMesh mesh = read_gmsh(in, path.string(), table.path("mesh"), surfaces);
+  table.record("mesh", toml_string(std::filesystem::absolute(path).lexically_normal().string()));
+  for (const std::string& wanted : table.texts("groups")) {
+    std::vector<std::string> there;
+    for (const PlaneMesh::Group& group : mesh.groups) there.push_back(group.name);
+    if (std::find(there.begin(), there.end(), wanted) != there.end()) continue;
+    table.fail("groups", fmt::format("{} has no physical curve or point \"{}\" on this body; there are: {}",
+                                     path.string(), wanted, there.empty() ? "none" : listed(there, 8)));
+  }
+  return mesh;
+}
+
+/// One of the three that says where the elements are.
+PlaneMesh read_mesh(Table& table, const Scene& scene) {
+  const char* found = nullptr;
+  for (const char* key : {"mesh", "rectangle", "ring"}) {
+    if (!table.has(key)) continue;
+    if (found) table.fail(key, fmt::format("stands beside {}, expected one of the two", found));
+    found = key;
+  }
+  if (!found) table.fail("mesh", "missing, expected mesh, rectangle or ring");
+  if (table.has("mesh")) return read_mesh_file(table, scene);
+  PlaneMesh mesh = table.has("rectangle") ? read_rectangle(table) : read_ring(table);
+  for (PlaneMesh::Node& node : mesh.nodes) node.place = table.place();
+  for (PlaneMesh::Element& element : mesh.elements) element.place = table.place();
+  check_elements(mesh, table.path());
+  return mesh;
+}
+
+void read_material(Table& table, BodySpec& body, const Scene& scene) {
+  body.E = table.number("E");
+  body.nu = table.number("nu");
+  if (!(body.nu >= 0.0 && body.nu < 0.5)) table.wrong("nu", "a number >= 0 and < 0.5");
+  body.density = table.number("density");
+  body.thickness = table.number("thickness");
+  body.strain = table.choice("plane") == "strain";
+  body.mass = table.choice("mass") == "lumped" ? MassKind::lumped : MassKind::consistent;
+  if (table.has("temperature") && !table.has("thermal_expansion"))
+    table.fail("temperature", "needs thermal_expansion beside it");
+  body.thermal_expansion = table.number("thermal_expansion");
+  body.temperature = read_standing_history(table, "temperature", scene);
+}
+
+/// Names for nodes at given places.
+void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene) {
+  if (!table.has("points")) return;
+  Table points = table.child("points");
+  const std::size_t first = body.first_node, end = first + body.node_count;
+  double size = 0.0;
+  for (std::size_t i = first; i < end; ++i)
+    size = std::max(
+        size, std::hypot(scene.nodes[i].x - scene.nodes[first].x, scene.nodes[i].y - scene.nodes[first].y));
+  for (const Entry& entry : entries_of(points.node())) {
+    check_name(entry.name, entry.place(), points.path(entry.name));
+    const auto [x, y] = points.vector(entry.name);
+    const auto distance = [&, px = x, py = y](const Node& n) { return std::hypot(n.x - px, n.y - py); };
+    Node& nearest =
+        *std::min_element(scene.nodes.begin() + static_cast<std::ptrdiff_t>(first),
+                          scene.nodes.begin() + static_cast<std::ptrdiff_t>(end),
+                          [&](const Node& a, const Node& b) { return distance(a) < distance(b); });
+    constexpr double digits =
+        1e-6;  // of the body's size: places in a scene are written with six digits or more
+    if (distance(nearest) > digits * size)
+      points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "
+                                          "expected the place of a node",
+                                          nearest.name, nearest.x, nearest.y));
+    if (!names.add(entry.name))
+      points.fail(entry.name, fmt::format("node \"{}\" is there already", entry.name));
+    nearest.name = entry.name;
+    nearest.of_mesh = false;
+  }
+  points.finish();
+  table.record("points", points.record().inline_table());
+}
+
+/// The mesh's nodes become nodes of the scene.
+void take_mesh(PlaneMesh mesh, BodySpec& body, Scene& scene) {
+  body.first_node = scene.nodes.size();
+  body.node_count = mesh.nodes.size();
+  for (const PlaneMesh::Node& n : mesh.nodes)
+    scene.nodes.push_back({fmt::format("{}.{}", body.name, n.number), n.x, n.y, n.place, true});
+  const auto shift = [&](std::vector<int>& nodes) {
+    for (int& n : nodes) n += static_cast<int>(body.first_node);
+  };
+  for (PlaneMesh::Element& element : mesh.elements) shift(element.nodes);
+  for (PlaneMesh::Group& group : mesh.groups) {
+    shift(group.nodes);
+    for (PlaneMesh::Edge& edge : group.edges) shift(edge.nodes);
+  }
+  mesh.nodes.clear();
+  body.mesh = std::move(mesh);
+}
+
+}  // namespace
+
+void read_bodies(Table& top, Scene& scene, RecordedScene& record) {
+  Names names;
+  for (const Node& node : scene.nodes) names.add(node.name);
+  for (Table& table : tables_of(top, "bodies")) {
+    BodySpec body;
+    body.place = table.place();
+    body.name = table.text("name");
+    if (!names.add(body.name))
+      table.fail("name",
+                 fmt::format("found \"{}\" twice, expected a name that no body and no node has", body.name));
+    take_mesh(read_mesh(table, scene), body, scene);
+    read_material(table, body, scene);
+    read_points(table, body, names, scene);
+    table.finish(table.has("mesh") ? "has no meaning beside mesh" : "has no meaning without mesh");
+    scene.bodies.push_back(std::move(body));
+    record.add("bodies", "[[bodies]]", table.record());
+  }
+}
+
+BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
+                          const Scene& scene) {
+  std::vector<std::string> there;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    for (const PlaneMesh::Group& group : scene.bodies[b].mesh.groups) {
+      if (group.edges.empty()) continue;
+      there.push_back(scene.bodies[b].name + "." + group.name);
+      if (there.back() == name) return {b, &group};
+    }
+  table.fail(key, fmt::format("no boundary is named \"{}\"; there are: {}", name,
+                              there.empty() ? "none" : listed(there, 8)));
+}
+
+}  // namespace signorini

@@ -1,0 +1,166 @@
+// Dual mortar: lengths and weights by hand, partly covered edges, curves, invariance.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mesh/grids.hpp"
+#include "mesh/mortar.hpp"
+#include "mesh/plane_shapes.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// Edges along given places on a line through the origin at an odd angle; `back`: they run the other way.
+struct Line {
+  std::vector<PlanePoint> at;
+  std::vector<PlaneMesh::Edge> slave, master;
+  static constexpr double angle = 0.53;
+
+  int add(double s, double off) {
+    at.push_back({s * std::cos(angle) - off * std::sin(angle), s * std::sin(angle) + off * std::cos(angle)});
+    return static_cast<int>(at.size()) - 1;
+  }
+  /// The body of the slave lies above, its edges run along; that of the master below, they run back.
+  void add_side(const std::vector<double>& places, bool is_slave, bool quadratic, double off = 0.0) {
+    auto& edges = is_slave ? slave : master;
+    int last = add(places[0], off);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      const int next = add(places[i], off);
+      PlaneMesh::Edge edge{is_slave ? std::vector{last, next} : std::vector{next, last}};
+      if (quadratic) edge.nodes.push_back(add(0.5 * (places[i - 1] + places[i]), off));
+      edges.push_back(edge);
+      last = next;
+    }
+  }
+  [[nodiscard]] MortarSeam seam() const {
+    return mortar_between(slave, master, [&](int n) { return at[static_cast<std::size_t>(n)]; });
+  }
+};
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/mesh/mortar");
+
+TEST_CASE("two linear edges over one: lengths and weights as by hand") {
+  Line line;
+  line.add_side({0.0, 1.0, 3.0}, true, false);  // nodes 0, 1, 2
+  line.add_side({0.0, 3.0}, false, false);      // nodes 3 at 0, 4 at 3
+  const MortarSeam seam = line.seam();
+  REQUIRE(seam.nodes.size() == 3);
+  const double length[3] = {0.5, 1.5, 1.0};
+  // psi_k reproduces linear fields: sum_l w_l x_l = x_k.
+  const double right[3] = {0.0, 1.0 / 3.0, 1.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MortarNode& node = seam.nodes[k];
+    CHECK(node.node == static_cast<int>(k));
+    CHECK(node.length == doctest::Approx(length[k]).epsilon(1e-14));
+    double w3 = 0.0, w4 = 0.0;
+    for (const auto& [l, w] : node.master) (l == 3 ? w3 : w4) += w;
+    CHECK(w4 == doctest::Approx(right[k]).epsilon(1e-13));
+    CHECK(w3 == doctest::Approx(1.0 - right[k]).epsilon(1e-13));
+    CHECK(node.gap == 0.0);
+    CHECK(node.normal[0] == doctest::Approx(-std::sin(Line::angle)).epsilon(1e-14));
+    CHECK(node.normal[1] == doctest::Approx(std::cos(Line::angle)).epsilon(1e-14));
+  }
+}
+
+TEST_CASE(
+    "meshes that do not match: forces of a constant pressure are those of both sides' shape functions") {
+  for (const bool slave_quadratic : {false, true})
+    for (const bool master_quadratic : {false, true}) {
+      CAPTURE(slave_quadratic);
+      CAPTURE(master_quadratic);
+      Line line;
+      line.add_side({0.0, 0.31, 0.8, 1.13, 1.7}, true, slave_quadratic);
+      line.add_side({0.0, 0.52, 0.91, 1.7}, false, master_quadratic);
+      const MortarSeam seam = line.seam();
+      std::vector<double> force(line.at.size(), 0.0), wanted(line.at.size(), 0.0);
+      for (const MortarNode& k : seam.nodes) {
+        double sum = 0.0;
+        for (const auto& [l, w] : k.master) force[static_cast<std::size_t>(l)] += w * k.length, sum += w;
+        force[static_cast<std::size_t>(k.node)] = k.length;
+        CHECK(sum == doctest::Approx(1.0).epsilon(1e-13));
+      }
+      for (const auto* side : {&line.slave, &line.master})
+        for (const auto& edge : *side) {
+          const auto &a = line.at[static_cast<std::size_t>(edge.nodes[0])],
+                     &b = line.at[static_cast<std::size_t>(edge.nodes[1])];
+          const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+          const bool three = edge.nodes.size() == 3;
+          for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+            wanted[static_cast<std::size_t>(edge.nodes[i])] +=
+                length * (three ? (i == 2 ? 4.0 : 1.0) / 6.0 : 0.5);
+        }
+      for (std::size_t i = 0; i < force.size(); ++i)
+        CHECK(force[i] == doctest::Approx(wanted[i]).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("a partly covered edge: its rows carry the covered length alone") {
+  Line line;
+  line.add_side({0.0, 1.0, 2.0, 3.0}, true, false);
+  line.add_side({0.6, 1.9}, false, false, -0.01);
+  const MortarSeam seam = line.seam();
+  REQUIRE(seam.nodes.size() == 3);  // the one at 3 touches nothing
+  double total = 0.0;
+  for (const MortarNode& k : seam.nodes) {
+    total += k.length;
+    double sum = 0.0, moment = 0.0;
+    for (const auto& [l, w] : k.master) {
+      sum += w;
+      const auto& x = line.at[static_cast<std::size_t>(l)];
+      moment += w * (x[0] * std::cos(Line::angle) + x[1] * std::sin(Line::angle));
+    }
+    CHECK(sum == doctest::Approx(1.0).epsilon(1e-12));
+    CHECK(moment == doctest::Approx(static_cast<double>(&k - seam.nodes.data())).epsilon(1e-11));
+    CHECK(k.gap == doctest::Approx(0.01).epsilon(1e-10));
+  }
+  CHECK(total == doctest::Approx(1.3).epsilon(1e-12));
+  CHECK(seam.negative.empty());
+}
+
+TEST_CASE(
+    "arcs that do not match: gaps shrink with the square of the elements, of quadratic ones by the fourth "
+    "power") {
+  const auto worst_gap = [](PlaneShape shape, int n) {
+    const double end = 0.7;
+    PlaneMesh inner = ring_mesh({{0.1, 0.2}, 0.5, 1.0, 0.0, end}, {shape, {1, 2 * n}, {1.0, 1.0}});
+    const PlaneMesh outer = ring_mesh({{0.1, 0.2}, 1.0, 1.5, 0.0, end}, {shape, {1, 3 * n}, {1.0, 1.0}});
+    const auto shift = static_cast<int>(inner.nodes.size());
+    std::vector<PlaneMesh::Edge> slave = inner.groups[0].edges, master = outer.groups[1].edges;
+    REQUIRE(inner.groups[0].name == "outer");
+    REQUIRE(outer.groups[1].name == "inner");
+    for (auto& edge : master)
+      for (int& k : edge.nodes) k += shift;
+    const MortarSeam seam = mortar_between(slave, master, [&](int k) {
+      const auto& node = k < shift ? inner.nodes[static_cast<std::size_t>(k)]
+                                   : outer.nodes[static_cast<std::size_t>(k - shift)];
+      return PlanePoint{node.x, node.y};
+    });
+    double worst = 0.0;
+    for (const MortarNode& k : seam.nodes) worst = std::max(worst, std::abs(k.gap));
+    return worst;
+  };
+  CHECK(std::log2(worst_gap(PlaneShape::q4, 4) / worst_gap(PlaneShape::q4, 8)) >= 1.8);
+  CHECK(std::log2(worst_gap(PlaneShape::q8, 4) / worst_gap(PlaneShape::q8, 8)) >= 2.8);
+}
+
+TEST_CASE("on the ground and on a line") {
+  Line line;
+  line.add_side({0.0, 0.4, 1.1}, true, false);
+  const auto place = [&](int n) { return line.at[static_cast<std::size_t>(n)]; };
+  const MortarSeam ground = mortar_on_ground(line.slave, place);
+  REQUIRE(ground.nodes.size() == 3);
+  CHECK(ground.nodes[1].length == doctest::Approx(0.55).epsilon(1e-14));
+  CHECK(ground.nodes[1].master.empty());
+  const PlanePoint up{0.0, 1.0};
+  const MortarSeam flat = mortar_on_line(line.slave, {5.0, -2.0}, up, place);
+  REQUIRE(flat.nodes.size() == 3);
+  for (const MortarNode& k : flat.nodes)
+    CHECK(k.gap == doctest::Approx(place(k.node)[1] + 2.0).epsilon(1e-14));
+  CHECK(mortar_on_line(line.slave, {5.0, 2.0}, {0.0, -1.0}, place).nodes.empty());  // it faces away
+}
+
+TEST_SUITE_END();

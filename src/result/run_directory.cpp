@@ -15,6 +15,7 @@
 #include "result/plot_folder.hpp"
 #include "result/plots.hpp"
 #include "result/run_tables.hpp"
+#include "result/seam_table.hpp"
 #include "result/states.hpp"
 #include "result/summary.hpp"
 #include "scene/frozen_file.hpp"
@@ -27,9 +28,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 18> run_files = {
-    "events.csv", "history.csv", "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
-    "loads.csv",  "energy.csv",  "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
-    "states.csv", "report.html", "response.csv", "instants.csv",       "orbit.json",   frozen_file};
+    "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
+    "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
+    "summary.json", "run.toml",    "states.csv", "report.html",  "response.csv",
+    "instants.csv", "orbit.json",  "seams.csv",  frozen_file};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -60,12 +62,18 @@ void check_run_directory(const fs::path& path, bool force) {
 }
 
 struct RunDirectory::Writers {
-  Writers(const fs::path& path, const Model& model)
+  Writers(const fs::path& path, const Scene& scene, const Model& model)
       : events(path / "events.csv", event_table(model)),
         history(path / "history.csv", history_table(model)),
         contacts(path / "contacts.csv", contact_table()),
         energy(path / "energy.csv", energy_table()) {
     if (!model.outputs.empty()) response.emplace(path / "response.csv", response_table(model));
+    if (!scene.seams.empty()) seams.emplace(path / "seams.csv", seam_table());
+  }
+
+  void add_seams(const Scene& scene, const Sample& sample) {
+    for (const SeamSpec& seam : scene.seams) seams->add(seam_row(scene, seam, sample.t, sample.contacts));
+    if (seams) seams->flush();
   }
 
   TableFile<Event> events;
@@ -73,6 +81,7 @@ struct RunDirectory::Writers {
   TableFile<ContactRow> contacts;
   TableFile<Sample> energy;
   std::optional<TableFile<ResponseRow>> response;
+  std::optional<TableFile<SeamRow>> seams;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<StateWriter> states;
   std::unique_ptr<PictureTables> pictures;
@@ -98,7 +107,7 @@ RunDirectory::Writers& RunDirectory::writers() {
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);
     if (model_.geometric) write_file(path_ / frozen_file, frozen_text(model_.geometric->forces));
-    writers_ = std::make_unique<Writers>(path_, model_);
+    writers_ = std::make_unique<Writers>(path_, scene_, model_);
   } catch (const FileError&) {
     std::error_code ignored;
     for (const std::string_view name : run_files) fs::remove(path_ / name, ignored);
@@ -121,6 +130,7 @@ void RunDirectory::sample(const Sample& sample) {
   for (std::size_t k = 0; k < sample.contacts.size(); ++k)
     w.contacts.add({sample.t, model_.contacts[k], sample.contacts[k]});
   w.contacts.flush();
+  w.add_seams(scene_, sample);
   w.energy.add(sample);
   w.energy.flush();
   if (sample.t == scene_.run.t_end) keep_state(sample);

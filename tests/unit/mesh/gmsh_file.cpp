@@ -164,15 +164,15 @@ TEST_CASE("elements that all run clockwise are turned round") {
 
 TEST_CASE("bad meshes are refused with file and line") {
   check_refused(changed(old_file, "10 11 12 13", "13 12 11 10"),
-                "m.msh:24: bodies.b.mesh: element 4 is inverted");
+                "m.msh:25: bodies.b.mesh: element 4 is inverted");
   check_refused(changed(old_file, "10 11 12 13", "10 11 13 12"),
-                "m.msh:24: bodies.b.mesh: element 4 is folded or flat");
+                "m.msh:25: bodies.b.mesh: element 4 is folded or flat");
   check_refused(changed(old_file, "4 3 2 5", "4 10 2 5"),
-                "m.msh:24: bodies.b.mesh: found an element (4) of type 10");
+                "m.msh:25: bodies.b.mesh: found an element (4) of type 10");
   check_refused(changed(old_file, "6\n15 2 1 0", "7\n99 5 5 0\n15 2 1 0"),
-                "m.msh:12: bodies.b.mesh: node 99 belongs to no element");
+                "m.msh:13: bodies.b.mesh: node 99 belongs to no element");
   check_refused(changed(old_file, "14 15 12\n", "14 77 12\n"),
-                "m.msh:26: bodies.b.mesh: element 6 has node 77");
+                "m.msh:27: bodies.b.mesh: element 6 has node 77");
   check_refused(changed(old_file, "2.2 0 8", "2.2 1 8"), "m.msh:2: bodies.b.mesh: found a binary mesh");
   check_refused(changed(old_file, "2.2 0 8", "3.0 0 8"), "m.msh:2: bodies.b.mesh: found version 3");
   check_refused(changed(new_file, "1 1 0\n0 1 0", "1 1 0.5\n0 1 0"), "found z = 0.5 of node 12");

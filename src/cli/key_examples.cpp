@@ -419,6 +419,8 @@ normal_stiffness = 1e5
 contacts NAME+ and NAME-. Rotations are small, so that the restoring force is N u / radius. `normal_force` is what the bearing
 carries. Where it is a number every engine takes the scene. Where it is a history, or follows from the structure by
 `normal_stiffness`, the restoring force goes with it, which `ida` knows and the others refuse; the bearing may then lift off.
+A static or frictional start is in equilibrium with the restoring force of what each bearing carries there. A reaction of supports that
+bear a restoring force which varies is refused.
 
 ```toml
 [[pendulums]]

@@ -327,7 +327,7 @@ TEST_CASE(
     block.h = e.slender * block.b;
     const double alpha = std::atan(1.0 / e.slender), radius = std::hypot(block.b, block.h);
     block.tilt = e.part * alpha;
-    const Scene scene = parse_scene(block.scene(9.0), "test.toml");
+    const Scene scene = parse_scene(block.scene(50.0), "test.toml");
     const Result result = simulate(build_model(scene), scene.run);
     const double rate = std::sqrt(block.m * block.g * radius / block.about_foot());
     const double ratio = 1.0 - 2.0 * block.m * block.b * block.b / block.about_foot();

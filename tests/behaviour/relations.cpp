@@ -76,7 +76,9 @@ TEST_SUITE("behaviour/relations") {
                         });
     }
   }
+}
 
+TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
     // 11, 16: a start without the force that drives pendulums back moved at once; going on lost what K had of them. 19: of
     // reduced models the stated error left out what cancels in a shape's stiffness.
@@ -96,9 +98,7 @@ TEST_SUITE("behaviour/relations") {
       CHECK(compared == 1);
     }
   }
-}
 
-TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("random structures beside related ones: bodies, bends, hangers, pendulums, P-delta") {
     RelationTally tally;
     compare_pairs(24, draw_structure_scene, tally);

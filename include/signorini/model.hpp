@@ -143,10 +143,12 @@ struct ComplianceShare {
 struct Reduction {
   std::vector<Dof> dofs;   ///< the physical ones, to which columns and drawing refer
   Eigen::MatrixXd shapes;  ///< physical x reduced; the slip points of shear elements have no column
-  double cutoff = 0.0;     ///< rad per time
-  int modes = 0;           ///< kept, free motions included
-  int free_modes = 0;      ///< of them, those without stiffness
-  int left_out = 0;        ///< modes above the cutoff
+  /// |x|^T |K| |x| / x^T K x of each shape: by so many roundings is its stiffness off where each entry of K is by one.
+  Vector cancellation;
+  double cutoff = 0.0;                          ///< rad per time
+  int modes = 0;                                ///< kept, free motions included
+  int free_modes = 0;                           ///< of them, those without stiffness
+  int left_out = 0;                             ///< modes above the cutoff
   int massless_shapes = 0, massive_shapes = 0;  ///< of the static compliance of the modes left out
   double highest_kept = 0.0;                    ///< rad per time; 0: free motions only
   double first_left_out = 0.0;                  ///< rad per time; 0: none

@@ -174,7 +174,8 @@ struct SavedState {
   /// Of the run, that tolerances and what counts as rest stay: displacement, rotation, velocity, angular
   /// velocity, force.
   std::optional<std::array<double, 5>> scales;
-  std::optional<FrozenForces> frozen;  ///< of the run, if it had run.geometric
+  std::optional<FrozenForces> frozen;                   ///< of the run, if it had run.geometric
+  std::vector<std::pair<std::string, double>> carried;  ///< what K of the run has of pendulums, by name
   std::vector<std::string> differing;  ///< tables in which the run's scene has another structure
 };
 
@@ -391,7 +392,6 @@ struct ContactSpec {
   std::optional<double> capture_velocity = {};  ///< rigid: slower rebounds rest; absent: from the tolerances
   SourcePlace place = {};
   std::optional<Bowl> bowl = {};  ///< of a pendulum; `carried` stands among the springs
-  bool carries_static = false;    ///< what its bowl carries is the reaction of the static start
   std::string table = {};         ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
   /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.

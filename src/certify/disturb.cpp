@@ -40,6 +40,13 @@ class Disturber {
       }
   }
 
+  /// Of reduced models: what is left of K's entries where they cancel.
+  void shapes(const Reduction& reduction, SparseMatrix& k) {
+    for (Eigen::Index j = 0; j < reduction.cancellation.size(); ++j)
+      if (reduction.cancellation[j] > 1.0)
+        k.coeffRef(j, j) *= 1.0 + (next() - 1.0) * reduction.cancellation[j];
+  }
+
   void history(History& h) {
     if (h.is_constant() && h.value(0.0) == 0.0) return;
     h = h.scaled(next());
@@ -88,6 +95,7 @@ Model disturbed(const Model& model, std::uint64_t seed) {
   disturb.matrix(near.mass);
   disturb.matrix(near.damping);
   disturb.matrix(near.stiffness);
+  if (model.reduction) disturb.shapes(*model.reduction, near.stiffness);
   for (Load& load : near.loads) disturb.history(load.history);
   for (Contact& contact : near.contacts) disturb.contact(contact, model.u0);
   const std::vector<bool> touches = touched(model);

@@ -15,4 +15,9 @@ namespace signorini {
   return (-N - contact.bowl->carried) / contact.bowl->radius * ut;
 }
 
+/// ( N_K - N_0 ) / R: what K holds beside the spring N_0 / R of the scene, which says N_0.
+[[nodiscard]] inline double beyond_spring(const Bowl& said, const Bowl& bowl) {
+  return (bowl.carried - said.carried) / bowl.radius;
+}
+
 }  // namespace signorini

@@ -20,6 +20,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/assembly/stiffness_range.hpp"
 #include "model/assembly/ties.hpp"
+#include "model/carried.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
 #include "model/geometric_start.hpp"
@@ -94,18 +95,6 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
   model.statics = std::move(found.start);
 }
 
-/// The weight that a pendulum carries at rest drives it back from the start on.
-void stiffen_pendulums(const Scene& scene, Model& model) {
-  std::vector<LineSpring> springs;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    if (!scene.contacts[k].carries_static || !model.static_start) continue;
-    Contact& c = model.contacts[k];
-    c.bowl->carried = model.statics.reactions[k];
-    springs.push_back({c.tangent, c.bowl->carried / c.bowl->radius});
-  }
-  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
-}
-
 /// Sliders are always closed; compliant contacts where they press at the start.
 std::vector<bool> closed_at_start(const Model& model) {
   std::vector<bool> closed;
@@ -150,7 +139,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
 }
 
 /// The initial state, and the forces that are frozen.
-void start(const Scene& scene, DofMap& map, Model& model) {
+void start_as_stiff_as_it_is(const Scene& scene, DofMap& map, Model& model) {
   if (scene.run.geometric && scene.matrices)
     throw SceneError(scene.run.geometric_place, "run.geometric", "has nothing to act on beside [matrices]");
   FirstPass first;
@@ -161,6 +150,22 @@ void start(const Scene& scene, DofMap& map, Model& model) {
   check_massless(scene, model, map);
   set_initial_state(scene, first.closed, map, model);
   if (scene.run.geometric && scene.initial.is_frictional) check_massless(scene, model, map);
+}
+
+/// With what pendulums bear.
+void start(const Scene& scene, DofMap& map, Model& model) {
+  const bool stands = scene.initial.is_static || scene.initial.is_frictional;
+  if (!stands || !has_pressed_pendulums(scene)) {
+    if (same_run(scene)) carry(scene, carried_before(scene), model);
+    start_as_stiff_as_it_is(scene, map, model);
+    return;
+  }
+  const DofMap before = map;
+  start_on_pendulums(scene, model, [&](Model begun) {
+    map = before;
+    start_as_stiff_as_it_is(scene, map, begun);
+    return begun;
+  });
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
@@ -187,7 +192,6 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
   start(scene, map, model);
-  stiffen_pendulums(scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && doubted) set_load_factors(scene, map, closed, model);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 18> run_files = {
+constexpr std::array<std::string_view, 19> run_files = {
     "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
     "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
     "summary.json", "run.toml",    "states.csv", "report.html",  "response.csv",

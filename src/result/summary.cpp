@@ -93,6 +93,8 @@ Json model_json(const Model& model) {
                {"static_start", model.static_start}};
   if (model.static_start) json["free_motions"] = model.statics.free_motions;
   if (!model.hangers.empty()) json["hangers"] = hangers_json(model);
+  for (const Contact& contact : model.contacts)
+    if (contact.bowl) json["pendulums"][contact.name] = contact.bowl->carried;
   if (model.geometric) json["load_factors"] = model.geometric->load_factors;
   if (model.statics.frictional) json["frictional_start"] = frictional_json(model);
   json["scales"] = {{"displacement", model.scales.displacement},

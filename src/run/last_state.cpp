@@ -42,6 +42,8 @@ SavedState last_state(const Model& model, const Result& result) {
   const Scales& s = model.scales;
   state.scales = {s.displacement, s.rotation, s.velocity, s.angular_velocity, s.force};
   state.motions.emplace_back(saved_alpha, model.alpha);
+  for (const Contact& contact : model.contacts)
+    if (contact.bowl) state.carried.emplace_back(contact.name, contact.bowl->carried);
   if (model.geometric) state.frozen = model.geometric->forces;
   return state;
 }

@@ -292,7 +292,7 @@ constexpr Key table_of_keys[] = {
     {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
     {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction in which the surface bears; it is made a unit vector. The tangent is (ny, -nx)."},
     {"pendulums[]", "radius", positive, "length", "required", "", "Radius of the surface: the restoring force is N u / radius."},
-    {"pendulums[]", "normal_force", standing_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness the number that is carried at rest, the reaction of a static start where absent."},
+    {"pendulums[]", "normal_force", standing_history, "force", "", "", "Compression, positive; a number or a history (engine \"ida\" where it varies). With normal_stiffness the number that is carried at rest; a static or frictional start finds it."},
     {"pendulums[]", "normal_stiffness", positive, "force/length", "", "", "The bearing presses as the structure does, through this stiffness, and lifts off; engine \"ida\"."},
     {"pendulums[]", "stop", positive, "length", "", "", "Way to the rim on either side; none where absent."},
     {"pendulums[]", "stop_stiffness", positive, "force/length", "", "", "Stiffness of the rim; rigid where absent."},

@@ -58,6 +58,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
     visit(value, name == saved_alpha ? rate : motion_named(name).unit());
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
   for (SavedState::Own& own : initial.saved->own) visit(own.memory, length);
+  for (auto& [name, carried] : initial.saved->carried) visit(carried, force);
   for (SavedState::Left& left : initial.saved->left) {
     visit_optional(left.gap, length, visit);
     visit(left.ut, length);

@@ -119,6 +119,16 @@ std::optional<std::array<double, 5>> scales_of_run(const Json& model) {
   }
 }
 
+/// What pendulums carry there, by name: part of K, and so of its damping and of what counts as stored.
+std::vector<std::pair<std::string, double>> carried_in_run(const Json& model) {
+  std::vector<std::pair<std::string, double>> found;
+  const auto pendulums = model.find("pendulums");
+  if (pendulums == model.end() || !pendulums->is_object()) return found;
+  for (const auto& [name, force] : pendulums->items())
+    if (force.is_number()) found.emplace_back(name, force.get<double>());
+  return found;
+}
+
 void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   Table table = run.child("initial");
   const std::string name = table.text("run");
@@ -140,6 +150,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   initial.saved->frozen = read_frozen_forces(directory / frozen_file, table.path("run"));
   const Json model = model_of_run(directory);
   initial.saved->scales = scales_of_run(model);
+  initial.saved->carried = carried_in_run(model);
   if (const auto alpha = alpha_of_run(model)) initial.saved->motions.emplace_back(saved_alpha, *alpha);
   Record record;
   record.set("run", toml_string(std::filesystem::absolute(directory).lexically_normal().string()));

@@ -63,7 +63,6 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   if (contact.friction.any())
     table.require("tangential_stiffness", " (beside normal_stiffness, with friction)");
   contact.bowl = Bowl{radius, carried};
-  contact.carries_static = !given;
   return carried;
 }
 

@@ -221,6 +221,73 @@ TEST_CASE("from a static start a pendulum is driven back by the weight that it c
   CHECK(model.omega1 == doctest::Approx(std::sqrt(g / 2.0)));
 }
 
+TEST_CASE("a start on pendulums is one in equilibrium: u = H R / N, by springs that feel it, too") {
+  // A slab that wind pushes, with friction and without; beside one bearing a column leans on it by a spring, so that
+  // what each bears depends on where the slab stands: W in the bearings by moments, H = sum N u / R + k (u - c).
+  const std::string scene =
+      view_head({}) +
+      "gravity = [0.0, -9.81]\n[run]\nt_end = 1.0\nengine = \"ida\"\ninitial = \"static\"\n[damping]\nbeta = "
+      "1e-3\n[nodes]\nW = [-1.0, 0.0]\nE = [1.0, 0.0]\n[[rigid]]\nname = \"slab\"\ncentre = [0.0, "
+      "0.5]\nnodes = [\"W\", \"E\"]\nmass = 100.0\ninertia = 20.0\n[[springs]]\nnode = \"slab\"\n"
+      "direction = [1.0, 1.0]\nstiffness = 300.0\n[[loads]]\nnode = \"slab\"\ndirection = [1.0, 0.0]\n"
+      "amplitude = 30.0\n";
+  const auto bearings = [](const std::string& more) {
+    std::string text;
+    for (const char* node : {"W", "E"})
+      text += fmt::format(
+          "[[pendulums]]\nname = \"p{}\"\nnode = \"{}\"\nradius = 2.0\nnormal_stiffness = 1e6\n{}", node,
+          node, more);
+    return text;
+  };
+  for (const char* more :
+       {"", "normal_force = 400.0\n", "friction = 0.05\ntangential_stiffness = 1e4\n",
+        "normal_force = 400.0\nfriction = 0.05\ntangential_stiffness = 1e4\nnormal_damping = 100.0\n"}) {
+    CAPTURE(more);
+    const Model model = build_model(parse_scene(scene + bearings(more), "test.toml"));
+    const double x = model.u0[0], y = model.u0[1], r = model.u0[2];  // of the centre
+    const double along = 300.0 * 0.5 * (x + y), left = -1e6 * (y - r), right = -1e6 * (y + r);
+    const double back = (left + right) * (x + 0.5 * r) / 2.0;
+    CHECK(std::abs(30.0 - along - back) < 1e-10);
+    CHECK(std::abs(left + right - 981.0 - along) < 1e-9);
+    CHECK(std::abs(left - right + 0.5 * back) < 1e-9);  // moments about the centre
+    CHECK(std::abs(x) > 0.01);
+    const Result rests = run_text(scene + bearings(more), "ida", "1e-10");
+    CHECK((rests.rows.back().u - model.u0).norm() < 1e-10);
+    CHECK(rests.report.witness.violations.empty());
+  }
+  const std::string with_friction = bearings("friction = 0.02\ntangential_stiffness = 1e4\n");
+  std::string slow = scene;
+  slow.replace(slow.find("\"static\""), 8, "\"frictional\"");
+  const Result rests = run_text(slow + with_friction, "ida", "1e-10");
+  CHECK((rests.rows.back().u - rests.rows.front().u).norm() < 1e-10);
+  CHECK(rests.rows.front().contacts[0].T > 1.0);
+}
+
+TEST_CASE("a reaction that has N u / R of a varying N in it is refused; one that a number says has it") {
+  const std::string scene =
+      view_head({}) +
+      "gravity = [0.0, -9.81]\n[run]\nt_end = 0.5\nengine = \"ida\"\ninitial = { A = { ux = 0.2 } "
+      "}\n[nodes]\nA "
+      "= [0.0, 0.0]\npier = [0.0, -1.0]\n[[masses]]\nnode = \"A\"\nmass = 100.0\n[[supports]]\nnode = "
+      "\"pier\"\nfix = [\"ux\", \"uy\"]\n[[output]]\nname = \"shear\"\nkind = \"reaction\"\nat = "
+      "\"pier\"\ndirection = [1.0, 0.0]\n[[pendulums]]\nname = \"p\"\nnode = \"A\"\nagainst = "
+      "\"pier\"\nradius = 2.0\n";
+  for (const char* varies :
+       {"normal_stiffness = 1e6\n", "normal_stiffness = 1e6\nnormal_force = 981.0\n",
+        "normal_force = { type = \"harmonic\", offset = 981.0, amplitude = 5.0, omega = 9.0 }\n"})
+    CHECK_THROWS_WITH(static_cast<void>(build_model(parse_scene(scene + varies, "test.toml"))),
+                      doctest::Contains("output.shear.at: the support bears N u / radius of pendulum 'p'"));
+  const std::string number =
+      "normal_force = 981.0\n[[supports]]\nnode = \"A\"\nfix = [\"uy\"]\n";  // N u / R pushes the pier along u
+  const Result swings = run_text(scene + number, "exact", "1e-10");
+  REQUIRE(swings.report.response.size() == 1);
+  CHECK(swings.report.response[0].minimum == doctest::Approx(-981.0 * 0.2 / 2.0).epsilon(1e-10));
+  std::string across = scene;
+  across.replace(across.find("[1.0, 0.0]"), 10, "[0.0, 1.0]");
+  CHECK_NOTHROW(
+      static_cast<void>(build_model(parse_scene(across + "normal_stiffness = 1e6\n", "test.toml"))));
+}
+
 TEST_CASE("engines that need laws which are linear refuse what varies, by name") {
   Bearing b;
   std::string scene = b.scene();

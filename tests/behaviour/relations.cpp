@@ -8,24 +8,33 @@
 using namespace signorini;
 using namespace signorini::differential;
 
+namespace {
+
+/// So many pairs from seed 1 on, a relation each.
+void compare_pairs(long pairs, std::string (*draw)(std::uint64_t), RelationTally& tally) {
+  for (std::uint64_t seed = 1; tally.runs() < pairs; ++seed) {
+    REQUIRE(seed < 2 * static_cast<std::uint64_t>(pairs));
+    RelationSettings settings;
+    settings.seed = seed;
+    settings.place = static_cast<long>(seed % relation_kinds.size());
+    settings.bounds.seconds = 1e6;  // no clock: a slow machine is no other verdict
+    examine_relations(draw(seed), "drawn", settings,
+                      [&](const char* relation, const Related& related, const Likeness& found) {
+                        tally.add(relation, found);
+                        CAPTURE(seed);
+                        CAPTURE(related.name);
+                        CAPTURE(found.what);
+                        CHECK(is_explained(found.verdict));
+                      });
+  }
+}
+
+}  // namespace
+
 TEST_SUITE("behaviour/relations") {
   TEST_CASE("a hundred random scenes beside related ones") {
     RelationTally tally;
-    for (std::uint64_t seed = 1; tally.runs() < 100; ++seed) {
-      REQUIRE(seed < 200);
-      RelationSettings settings;
-      settings.seed = seed;
-      settings.place = static_cast<long>(seed % relation_kinds.size());
-      settings.bounds.seconds = 1e6;  // no clock: a slow machine is no other verdict
-      examine_relations(draw_whole_scene(seed), "drawn", settings,
-                        [&](const char* relation, const Related& related, const Likeness& found) {
-                          tally.add(relation, found);
-                          CAPTURE(seed);
-                          CAPTURE(related.name);
-                          CAPTURE(found.what);
-                          CHECK(is_explained(found.verdict));
-                        });
-    }
+    compare_pairs(100, draw_whole_scene, tally);
     CHECK(tally.events() > 500);
   }
 
@@ -66,5 +75,33 @@ TEST_SUITE("behaviour/relations") {
                           CHECK(is_explained(found.verdict));
                         });
     }
+  }
+}
+
+TEST_SUITE("slow/behaviour/relations") {
+  TEST_CASE("a scene of pendulums and P-delta beside related ones") {
+    // 11, 16: a start without the force that drives pendulums back moved at once; going on lost what K had of them. 19: of
+    // reduced models the stated error left out what cancels in a shape's stiffness.
+    for (const auto& [seed, relation] : {std::pair{11U, "shifted"}, {16U, "going on"}, {19U, "turned"}}) {
+      RelationSettings settings;
+      settings.bounds.seconds = 1e6;
+      settings.only = relation;
+      long compared = 0;
+      CAPTURE(seed);
+      examine_relations(draw_structure_scene(seed), "drawn", settings,
+                        [&](const char*, const Related& related, const Likeness& found) {
+                          ++compared;
+                          CAPTURE(related.name);
+                          CAPTURE(found.what);
+                          CHECK(is_explained(found.verdict));
+                        });
+      CHECK(compared == 1);
+    }
+  }
+
+  TEST_CASE("random structures beside related ones: bodies, bends, hangers, pendulums, P-delta") {
+    RelationTally tally;
+    compare_pairs(24, draw_structure_scene, tally);
+    CHECK(tally.events() > 100);
   }
 }

@@ -23,5 +23,8 @@ namespace signorini::differential {
 /// All that a scene can say (draw_whole.cpp): one of the above or blocks in a yard, with parts without mass,
 /// dashpots, segments, reduction and outputs; by exact, ida or newmark.
 [[nodiscard]] std::string draw_whole_scene(std::uint64_t seed);
+/// Rigid bodies, shapes of sections, bends, hangers, pendulums, P-delta, stresses and envelopes
+/// (draw_structure.cpp).
+[[nodiscard]] std::string draw_structure_scene(std::uint64_t seed);
 
 }  // namespace signorini::differential

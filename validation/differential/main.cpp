@@ -9,6 +9,7 @@
 //   signorini_differential --loaded --transformed exact                   (draw_loaded.cpp)
 //   signorini_differential --flows --from 1 --count 1000                  (flows.hpp)
 //   signorini_differential --relations --from 1 --count 1000              (relations.hpp)
+//   signorini_differential --relations --structures --from 1 --count 1000 (draw_structure.cpp)
 //   signorini_differential --landings --from 1 --count 1000               (landings.hpp)
 //   signorini_differential --witness --coupled --from 1 --count 1000      (witnessed.hpp)
 //
@@ -43,8 +44,8 @@ struct Asked {
   long count = 100;
   double seconds = std::numeric_limits<double>::infinity();
   long run_steps = JudgeSettings{}.steps;
-  bool shrink = false, print = false, coupled = false, flows = false, loaded = false, relations = false,
-       landings = false, verbose = false, witness = false;
+  bool shrink = false, print = false, coupled = false, flows = false, loaded = false, structures = false,
+       relations = false, landings = false, verbose = false, witness = false;
   std::string relation;  ///< the only one
   std::string keep, scene;
   std::string transformed;  ///< engine that computes scenes written in other ways
@@ -331,6 +332,7 @@ void look_at_relations(const std::string& name, const std::string& text, const A
 
 /// A scene of the seed, of the kind that is asked for.
 std::string drawn(const Asked& asked, std::uint64_t seed) {
+  if (asked.structures) return draw_structure_scene(seed);
   if (asked.relations) return draw_whole_scene(seed);
   if (asked.landings) return draw_landing_scene(seed);
   return asked.coupled ? draw_coupled_scene(seed) : asked.loaded ? draw_loaded_scene(seed) : draw_scene(seed);
@@ -360,6 +362,10 @@ Asked read_command_line(int argc, char** argv, CLI::App& app) {
       ->excludes("--transformed");
   app.add_flag("--loaded", asked.loaded, "draw frames with heat, moments, supports that move, stops, stages")
       ->excludes("--coupled");
+  app.add_flag("--structures", asked.structures,
+               "draw rigid bodies, bends, hangers and pendulums, by P-delta or without")
+      ->excludes("--coupled")
+      ->excludes("--loaded");
   app.add_flag("--witness", asked.witness,
                "run each scene with all engines, and print what their witness finds");
   app.add_flag("--flows", asked.flows,

@@ -39,6 +39,7 @@ struct Related {
   bool jumps_at_start = false;  ///< of loads at t = 0: before energies of the first run are counted
   std::map<std::string, std::string> twins = {};      ///< contacts that share what one contact takes
   std::map<std::string, double> output_factors = {};  ///< of the first scene's value, of the other's
+  std::map<std::string, double> extreme_signs = {};   ///< of extremes beside a column of magnitudes
   std::vector<OutputExtremes> extremes_before = {};   ///< of what happened before `from`
 };
 

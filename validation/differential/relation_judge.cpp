@@ -81,9 +81,11 @@ class WrittenBack {
     for (std::size_t i = 0; i < first_.outputs.size(); ++i) {
       const auto place = std::find(other_.outputs.begin(), other_.outputs.end(), first_.outputs[i]);
       OutputExtremes e = other_.extremes[static_cast<std::size_t>(place - other_.outputs.begin())];
-      const double f = factor(*std::find_if(first_.columns.begin(), first_.columns.end(), [&](const auto& c) {
-        return c.of == SeenColumn::Of::output && c.name == first_.outputs[i];
-      }));
+      const auto sign = related_.extreme_signs.find(first_.outputs[i]);
+      const double f = (sign == related_.extreme_signs.end() ? 1.0 : sign->second) *
+                       factor(*std::find_if(first_.columns.begin(), first_.columns.end(), [&](const auto& c) {
+                         return c.of == SeenColumn::Of::output && c.name == first_.outputs[i];
+                       }));
       const double a = e.maximum / f, b = e.minimum / f;
       e.maximum = std::max(a, b);
       e.minimum = std::min(a, b);

@@ -74,6 +74,9 @@ std::optional<Related> related_mirrored(const Scene& scene, std::uint64_t /*seed
   for (OutputSpec& output : result->scene.outputs) {
     const double sign = mirror_sign(scene, output);
     result->output_factors[output.name] = sign;
+    if (output.kind == OutputKind::envelope &&
+        (output.quantity == OutputQuantity::M || output.quantity == OutputQuantity::V))
+      result->extreme_signs[output.name] = -1.0;
     for (OutputTerm& part : output.terms)
       for (const OutputSpec& term : scene.outputs)
         if (term.name == part.name) part.factor *= sign * mirror_sign(scene, term);

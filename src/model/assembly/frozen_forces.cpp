@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/rounding.hpp"
+#include "contact/bowl.hpp"
 #include "model/assembly/geometric.hpp"
 #include "model/assembly/loads.hpp"
 #include "model/assembly/pieces.hpp"
@@ -47,6 +48,12 @@ class Gathering {
       pull_[c] = weight * scene.gravity[c];
       for (std::size_t i = 0; i < bases.size(); ++i)
         pull_[c] += bases[i] * scene.base_motion[i].direction.vector[c];
+    }
+    for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+      const Contact& contact = model.contacts[k];
+      bowls_.push_back(contact.bowl ? beyond_spring(*scene.contacts[k].bowl, *contact.bowl) *
+                                          contact.tangent.dot(standing.u)
+                                    : 0.0);
     }
   }
 
@@ -159,7 +166,7 @@ class Gathering {
       for (std::size_t c = 0; c < 2; ++c) force[c] -= size * d[c];
     };
     if (spec.normal && has_gap(spec.law)) take(spec.normal->vector, standing_.N[k]);
-    take(sliding_direction(spec), standing_.T[k]);
+    take(sliding_direction(spec), standing_.T[k] + bowls_[k]);
     add(at->node, force, 1.0);
     for (const auto& [name, weight] : at->against) add(name, force, -weight);
   }
@@ -215,6 +222,7 @@ class Gathering {
   const StandingForces& standing_;
   std::vector<Plane> on_node_, uniform_;                   // a node; an element: force per length that acts
   std::vector<double> supports_;                           // where those that move are
+  std::vector<double> bowls_;                              // a contact: what drives a pendulum back
   Plane pull_{0.0, 0.0};                                   // on a unit of mass: of gravity, and of the base
   std::map<std::pair<bool, std::string>, double> values_;  // of loads and strains, by name
 };

@@ -240,10 +240,18 @@ class Maker {
     }
     if (!held) refuse(spec, "at", fmt::format("no support holds node '{}' that way", spec.at[0]));
     if (const int body = map_.body[static_cast<std::size_t>(node)]; body >= 0)
-      return add_body_reaction(scene_, map_, *rows_,
-                               {body, node, d, spec.place, "output." + spec.name + ".at"}, row);
-    for (std::size_t c = 0; c < 3; ++c)
-      if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
+      add_body_reaction(scene_, map_, *rows_, {body, node, d, spec.place, "output." + spec.name + ".at"},
+                        row);
+    else
+      for (std::size_t c = 0; c < 3; ++c)
+        if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
+    if (row.bowl)
+      refuse(spec, "at",
+             fmt::format(
+                 "the support bears N u / radius of pendulum '{}', whose N varies; no output is a product of "
+                 "both: expected a pendulum whose normal_force is a number, or outputs of the contact, N, T "
+                 "and slip",
+                 scene_.contacts[*row.bowl].name));
   }
 
   /// The nodes of its rigid body, or itself.

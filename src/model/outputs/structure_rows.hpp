@@ -21,6 +21,8 @@ struct PhysicalRow {
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
+  /// A contact whose curved surface adds N u / R as N varies, which is no form of the motion.
+  std::optional<std::size_t> bowl = {};
 };
 
 class StructureRows {

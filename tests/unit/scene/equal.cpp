@@ -92,8 +92,8 @@ std::string dump(const Scene& s) {
     dump.line("contact", c.name, static_cast<int>(c.law), c.normal, c.tangent, c.gap, c.normal_stiffness,
               c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
               c.friction.stribeck_velocity, c.friction.velocity, c.bowl ? c.bowl->radius : 0.0,
-              c.bowl ? c.bowl->carried : 0.0, c.carries_static, c.normal_force, c.surface_velocity,
-              c.initial_shear, c.tangential_damping, c.restitution, c.capture_velocity);
+              c.bowl ? c.bowl->carried : 0.0, c.normal_force, c.surface_velocity, c.initial_shear,
+              c.tangential_damping, c.restitution, c.capture_velocity);
   }
   for (const auto& l : s.loads)
     dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces,

@@ -1,0 +1,89 @@
+#include "model/carried.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/bowl.hpp"
+#include "model/assembly/springs.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+// Forces that an equilibrium gives again to so many roundings are the same. Chosen; each round is one solve with K.
+constexpr double settled = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr int rounds = 50;
+
+bool is_pressed_pendulum(const ContactSpec& contact) { return contact.bowl && contact.law == Law::compliant; }
+
+/// To begin with: what is given, or all that loads push, shared out. Its size decides nothing but the number of rounds;
+/// it is not zero, lest a structure that stands on pendulums alone is one that nothing holds.
+std::vector<double> first_guess(const Scene& scene, const Model& model) {
+  double pushed = 0.0, bearings = 0.0;
+  for (const Load& load : model.loads)
+    if (load.is_static)
+      for (const auto& [dof, factor] : load.direction.terms)
+        pushed += std::abs(factor * load.history.value(0.0));
+  for (const ContactSpec& contact : scene.contacts) bearings += is_pressed_pendulum(contact) ? 1.0 : 0.0;
+  std::vector<double> forces;
+  for (const ContactSpec& contact : scene.contacts)
+    forces.push_back(!contact.bowl                                                  ? 0.0
+                     : !is_pressed_pendulum(contact) || contact.bowl->carried > 0.0 ? contact.bowl->carried
+                                                                                    : pushed / bearings);
+  return forces;
+}
+
+}  // namespace
+
+bool has_pressed_pendulums(const Scene& scene) {
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), is_pressed_pendulum);
+}
+
+void carry(const Scene& scene, const std::vector<double>& forces, Model& model) {
+  std::vector<LineSpring> springs;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    if (!scene.contacts[k].bowl) continue;
+    Contact& contact = model.contacts[k];
+    contact.bowl->carried = forces[k];
+    if (const double more = beyond_spring(*scene.contacts[k].bowl, *contact.bowl); more != 0.0)
+      springs.push_back({contact.tangent, more});
+  }
+  if (!springs.empty()) model.stiffness = with_springs(model.stiffness, springs);
+}
+
+void start_on_pendulums(const Scene& scene, Model& model, const std::function<Model(Model)>& start) {
+  std::vector<double> forces = first_guess(scene, model);
+  for (int round = 0; round < rounds; ++round) {
+    Model begun = model;
+    carry(scene, forces, begun);
+    begun = start(std::move(begun));
+    double change = 0.0, size = 0.0;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      if (!is_pressed_pendulum(scene.contacts[k])) continue;
+      const double bears = std::max(0.0, begun.statics.reactions[k]);
+      change = std::max(change, std::abs(bears - forces[k]));
+      size = std::max(size, bears);
+      forces[k] = bears;
+    }
+    if (change > settled * size) continue;
+    model = std::move(begun);
+    return;
+  }
+  throw SceneError(scene.initial.place, "run.initial",
+                   "what pendulums bear does not settle: with each force that they bear the structure "
+                   "stands elsewhere, and presses them otherwise");
+}
+
+std::vector<double> carried_before(const Scene& scene) {
+  std::vector<double> forces;
+  for (const ContactSpec& contact : scene.contacts) {
+    forces.push_back(contact.bowl ? contact.bowl->carried : 0.0);
+    if (scene.initial.saved)
+      for (const auto& [name, force] : scene.initial.saved->carried)
+        if (name == contact.name) forces.back() = force;
+  }
+  return forces;
+}
+
+}  // namespace signorini

@@ -12,6 +12,7 @@ using nlohmann::json;
 using signorini::cli_test::belt;
 using signorini::cli_test::Ending;
 using signorini::cli_test::exists;
+using signorini::cli_test::has;
 using signorini::cli_test::lines;
 using signorini::cli_test::Shell;
 

@@ -300,7 +300,7 @@ py::dict sensitivity(const std::string& text, const std::string& file, const std
     all.insert(all.end(), changes.begin(), changes.end());
     return parse_scene(text, file, all);
   };
-  Kept kept(nullptr);
+  Kept kept(nullptr, nullptr);
   std::optional<Sensitivities> s;
   {
     const py::gil_scoped_release free;

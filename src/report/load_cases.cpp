@@ -130,27 +130,30 @@ std::string time_cell(const std::optional<double>& t) {
 }
 
 std::string table(const std::string& head, const std::string& rows) {
-  return rows.empty()
-             ? ""
-             : fmt::format(
-                   "<div class=wide><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-                   head, rows);
+  return rows.empty() ? ""
+                      : fmt::format(
+                            "<div class=\"wide "
+                            "all\"><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+                            head, rows);
 }
 
-std::string heading(const std::string& text) { return "<th>" + html_text(text) + "</th>"; }
+/// The unit stands below.
+std::string heading(const std::string& text, const std::string& unit = "") {
+  return "<th>" + html_text(text) + (unit.empty() ? "" : "<br>[" + html_text(unit) + "]") + "</th>";
+}
 
 }  // namespace
 
 std::string support_loads_html(const Json& summary) {
   const std::vector<Figure> figures = support_figures(summary);
   if (figures.empty()) return "";
-  const std::string time = " [" + text_in(entry_of(entry_of(summary, "units"), "time")) + "]";
+  const std::string time = text_in(entry_of(entry_of(summary, "units"), "time"));
   std::string head = heading("contact"), rows;
   const std::string& first = figures.front().item;
   for (const Figure& f : figures) {
     if (f.item != first) break;
-    head += heading(f.quantity + " [" + f.unit + "]");
-    if (f.t) head += heading("at t" + time);
+    head += heading(f.quantity, f.unit);
+    if (f.t) head += heading("at t", time);
   }
   for (std::size_t i = 0; i < figures.size();) {
     const std::string& item = figures[i].item;
@@ -163,10 +166,10 @@ std::string support_loads_html(const Json& summary) {
 }
 
 std::string responses_html(const Json& summary, bool envelopes) {
-  const std::string at = "at t [" + text_in(entry_of(entry_of(summary, "units"), "time")) + "]";
+  const std::string time = text_in(entry_of(entry_of(summary, "units"), "time"));
   std::string head = heading("name") + heading("unit"), rows;
   for (const char* which : {"maximum", "minimum"})
-    head += heading(which) + heading(at) + (envelopes ? heading("where") : "");
+    head += heading(which) + heading("at t", time) + (envelopes ? heading("where") : "");
   head += heading("at the end");
   std::string item;
   for (const Figure& f : response_figures(summary)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/rounding.hpp"
 #include "contact/conditions.hpp"
 #include "contact/motion.hpp"
 #include "contact/work.hpp"
@@ -86,10 +87,12 @@ void Auditor::bears(std::size_t contact, double t, double N, double T) {
   peak.N = std::max(peak.N, std::abs(N));
   peak.T = std::max(peak.T, std::abs(T));
   SupportLoad& load = supports_[contact];
-  if (N < load.least_N.value) load.least_N = {N, t};
-  if (N > load.greatest_N.value) load.greatest_N = {N, t};
-  if (T < load.least_T.value) load.least_T = {T, t};
-  if (T > load.greatest_T.value) load.greatest_T = {T, t};
+  // Of values that are equal to rounding the first one.
+  const double same = rounding::of_elimination * std::max(peak.N, peak.T);
+  if (N < load.least_N.value - same) load.least_N = {N, t};
+  if (N > load.greatest_N.value + same) load.greatest_N = {N, t};
+  if (T < load.least_T.value - same) load.least_T = {T, t};
+  if (T > load.greatest_T.value + same) load.greatest_T = {T, t};
 }
 
 double Auditor::slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const {

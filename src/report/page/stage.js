@@ -179,6 +179,13 @@ const placeLabels = (stage, g, labels) => {
       taken.push([px - 4, py - 4, px + 4, py + 4]);
     }
   }
+  for (const load of data.loads) {  // and along arrows
+    const [x, y] = stage.place(load.node, still, 0);
+    for (let s = 0; s <= 60; s += 6) {
+      const px = x - s * load.dx, py = y + s * load.dy;
+      taken.push([px - 3, py - 3, px + 3, py + 3]);
+    }
+  }
   const covered = (box) => taken.reduce((sum, other) => sum + Math.max(0, Math.min(box[2], other[2]) - Math.max(box[0], other[0])) *
     Math.max(0, Math.min(box[3], other[3]) - Math.max(box[1], other[1])), 0);
   const around = [[1, -1], [-1, -1], [1, 1], [-1, 1], [0, -1.3], [0, 1.3], [1.2, 0], [-1.2, 0]];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -39,8 +40,9 @@ class Waves {
     samples_ = steps + 1;
     const std::unique_ptr<gsl_rng, void (*)(gsl_rng*)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
     gsl_rng_set(random.get(), spec.seed);
-    // As far as eight samples a wave: beyond, lines between samples are no wave.
-    const double most = 1.0 / (8.0 * spec.dt);
+    // As far as three samples a wave, so that there is something to match at 0.05 s. What lines between samples make less
+    // of these waves, the spectrum of the lines has in it.
+    const double most = 1.0 / (3.0 * spec.dt);
     for (double f = 1.0 / spec.duration; f <= most; f += 1.0 / spec.duration) {
       frequencies.push_back(f);
       amplitudes.push_back(amplitude(spec, f));
@@ -100,17 +102,27 @@ void come_to_rest(std::vector<double>& a, double dt) {
   }
 }
 
-/// A_k by the quotient of target and spectrum, taken at periods at equal distances of their logarithms.
+/// A_k by the quotient of target and spectrum, taken at periods at equal distances of their logarithms. The turns do not
+/// converge, since a peak of the motion may change its place: the best one is kept.
 void match(Waves& waves, const QuakeSpec& spec) {
-  constexpr int turns = 12, periods = 60;
+  constexpr int turns = 20, periods = 120;
   const double low = std::log(0.6 * least_matched), high = std::log(2.0 * greatest_matched);
-  for (int turn = 0; turn < turns; ++turn) {
+  std::vector<double> best = waves.amplitudes;
+  double least_off = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn <= turns; ++turn) {
     std::vector<double> a = waves.sum();
     come_to_rest(a, spec.dt);
     std::vector<double> quotient;
+    double off = 0.0;
     for (int i = 0; i < periods; ++i) {
       const double T = std::exp(low + (high - low) * i / (periods - 1));
       quotient.push_back(spec.target(T) / pseudo_acceleration(a, spec.dt, T, spectrum_damping));
+      if (T >= least_matched && T <= greatest_matched)
+        off = std::max(off, std::abs(std::log(quotient.back())));
+    }
+    if (off < least_off) {
+      least_off = off;
+      best = waves.amplitudes;
     }
     for (std::size_t k = 0; k < waves.frequencies.size(); ++k) {
       const double at = (-std::log(waves.frequencies[k]) - low) / (high - low) * (periods - 1);
@@ -120,6 +132,7 @@ void match(Waves& waves, const QuakeSpec& spec) {
       waves.amplitudes[k] *= quotient[i] + part * (quotient[i + 1] - quotient[i]);
     }
   }
+  waves.amplitudes = best;
 }
 
 }  // namespace

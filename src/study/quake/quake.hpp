@@ -6,7 +6,7 @@
 //   A_k     by filter, white noise through the ground (Kanai and Tajimi) and a high pass (Clough and Penzien):
 //             A_k^2 ~ (1 + 4 zg^2 r^2) / ((1 - r^2)^2 + 4 zg^2 r^2) * q^4 / ((1 - q^2)^2 + 4 zf^2 q^2),  r = w/wg, q = w/wf;
 //             then a is scaled to its greatest value, pga
-//           by spectrum: as by filter, then A_k *= target(T_k) / PSA(T_k), some turns; not scaled again
+//           by spectrum: as by filter, then A_k *= target(T_k) / PSA(T_k), the best of 20 turns; not scaled again
 //   c1, c2  velocity and displacement of the ground, from rest, are zero at the end. Between samples a is linear
 //
 // Sources: R. W. Clough, J. Penzien, Dynamics of Structures (1993), section 28; D. Gasparini, E. Vanmarcke, SIMQKE (MIT R76-4, 1976).

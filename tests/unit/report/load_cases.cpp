@@ -55,8 +55,8 @@ TEST_SUITE("unit/report/load_cases") {
     CHECK(loads.find("<td>shoe &lt;1&gt;</td><td class=n>-7.5</td><td class=n>-9</td><td class=n "
                      "data-t=\"1.25\">1.25</td>"
                      "<td class=n>0</td>") != std::string::npos);  // 1e-18 beside 9 is rounding
-    CHECK(loads.find("<th>N least [kN]</th><th>at t [s]</th>") != std::string::npos);
-    CHECK(loads.find("<th>friction loss [kN m]</th>") != std::string::npos);
+    CHECK(loads.find("<th>N least<br>[kN]</th><th>at t<br>[s]</th>") != std::string::npos);
+    CHECK(loads.find("<th>friction loss<br>[kN m]</th>") != std::string::npos);
     const std::string envelopes = responses_html(json, true), others = responses_html(json, false);
     CHECK(envelopes.find("<td>A-B 0.5 left</td>") != std::string::npos);
     CHECK(envelopes.find("<td>x</td>") == std::string::npos);

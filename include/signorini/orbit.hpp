@@ -80,4 +80,42 @@ struct Orbit {
 /// The scene of one period of the orbit, beginning on it.
 [[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
 
+/// A branch of orbits over a key of the scene.
+struct BranchOptions {
+  OrbitOptions orbit = {};
+  std::string path;             ///< of the key
+  double from = 0.0, to = 0.0;  ///< its first and last value
+  double step =
+      0.02;  ///< greatest, of the range; a step counts changes of the state by parts of the amplitude as well
+  int most_points = 1000;
+};
+
+struct BranchPoint {
+  double parameter = 0.0, period = 0.0, amplitude = 0.0;
+  std::vector<double> minima, maxima;  ///< one an output, over the period
+  double max_multiplier = 0.0, multiplier_error = 0.0, residual = 0.0;
+  std::optional<bool> stable;
+  OrbitLoss loss = OrbitLoss::none;
+  int sequence =
+      0;  ///< number of the sequence of events, from 1 on, in the order in which the branch meets them
+  long events = 0;  ///< in one period
+  /// What lies between the point before and this one: "fold" (the parameter turns), "stability" (gained or lost),
+  /// "sequence", "restart" (the branch before could not be followed on); several with "+"
+  std::string special;
+};
+
+struct Branch {
+  std::vector<BranchPoint> points;
+  std::vector<std::string> sequences;  ///< by number, from 1 on: "stop contact, stop separation"
+  std::string end;                     ///< why it ends, one sentence
+  bool complete = false;               ///< it reached `to`, or `from` again behind a fold
+  bool interrupted = false;
+};
+
+/// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: hears of every point, and may stop.
+/// Errors: those of find_orbit, UsageError for a key that is no number.
+[[nodiscard]] Branch follow(const SceneReader& read, const BranchOptions& options,
+                            Recorder* recorder = nullptr,
+                            const std::function<void(const BranchPoint&)>& seen = {});
+
 }  // namespace signorini

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <sstream>
 #include <memory>
+#include <sstream>
 
 #include "base/embedded.hpp"
 #include "base/suggest.hpp"

@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/orbit_over.hpp"
 #include "cli/settings.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
@@ -28,6 +29,7 @@ struct OrbitCommand : OutputOptions {
   std::optional<std::string> directory;
   std::vector<std::string> settings;
   OrbitOptions search;
+  std::string over;
 };
 
 fs::path directory_of(const OrbitCommand& options) {
@@ -116,6 +118,12 @@ ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
 ExitCode run(const OrbitCommand& options, const std::vector<std::string>& command_line) {
   const std::vector<Override> changes = overrides_of(options.settings);
   const fs::path path = directory_of(options);
+  if (!options.over.empty()) {
+    BranchOptions over;
+    read_over(options.over, over);
+    over.orbit = options.search;
+    return run_over(options.scene, reader_of(options.scene, changes), over, path, options);
+  }
   check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
@@ -165,6 +173,10 @@ void add_orbit(Program& program) {
       ->add_option("--transient", options->search.transient,
                    "periods that are run before Newton's method begins (default: 20)")
       ->option_text("N");
+  command
+      ->add_option("--over", options->over,
+                   "follow the orbit over a key, from its first value to its last: branch.csv")
+      ->option_text("PATH=FROM:TO");
   add_settings(*command, options->settings);
   add_output_options(*command, *options, "replace an earlier orbit, or run, in the directory", "orbit.json");
   command->callback([&program, options] {

@@ -24,10 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-QuakeSpec spec_of(const QuakeOptions& options) {
+QuakeSpec quake_spec(const QuakeOptions& options) {
   const auto within = [](const char* option, double value, double least, double most) {
     if (!(value >= least && value <= most))
-      throw UsageError(fmt::format("--{}: found {}, expected {} to {}", option, shortest(value), least, most));
+      throw UsageError(
+          fmt::format("--{}: found {}, expected {} to {}", option, shortest(value), least, most));
   };
   within("pga", options.pga, 1e-6, 100.0);
   within("duration", options.duration, 1.0, 600.0);
@@ -58,10 +59,10 @@ QuakeSpec spec_of(const QuakeOptions& options) {
 }
 
 /// The command that makes these files again.
-std::string command_of(const QuakeOptions& options) {
-  std::string text = fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}",
-                                 shortest(options.pga), shortest(options.duration), shortest(options.dt),
-                                 options.seed);
+std::string quake_command(const QuakeOptions& options) {
+  std::string text =
+      fmt::format("signorini quake NAME --pga {} --duration {} --dt {} --seed {}", shortest(options.pga),
+                  shortest(options.duration), shortest(options.dt), options.seed);
   if (options.spectrum) text += " --spectrum " + fs::path(*options.spectrum).filename().string();
   return text + fmt::format(" --ground-frequency {} --ground-damping {}", shortest(options.ground_frequency),
                             shortest(options.ground_damping));
@@ -71,21 +72,21 @@ std::string at2_text(const QuakeOptions& options, const std::vector<double>& a) 
   std::string text = fmt::format(
       "SYNTHETIC ACCELEROGRAM, NOT A RECORD\n{}\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {}, DT= {} "
       "SEC\n",
-      command_of(options), a.size(), shortest(options.dt));
+      quake_command(options), a.size(), shortest(options.dt));
   for (std::size_t i = 0; i < a.size(); ++i)
     text += fmt::format("{:>16.8E}{}", a[i], i % 5 == 4 || i + 1 == a.size() ? "\n" : "");
   return text;
 }
 
 std::string csv_text(const QuakeOptions& options, const std::vector<double>& a) {
-  std::string text = "# " + command_of(options) + "\n# t in s, a in m/s^2\nt,a\n";
+  std::string text = "# " + quake_command(options) + "\n# t in s, a in m/s^2\nt,a\n";
   for (std::size_t i = 0; i < a.size(); ++i)
     text += fmt::format("{},{}\n", shortest(std::round(static_cast<double>(i) * options.dt * 1e9) / 1e9),
                         shortest(a[i] * standard_gravity));
   return text;
 }
 
-std::string told(const QuakeSpec& spec, const std::vector<double>& a) {
+std::string ground_text(const QuakeSpec& spec, const std::vector<double>& a) {
   const GroundMotion ground = ground_motion(a, spec.dt);
   double pga = 0.0;
   for (const double value : a) pga = std::max(pga, std::abs(value));
@@ -100,8 +101,9 @@ std::string told(const QuakeSpec& spec, const std::vector<double>& a) {
     least = std::min(least, quotient);
     greatest = std::max(greatest, quotient);
   }
-  return text + fmt::format("response spectrum, 5 % damping, {} s to {} s: {:.0f} % to {:.0f} % of the target\n",
-                            least_matched, greatest_matched, 100.0 * least, 100.0 * greatest);
+  return text +
+         fmt::format("response spectrum, 5 % damping, {} s to {} s: {:.0f} % to {:.0f} % of the target\n",
+                     least_matched, greatest_matched, 100.0 * least, 100.0 * greatest);
 }
 
 }  // namespace
@@ -113,8 +115,9 @@ void add_quake_options(CLI::App& command, QuakeOptions& options) {
                   "greatest acceleration in g, with ec8 spectra the design acceleration ag (default: 0.3)")
       ->option_text("A");
   command
-      .add_option("--spectrum", options.spectrum,
-                  "match a response spectrum at 5 % damping: ec8-A to ec8-E, or a file of rows T,PSA in s and g")
+      .add_option(
+          "--spectrum", options.spectrum,
+          "match a response spectrum at 5 % damping: ec8-A to ec8-E, or a file of rows T,PSA in s and g")
       ->option_text("NAME|FILE");
   command.add_option("--seed", options.seed, "of the phases (default: 1)")->option_text("S");
   command.add_option("--duration", options.duration, "in s (default: 20)")->option_text("D");
@@ -138,19 +141,20 @@ std::vector<std::string> quake_files(const QuakeOptions& options) {
 std::string write_quake(const QuakeOptions& options) {
   if (fs::path(options.name).filename().empty())
     throw UsageError(fmt::format("NAME: found \"{}\", expected a file's name", options.name));
-  const QuakeSpec spec = spec_of(options);
+  const QuakeSpec spec = quake_spec(options);
   for (const std::string& file : quake_files(options))
     if (!options.force && fs::exists(fs::symlink_status(file)))
       throw FileError(file, "is there already; --force replaces it");
   const std::vector<double> a = quake(spec);
   write_file(quake_files(options)[0], at2_text(options, a));
   write_file(quake_files(options)[1], csv_text(options, a));
-  return options.quiet ? "" : told(spec, a);
+  return options.quiet ? "" : ground_text(spec, a);
 }
 
 void add_quake(Program& program) {
   auto options = std::make_shared<QuakeOptions>();
-  CLI::App* command = program.app.add_subcommand("quake", "make a synthetic accelerogram: NAME.AT2, NAME.csv");
+  CLI::App* command =
+      program.app.add_subcommand("quake", "make a synthetic accelerogram: NAME.AT2, NAME.csv");
   add_quake_options(*command, *options);
   command->callback([&program, options] {
     program.action = [options] {

@@ -48,8 +48,7 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   const fs::path page = given.empty() ? "cases.html" : given;
   fs::path table = page;
   table.replace_extension(".csv");
-  if (table == page)
-    throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
+  if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
   write_file(page, load_cases_page(cases));
   write_file(table, load_cases_csv(cases));
   print(page.string() + "\n" + table.string() + "\n");
@@ -62,7 +61,8 @@ void add_report(Program& program) {
   auto directories = std::make_shared<std::vector<std::string>>();
   auto output = std::make_shared<std::string>();
   CLI::App* command = program.app.add_subcommand(
-      "report", "write one page of HTML about a run, comparison, study, sweep or verification, or load cases");
+      "report",
+      "write one page of HTML about a run, comparison, study, sweep or verification, or load cases");
   command
       ->add_option("DIR", *directories,
                    "the directory of results; of several runs, load cases side by side: a page and a CSV")

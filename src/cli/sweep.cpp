@@ -165,7 +165,10 @@ fs::path output_directory(const SweepOptions& options, const Share& share) {
 class Progress {
  public:
   Progress(const SweepDirectory& directory, std::size_t all, bool line)
-      : directory_(directory), all_(all), there_(directory.rows().size()), line_(line && stderr_is_terminal()) {}
+      : directory_(directory),
+        all_(all),
+        there_(directory.rows().size()),
+        line_(line && stderr_is_terminal()) {}
   ~Progress() {
     if (line_) progress_line("");
   }
@@ -397,9 +400,10 @@ void add_sweep(Program& program) {
       ->option_text("QUERY")
       ->allow_extra_args(false);
   command
-      ->add_option("--sample", options->samples,
-                   "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
-                   "triangular(least,likely,greatest); keys with commas between share each draw (may be repeated)")
+      ->add_option(
+          "--sample", options->samples,
+          "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
+          "triangular(least,likely,greatest); keys with commas between share each draw (may be repeated)")
       ->option_text("PATH[,PATH...]=DISTRIBUTION")
       ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },

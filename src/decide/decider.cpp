@@ -97,6 +97,9 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
     : model_(systems.model()),
       systems_(systems),
       jets_(systems),
+      decide_alone_(std::none_of(
+          model_.contacts.begin(), model_.contacts.end(),
+          [](const Contact& contact) { return contact.takes_impulses() || contact.sticks_rigidly(); })),
       max_rounds_(max_rounds),
       touching_(systems, jets_, capture_velocity),
       blocks_(coupled_contacts(model_)),
@@ -114,7 +117,12 @@ bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course)
   d.u = instant.u;
   d.v = instant.v;
   course.held = hold(model_, *d.system, forcing, instant.t, d.u, d.v);
-  d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets);
+  JetMaker::Told told;
+  if (decide_alone_)
+    told = [&](std::size_t c, const MotionJet& jet, std::size_t orders) {
+      return told_by(model_.contacts[c], c, mode[c], jet, orders, instant, unlucky);
+    };
+  d.jet = jets_.make(d.system, forcing, instant.t, d.u, d.v, course.jets, told);
   d.u = d.jet.u.col(0);
   d.v = d.jet.u.col(1);
   d.mode = mode;

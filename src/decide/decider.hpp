@@ -71,6 +71,7 @@ class Decider {
   const Model& model_;
   ModeSystems& systems_;
   JetMaker jets_;
+  bool decide_alone_;  // no contact is decided with others
   int max_rounds_;
   Touching touching_;
   std::vector<Block> blocks_;

@@ -13,10 +13,13 @@ double derivative(const Form& form, const MotionJet& jet, std::size_t k) {
 }
 
 /// Below this derivative k is zero.
-double zero_of(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t k) {
-  double zero = instant.blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
-  if (k + 1 < jet.motion.size()) zero += instant.resolution * std::abs(form.rate(jet.motion[k + 1]));
+double zero_of(const Form& form, const MotionJet& jet, double blur, double resolution, std::size_t k) {
+  double zero = blur * form.magnitude(jet.noise[k]) + std::numeric_limits<double>::min();
+  if (k + 1 < jet.motion.size()) zero += resolution * std::abs(form.rate(jet.motion[k + 1]));
   return zero;
+}
+double zero_of(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t k) {
+  return zero_of(form, jet, instant.blur, instant.resolution, k);
 }
 
 /// The guard of a contact that fails soonest.
@@ -86,6 +89,27 @@ bool starts_at_zero(const Form& form, const MotionJet& jet, const Instant& insta
   const double zero =
       instant.blur * form.magnitude(jet.noise[0]) + instant.resolution * std::abs(form.rate(jet.motion[1]));
   return std::abs(form.value(jet.motion[0])) <= zero;
+}
+
+bool told_by(const Contact& contact, std::size_t c, const ContactState& state, const MotionJet& jet,
+             std::size_t orders, const Instant& instant, double most_blur) {
+  if (orders == MotionJet::orders) return true;
+  const double blur = most_blur * instant.blur, resolution = most_blur * instant.resolution;
+  for (const GuardForm& guard : guards(contact, state)) {
+    if (guard.kind == Guard::none) continue;
+    if (instant.has_rested(c, guard.kind)) return false;  // differences to another motion count
+    // What fell is zero, and a rate that rises is as well: failure_of().
+    const bool fell = instant.has_fired(c, guard.kind);
+    bool told = false;
+    for (std::size_t k = fell ? 1 : 0; k < orders && !told; ++k) {
+      const double d = derivative(guard.form, jet, k);
+      told = std::abs(d) > zero_of(guard.form, jet, blur, resolution, k) && !(fell && k == 1 && d > 0.0);
+      // One that fails is asked for all that it leads to.
+      if (told && d < 0.0 && orders == 1) return false;
+    }
+    if (!told) return false;
+  }
+  return true;
 }
 
 double forgiveness(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first) {

@@ -79,6 +79,12 @@ struct Sign {
 [[nodiscard]] Sign sign_of_guard(const Form& form, const MotionJet& jet, const Instant& instant,
                                  const Known& known, const MotionJet* base = nullptr);
 
+/// Do the noises of the first `orders` orders tell all that a decision without rigid contacts asks of this one: the signs
+/// of its guards, though zeros be blurred `most_blur` times?
+[[nodiscard]] bool told_by(const Contact& contact, std::size_t c, const ContactState& state,
+                           const MotionJet& jet, std::size_t orders, const Instant& instant,
+                           double most_blur);
+
 struct Failure {
   std::size_t contact = 0;
   Guard guard = Guard::none;

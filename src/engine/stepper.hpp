@@ -85,6 +85,16 @@ class Stepper {
     return none;
   }
 
+  /// One of those turns.
+  struct ContactTurn {
+    std::size_t contact = 0;
+    double t = 0.0;
+  };
+  /// Whose turns they are, in no order. Nothing: glimpse() of all contacts at each time costs no more than of one.
+  [[nodiscard]] virtual std::optional<std::vector<ContactTurn>> contact_turns() const { return std::nullopt; }
+  /// The same as glimpse, of what one contact touches; where contact_turns() tells of any.
+  virtual void glimpse(double t, std::size_t /*contact*/, Point& point) { glimpse(t, point); }
+
   [[nodiscard]] virtual Expansion expansion() const { return {}; }
   /// The modes that it follows motions in; null: it knows none.
   [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }

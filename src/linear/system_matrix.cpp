@@ -76,12 +76,6 @@ Pattern pattern_of(const Model& model, const Structure& structure, const SharedR
   return pattern;
 }
 
-/// Of a row of a contact, in the column of a degree of freedom with these parts of normal and tangent.
-double entry(const Form& f, double n, double t, const Weights& w) {
-  return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
-         t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
-}
-
 std::vector<std::int64_t> starts_of(const Pattern& pattern) {
   std::vector<std::int64_t> start, rows;
   pattern.compress(start, rows);
@@ -163,8 +157,8 @@ void SystemMatrix::add_column(int to, int from, double factor, const Weights& w,
     for (std::size_t i = 0; i < contacts_[k].dof.size(); ++i) {
       if (contacts_[k].dof[i] != from) continue;
       const double n = contacts_[k].n[i], t = contacts_[k].t[i];
-      values_[slot(force, to)] += factor * entry(rows[k].normal, n, t, w);
-      values_[slot(force + 1, to)] += factor * entry(rows[k].tangent, n, t, w);
+      values_[slot(force, to)] += factor * entry_of(rows[k].normal, n, t, w);
+      values_[slot(force + 1, to)] += factor * entry_of(rows[k].tangent, n, t, w);
     }
 }
 
@@ -199,8 +193,8 @@ bool SystemMatrix::set(const std::vector<Rows>& rows, const std::vector<Weights>
     const Rows& r = rows[k];
     for (std::size_t i = 0; i < slots.dof.size(); ++i) {
       const Weights& w = weights[static_cast<std::size_t>(slots.dof[i])];
-      values_[slots.normal_row[i]] = entry(r.normal, slots.n[i], slots.t[i], w);
-      values_[slots.tangent_row[i]] = entry(r.tangent, slots.n[i], slots.t[i], w);
+      values_[slots.normal_row[i]] = entry_of(r.normal, slots.n[i], slots.t[i], w);
+      values_[slots.tangent_row[i]] = entry_of(r.tangent, slots.n[i], slots.t[i], w);
       values_[slots.N_column[i]] = slots.n[i];
       values_[slots.T_column[i]] = slots.t[i];
     }

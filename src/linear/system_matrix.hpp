@@ -32,6 +32,12 @@ struct Weights {
 /// The factor of one degree of freedom in a form.
 [[nodiscard]] double component(const Combination& combination, int dof);
 
+/// Of a row of a contact, in the column of a degree of freedom with these parts of normal and tangent.
+[[nodiscard]] inline double entry_of(const Form& f, double n, double t, const Weights& w) {
+  return n * (f.gap * w.displacement + f.vn * w.velocity + f.an * w.acceleration) +
+         t * (f.ut * w.displacement + f.vt * w.velocity + f.at * w.acceleration);
+}
+
 /// Rows of all contacts in a mode.
 [[nodiscard]] std::vector<Rows> rows_of(const Model& model, const Mode& mode);
 

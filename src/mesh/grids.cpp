@@ -59,8 +59,7 @@ struct Lattice {
   }
 
   void add_element(std::vector<int> nodes) {
-    mesh.elements.push_back(
-        {grid.shape, std::move(nodes), static_cast<long>(mesh.elements.size()) + 1, {}});
+    mesh.elements.push_back({grid.shape, std::move(nodes), static_cast<long>(mesh.elements.size()) + 1, {}});
   }
 
   void add_cell(int i, int j) {

@@ -46,21 +46,21 @@ double size_of(const Model& model, const Combination& form, const double* x) {
   return size_by(model, form, [x](int dof) { return x[dof]; });
 }
 
-/// From a series of scale 1: derivatives are k! times the coefficients.
-void fill(const Model& model, std::size_t c, const Series& series, Derivatives& d) {
+/// From a series of scale 1: derivatives are k! times the coefficients. Those that orders 0 .. last of a motion reach.
+void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, Derivatives& d) {
   const Contact& contact = model.contacts[c];
   const auto n = static_cast<std::size_t>(series.u.rows()),
              forces = static_cast<std::size_t>(series.forces.rows());
   const ForcingSeries& f = series.forcing;
   double factorial = 1.0;
-  for (std::size_t k = 0; k < known; ++k) {
+  for (std::size_t k = 0; k < last + 3; ++k) {
     if (k > 1) factorial *= static_cast<double>(k);
     const double* u = series.u.data() + k * n;
     d.gap[k] = factorial * gap_coefficient(contact, series, k);
     d.ut[k] = factorial * ut_coefficient(contact, c, series, k);
     d.gap_terms[k] = factorial * size_of(model, contact.normal, u);
     d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
-    if (k >= MotionJet::orders) continue;
+    if (k > last) continue;
     d.N[k] = factorial * series.forces.data()[k * forces + normal_slot(c)];
     d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
   }
@@ -92,7 +92,7 @@ JetMaker::JetMaker(ModeSystems& systems)
       levels_(taylor_.massless() ? Jet::orders + 2 : Jet::orders) {}
 
 Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                   const Vector& v, std::vector<MotionJet>& result) {
+                   const Vector& v, std::vector<MotionJet>& result, const Told& told) {
   taylor_.expand(system, forcing, t, u, v, levels_, 1.0, series_);
   Jet jet{t, series_.u, series_.forces, taylor_.system()};
   double factorial = 1.0;
@@ -102,9 +102,36 @@ Jet JetMaker::make(const ModeSystemPtr& system, const Forcing& forcing, double t
     if (k <= levels_) jet.forces.col(k) *= factorial;
   }
   const Disturbance disturbance{series_};
-  taylor_.expand(system, forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
-  motions(*jet.system, result);
+  taylor_.begin(system, forcing, t, jet.u.col(0), jet.u.col(1), levels_, 1.0, disturbed_, &disturbance);
+  result.resize(model_.contacts.size());
+  if (told && !taylor_.massless()) {
+    tell(*jet.system, forcing, disturbance, told, result);
+    return jet;
+  }
+  taylor_.extend(forcing, levels_, disturbed_, &disturbance);
+  for (std::size_t c = 0; c < result.size(); ++c)
+    motions(*jet.system, c, 0, MotionJet::orders - 1, result[c]);
   return jet;
+}
+
+/// Order by order, as far as somebody asks.
+void JetMaker::tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
+                    const Told& told, std::vector<MotionJet>& result) {
+  constexpr std::size_t last = MotionJet::orders - 1;
+  taylor_.extend(forcing, 0, disturbed_, &disturbance);
+  std::vector<std::size_t> open;
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    motions(system, c, 0, 0, result[c]);
+    rates(c, 1, 1, result[c]);
+    if (told(c, result[c], 1)) continue;
+    open.push_back(c);
+    rates(c, 2, last, result[c]);
+  }
+  for (std::size_t k = 1; k <= last && !open.empty(); ++k) {
+    taylor_.extend(forcing, static_cast<int>(k), disturbed_, &disturbance);
+    for (const std::size_t c : open) motions(system, c, k, k, result[c]);
+    std::erase_if(open, [&](std::size_t c) { return told(c, result[c], k + 1); });
+  }
 }
 
 /// Of the balance of forces at the degrees of freedom of a contact.
@@ -127,58 +154,70 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, double factorial,
           factorial * size(t) / squared(t)};
 }
 
-void JetMaker::motions(const ModeSystem& system, std::vector<MotionJet>& result) const {
-  result.resize(model_.contacts.size());
+/// Orders first .. last of a motion, without their noise.
+void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJet& result) const {
+  Derivatives a;
+  fill(model_, c, series_, last, a);
+  const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+  double factorial = 1.0;
+  for (std::size_t k = 0; k <= last; ++k) {
+    if (k > 1) factorial *= static_cast<double>(k);
+    if (k >= first) result.motion[k] = motion_of_order(a, k, pressing, factorial);
+  }
+}
+
+/// Orders first .. last of a motion, with their noise.
+void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t first, std::size_t last,
+                       MotionJet& result) const {
   // One sample of rounding can be small by chance, so the terms of each sum count as well.
   const auto noise = [](double x, double y, double size) {
     return noise_factor * std::abs(x - y) + rounding::of_many * size;
   };
   Derivatives a, b;
-  for (std::size_t c = 0; c < result.size(); ++c) {
-    const Rows& rows = system.rows()[c];
-    fill(model_, c, series_, a);
-    fill(model_, c, disturbed_, b);
-    const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
-    double factorial = 1.0;
-    for (std::size_t k = 0; k < MotionJet::orders; ++k) {
-      if (k > 1) factorial *= static_cast<double>(k);
-      ContactMotion &m = result[c].motion[k], &d = result[c].noise[k];
-      m = motion_of_order(a, k, pressing, factorial);
-      // The sizes of the terms of each row bound the rounding of its force.
-      ContactMotion terms;
-      terms.gap = a.gap_terms[k];
-      terms.ut = a.ut_terms[k];
-      terms.vn = a.gap_terms[k + 1];
-      terms.vt = a.ut_terms[k + 1];
-      terms.an = a.gap_terms[k + 2];
-      terms.at = a.ut_terms[k + 2];
-      terms.pressing = std::abs(m.pressing);
-      terms.pressing_rate = std::abs(m.pressing_rate);
-      const Balance balance = balance_of(model_.contacts[c], factorial, k);
-      terms.an += balance.an;
-      terms.at += balance.at;
-      const double N = (rows.normal.an != 0.0 ? balance.N : 0.0) + rows.normal.magnitude(terms) +
-                       (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
-      const double T = (rows.tangent.at != 0.0 ? balance.T : 0.0) + rows.tangent.magnitude(terms) +
-                       (k == 0 ? std::abs(rows.tangent.constant) : 0.0) + std::abs(m.T) +
-                       std::abs(rows.tangent.N) * N;
-      d.N = noise(a.N[k], b.N[k], N);
-      d.T = noise(a.T[k], b.T[k], T);
-      d.gap = noise(a.gap[k], b.gap[k], terms.gap);
-      d.ut = noise(a.ut[k], b.ut[k], terms.ut);
-      d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
-      if (k == 0) {
-        // u and v are data where there is mass: a sample of their rounding is at most this, by how the scene
-        // is turned.
-        d.gap = std::max(d.gap, of_data * terms.gap);
-        d.vn = std::max(d.vn, of_data * terms.vn);
-      }
-      d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
-      d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
-      d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
-      d.pressing = rounding::of_many * terms.pressing;
-      d.pressing_rate = rounding::of_many * terms.pressing_rate;
+  const Rows& rows = system.rows()[c];
+  fill(model_, c, series_, last, a);
+  fill(model_, c, disturbed_, last, b);
+  const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
+  double factorial = 1.0;
+  for (std::size_t k = 0; k <= last; ++k) {
+    if (k > 1) factorial *= static_cast<double>(k);
+    if (k < first) continue;
+    ContactMotion &m = result.motion[k], &d = result.noise[k];
+    m = motion_of_order(a, k, pressing, factorial);
+    // The sizes of the terms of each row bound the rounding of its force.
+    ContactMotion terms;
+    terms.gap = a.gap_terms[k];
+    terms.ut = a.ut_terms[k];
+    terms.vn = a.gap_terms[k + 1];
+    terms.vt = a.ut_terms[k + 1];
+    terms.an = a.gap_terms[k + 2];
+    terms.at = a.ut_terms[k + 2];
+    terms.pressing = std::abs(m.pressing);
+    terms.pressing_rate = std::abs(m.pressing_rate);
+    const Balance balance = balance_of(model_.contacts[c], factorial, k);
+    terms.an += balance.an;
+    terms.at += balance.at;
+    const double N = (rows.normal.an != 0.0 ? balance.N : 0.0) + rows.normal.magnitude(terms) +
+                     (k == 0 ? std::abs(rows.normal.constant) : 0.0) + std::abs(m.N);
+    const double T = (rows.tangent.at != 0.0 ? balance.T : 0.0) + rows.tangent.magnitude(terms) +
+                     (k == 0 ? std::abs(rows.tangent.constant) : 0.0) + std::abs(m.T) +
+                     std::abs(rows.tangent.N) * N;
+    d.N = noise(a.N[k], b.N[k], N);
+    d.T = noise(a.T[k], b.T[k], T);
+    d.gap = noise(a.gap[k], b.gap[k], terms.gap);
+    d.ut = noise(a.ut[k], b.ut[k], terms.ut);
+    d.vn = noise(a.gap[k + 1], b.gap[k + 1], terms.vn);
+    if (k == 0) {
+      // u and v are data where there is mass: a sample of their rounding is at most this, by how the scene
+      // is turned.
+      d.gap = std::max(d.gap, of_data * terms.gap);
+      d.vn = std::max(d.vn, of_data * terms.vn);
     }
+    d.vt = noise(a.ut[k + 1], b.ut[k + 1], terms.vt) + (k == 0 ? series_.forcing.rounding[c] : 0.0);
+    d.an = noise(a.gap[k + 2], b.gap[k + 2], terms.an);
+    d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
+    d.pressing = rounding::of_many * terms.pressing;
+    d.pressing_rate = rounding::of_many * terms.pressing_rate;
   }
 }
 

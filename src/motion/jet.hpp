@@ -5,8 +5,11 @@
 // The derivatives are those of motion/taylor.hpp.
 //
 // Each jet is computed twice, the second time with data and right-hand sides disturbed by one rounding:
-// the difference tells which of its entries are zero to working precision.
+// the difference tells which of its entries are zero to working precision. Most contacts are far from a change of
+// state: value and rate tell it, and the second time ends with the last order that some contact is asked for.
 #pragma once
+
+#include <functional>
 
 #include "contact/transition.hpp"
 #include "motion/taylor.hpp"
@@ -31,10 +34,16 @@ class JetMaker {
  public:
   explicit JetMaker(ModeSystems& systems);
 
+  /// Is all told that will be asked of a contact, once the noise of the first `orders` orders of its motion is known? The
+  /// motion itself is known one order further.
+  using Told = std::function<bool(std::size_t contact, const MotionJet& motion, std::size_t orders)>;
+
   /// The jet at t from u and v (v of massless degrees of freedom is not read), and the motion of every
-  /// contact in it, orders 0 to Jet::orders, with its noise.
+  /// contact in it, orders 0 to Jet::orders, with its noise. `told`, where it is given: orders that a contact is not
+  /// asked for are not made, and hold anything. Of contacts for which order 0 does not tell all, the motion is
+  /// complete. What is made is the same to the last bit.
   [[nodiscard]] Jet make(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u,
-                         const Vector& v, std::vector<MotionJet>& motions);
+                         const Vector& v, std::vector<MotionJet>& motions, const Told& told = {});
 
  private:
   /// Sums of the magnitudes of the terms that accelerations and forces of a contact are differences of.
@@ -42,7 +51,11 @@ class JetMaker {
     double an, at, N, T;
   };
   [[nodiscard]] Balance balance_of(const Contact& contact, double factorial, std::size_t k) const;
-  void motions(const ModeSystem& system, std::vector<MotionJet>& result) const;
+  void tell(const ModeSystem& system, const Forcing& forcing, const Disturbance& disturbance,
+            const Told& told, std::vector<MotionJet>& result);
+  void rates(std::size_t contact, std::size_t first, std::size_t last, MotionJet& result) const;
+  void motions(const ModeSystem& system, std::size_t contact, std::size_t first, std::size_t last,
+               MotionJet& result) const;
 
   const Model& model_;
   Taylor taylor_;

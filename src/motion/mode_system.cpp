@@ -5,6 +5,7 @@
 namespace signorini {
 
 void FactorisedMode::solve(double* x, double* y) const {
+  if (by_mass) return by_mass->solve(x, y);
   if (!dense()) {
     sparse.solve(x, y);
     return;
@@ -23,7 +24,7 @@ void FactorisedMode::solve(double* x, double* y) const {
 
 std::size_t FactorisedMode::bytes() const {
   return sizeof(*this) + kinds.size() * sizeof(DofKind) + pinned.size() * sizeof(Pinned) +
-         by_rate.size() * sizeof(std::size_t) + sparse.bytes() +
+         by_rate.size() * sizeof(std::size_t) + sparse.bytes() + (by_mass ? by_mass->bytes() : 0) +
          (inverse.size() + from_u.size() + from_v.size()) * sizeof(double);
 }
 

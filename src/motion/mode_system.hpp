@@ -10,8 +10,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "contact/mode.hpp"
+#include "linear/mass_factors.hpp"
 #include "linear/pinned.hpp"
 #include "linear/shared_rows.hpp"
 #include "linear/triangular_factors.hpp"
@@ -29,11 +31,12 @@ struct FactorisedMode {
   /// The column of such a degree of freedom is that of its whole motion.
   std::vector<UndampedMotion> undamped;
   std::vector<Pinned> pinned;
-  std::vector<SharedForces> shared;  ///< rigid contacts that hold one motion together
-  std::vector<std::size_t> by_rate;  ///< contacts that slip with friction that depends on the slip rate
-  bool massless = false;             ///< not all degrees of freedom are massive
-  bool regular = false;              ///< false: rows are linearly dependent; there is no inverse
-  TriangularFactors sparse;          ///< empty where `inverse` is not
+  std::vector<SharedForces> shared;   ///< rigid contacts that hold one motion together
+  std::vector<std::size_t> by_rate;   ///< contacts that slip with friction that depends on the slip rate
+  bool massless = false;              ///< not all degrees of freedom are massive
+  bool regular = false;               ///< false: rows are linearly dependent; there is no inverse
+  TriangularFactors sparse;           ///< empty where `inverse` or `by_mass` is not
+  std::optional<MassSolver> by_mass;  ///< where the forces follow from places and velocities alone
   /// Column by column: A^-1, and what a unit of u or v of each degree of freedom asks of the unknowns where
   /// all have mass: x = A^-1 b + from_u u + from_v v.
   std::vector<double> inverse, from_u, from_v;

@@ -13,7 +13,20 @@ ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBo
       massless_(has_massless(model)),
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(structure.size)),
-      cache_(bounds) {}
+      cache_(bounds) {
+  const std::size_t unknowns = own_kinds_.size() + 2 * model.contacts.size();
+  if (!massless_ && unknowns > most_dense) mass_ = mass_factors(structure);
+}
+
+/// False: an acceleration stands in a row, or friction that is to change.
+bool ModeSystems::by_mass(const std::vector<Rows>& rows, FactorisedMode& mode) const {
+  if (!mass_ || !mode.by_rate.empty()) return false;
+  std::vector<OwnForces> forces = own_forces(rows);
+  if (forces.empty()) return false;
+  mode.by_mass.emplace(model_, mass_, std::move(forces));
+  mode.regular = true;
+  return true;
+}
 
 FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& rows) const {
   FactorisedMode result;
@@ -34,6 +47,7 @@ FactorisedMode ModeSystems::describe(const Mode& mode, const std::vector<Rows>& 
 
 void ModeSystems::factorise(const std::vector<Rows>& rows, FactorisedMode& mode) {
   ++made_;
+  if (by_mass(rows, mode)) return;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = mode.kinds[i] == DofKind::massive  ? Weights{1.0, 0.0, 0.0}
                   : mode.kinds[i] == DofKind::damped ? Weights{0.0, 1.0, 0.0}
@@ -80,6 +94,8 @@ void ModeSystems::invert(const std::vector<Rows>& rows, FactorisedMode& mode) {
 }
 
 ModeSystemPtr ModeSystems::of(const Mode& mode) {
+  if (last_ && last_->mode() == mode)
+    return last_;  // a decision begins with the mode that the last one ended with
   std::vector<Rows> rows = rows_of(model_, mode);
   const std::vector<State> states = states_of(mode);
   std::shared_ptr<const FactorisedMode> factorised;
@@ -92,7 +108,7 @@ ModeSystemPtr ModeSystems::of(const Mode& mode) {
     cache_.insert(states, factorised, factorised->bytes() + states.size() * sizeof(State));
   }
   if (!factorised->regular) return nullptr;
-  return std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
+  return last_ = std::make_shared<const ModeSystem>(mode, std::move(rows), std::move(factorised));
 }
 
 bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {

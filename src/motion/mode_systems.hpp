@@ -7,7 +7,8 @@
 // (40^2 + 2 * 40 * 38) numbers, 37 kB, and a decision solves with it as often as it takes to make it again:
 // what is not held costs a decision twice its time at most. 16 MiB hold 400 such modes, or the factors of
 // a million entries, beyond which caches of processors end and a factorisation outweighs a look-up in any
-// case.
+// case. States whose forces follow from places and velocities alone share one factorisation of M
+// (linear/mass_factors.hpp), and hold little more than their states.
 #pragma once
 
 #include <span>
@@ -45,12 +46,13 @@ class ModeSystems {
   /// Of what is held now.
   [[nodiscard]] std::size_t held() const { return cache_.size(); }
   [[nodiscard]] std::size_t bytes() const { return cache_.bytes(); }
-  /// Factorisations so far.
+  /// Systems made so far.
   [[nodiscard]] long made() const { return made_; }
 
  private:
   [[nodiscard]] FactorisedMode describe(const Mode& mode, const std::vector<Rows>& rows) const;
   void factorise(const std::vector<Rows>& rows, FactorisedMode& mode);
+  [[nodiscard]] bool by_mass(const std::vector<Rows>& rows, FactorisedMode& mode) const;
   void invert(const std::vector<Rows>& rows, FactorisedMode& mode);
 
   const Model& model_;
@@ -59,7 +61,9 @@ class ModeSystems {
   const bool massless_;
   SystemMatrix matrix_;  // the workshop
   std::vector<Weights> weights_;
+  std::shared_ptr<const TriangularFactors> mass_;  // null: not of use here
   BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
+  ModeSystemPtr last_;  // handed out last
   long made_ = 0;
 };
 

@@ -346,8 +346,8 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
   start_friction(out);
 }
 
-void Taylor::extend(const Forcing& forcing, int levels, Series& out) {
-  for (int k = out.levels + 1; k <= levels; ++k) level(forcing, k, out, nullptr);
+void Taylor::extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance) {
+  for (int k = out.levels + 1; k <= levels; ++k) level(forcing, k, out, disturbance);
   out.levels = std::max(out.levels, levels);
 }
 

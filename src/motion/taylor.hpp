@@ -37,7 +37,7 @@ class Taylor {
   /// The same in two parts: room for `levels`, then the levels up to the given one.
   void begin(const ModeSystemPtr& system, const Forcing& forcing, double t, const Vector& u, const Vector& v,
              int levels, double scale, Series& out, const Disturbance* disturbance = nullptr);
-  void extend(const Forcing& forcing, int levels, Series& out);
+  void extend(const Forcing& forcing, int levels, Series& out, const Disturbance* disturbance = nullptr);
 
   /// 1 over the mass of each degree of freedom alone, 0 where it has none.
   [[nodiscard]] const std::vector<double>& mobility() const { return mobility_; }

@@ -183,10 +183,10 @@ Energy change(const Energy& from, const Energy& to) {
 
 }  // namespace
 
-PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
+PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder, bool outputs)
     : model_(std::move(model)), run_(run), recorder_(recorder) {
   model_.machine = {};  // it is in those units already
-  model_.outputs.clear();
+  if (!outputs) model_.outputs.clear();
   model_.reaction_sums.clear();
   model_.warnings.clear();
   run_.certify = Certify::no;

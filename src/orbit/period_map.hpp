@@ -39,8 +39,8 @@ struct OrbitLeg {
 
 class PeriodMap {
  public:
-  /// model, run: in the machine's units; recorder: for progress, or null.
-  PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
+  /// model, run: in the machine's units; recorder: for progress, or null; outputs: they are of use.
+  PeriodMap(Model model, const RunSpec& run, Recorder* recorder, bool outputs = false);
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] OrbitPass pass(const OrbitLeg& leg) const;

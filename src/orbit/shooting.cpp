@@ -11,6 +11,7 @@ namespace signorini {
 namespace {
 
 constexpr int most_steps = 30, most_halvings = 6;
+constexpr double reached = 1e-2;  // of the tolerance: no step is tried from there on
 // Residual over amplitude at which an orbit is closed although the residual no longer falls: what rounding of a long
 // or stiff period leaves. Chosen; above it a search has failed.
 constexpr double closed_at_last = 1e-9;
@@ -26,6 +27,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
   const Eigen::MatrixXd& B = section.basis();
   const Vector gap = B.transpose() * (section.coordinates(pass.end) - section.coordinates(pass.begin));
   const Eigen::Index n = section.size(), all = n + (free_period ? 1 : 0);
+  if (all == 0) return {};
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(all, all);
   A.topLeftCorner(n, n) = B.transpose() * pass.end_rates - Eigen::MatrixXd::Identity(n, n);
   Vector b = Vector::Zero(all);
@@ -35,6 +37,37 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
     A.block(n, 0, 1, n) = (B.transpose() * section.rates(pass.begin)).transpose();
   }
   return shortest_solution(A, b, least_singular);
+}
+
+/// One step, halved until the residual falls; trials have no tangents, which cost far more than a run. False: it does not
+/// fall, or rounding is reached.
+bool damped_step(const PeriodMap& map, const ShootingStart& start, double tolerance, Shot& shot) {
+  const Model& model = map.model();
+  const OrbitSection section(model, shot.pass.begin);
+  const Vector x = newton_step(model, shot.pass, start.free_period);
+  const OrbitState from = orbit_state(shot.pass.begin);
+  double part = 1.0;
+  for (int h = 0; h <= most_halvings; ++h, part *= 0.5) {
+    OrbitState state = section.moved(from, part * x.head(section.size()));
+    const double duration = shot.duration + (start.free_period ? part * x[section.size()] : 0.0);
+    if (!(duration > 0.1 * start.duration && duration < 10.0 * start.duration)) continue;
+    const OrbitPass pass = map.pass({state, duration, false});
+    if (pass.interrupted) {
+      shot.interrupted = true;
+      shot.reason = "interrupted";
+      return false;
+    }
+    const double residual = pass.done() ? orbit_residual(model, pass) : shot.residual;
+    if (residual < shot.residual) {
+      shot.steps.push_back({shot.residual, part});
+      shot.state = std::move(state);
+      shot.duration = duration;
+      shot.residual = residual;
+      return true;
+    }
+    if (shot.residual <= tolerance) return false;
+  }
+  return false;
 }
 
 }  // namespace
@@ -67,41 +100,16 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     return shot;
   }
   shot.residual = orbit_residual(model, shot.pass);
-  for (int i = 0; i < most_steps; ++i) {
-    if (shot.pass.end_rates.size() == 0 && !shot.pass.reason.empty()) {
+  bool fell = true;
+  while (fell && static_cast<int>(shot.steps.size()) < most_steps) {
+    if (!shot.pass.reason.empty()) {
       shot.reason = "the state after one period has no derivative: " + shot.pass.reason;
       return shot;
     }
-    if (shot.residual == 0.0) break;
-    const Vector x = newton_step(model, shot.pass, start.free_period);
-    const OrbitSection section(model, shot.pass.begin);
-    const OrbitState from = orbit_state(shot.pass.begin);
-    bool fell = false;
-    double part = 1.0;
-    for (int h = 0; h <= most_halvings && !fell; ++h, part *= 0.5) {
-      OrbitState state = section.moved(from, part * x.head(section.size()));
-      const double duration = shot.duration + (start.free_period ? part * x[section.size()] : 0.0);
-      if (!(duration > 0.1 * start.duration && duration < 10.0 * start.duration)) continue;
-      OrbitPass pass = map.pass({state, duration});
-      if (pass.interrupted) {
-        shot.interrupted = true;
-        shot.reason = "interrupted";
-        return shot;
-      }
-      if (!pass.done()) continue;
-      const double residual = orbit_residual(model, pass);
-      if (!(residual < shot.residual)) {
-        if (shot.residual <= tolerance) break;  // rounding is reached
-        continue;
-      }
-      shot.steps.push_back({shot.residual, part});
-      shot.state = std::move(state);
-      shot.duration = duration;
-      shot.pass = std::move(pass);
-      shot.residual = residual;
-      fell = true;
-    }
-    if (!fell) break;
+    if (shot.residual <= reached * tolerance) break;
+    fell = damped_step(map, start, tolerance, shot);
+    if (shot.interrupted) return shot;
+    if (fell) shot.pass = map.pass({shot.state, shot.duration});
   }
   shot.steps.push_back({shot.residual, 0.0});
   shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <tuple>
 
 #include "base/number.hpp"
 #include "base/rounding.hpp"
@@ -90,8 +91,8 @@ std::string place_of(const Json& extreme) {
   if (!at.is_array() || at.size() != 2) return "";
   const std::string fibre = text_in(entry_of(extreme, "fibre"));
   const auto station = number_in(entry_of(extreme, "station"));
-  return fmt::format("{}-{} {}{}", text_in(at[0]), text_in(at[1]), station ? fmt::format("{:.3g}", *station) : "",
-                     fibre.empty() ? "" : " " + fibre);
+  return fmt::format("{}-{} {}{}", text_in(at[0]), text_in(at[1]),
+                     station ? fmt::format("{:.3g}", *station) : "", fibre.empty() ? "" : " " + fibre);
 }
 
 std::vector<Figure> response_figures(const Json& summary) {
@@ -105,8 +106,8 @@ std::vector<Figure> response_figures(const Json& summary) {
       figures.push_back({sheet, name, quantity, unit, governs, number_in(entry_of(found, "value")),
                          number_in(entry_of(found, "t")), place_of(found)});
     }
-    figures.push_back({sheet, name, "at the end", unit, Governs::magnitude, number_in(entry_of(output, "last")),
-                       std::nullopt, ""});
+    figures.push_back({sheet, name, "at the end", unit, Governs::magnitude,
+                       number_in(entry_of(output, "last")), std::nullopt, ""});
   }
   return figures;
 }
@@ -129,9 +130,11 @@ std::string time_cell(const std::optional<double>& t) {
 }
 
 std::string table(const std::string& head, const std::string& rows) {
-  return rows.empty() ? ""
-                      : fmt::format("<div class=wide><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
-                                    head, rows);
+  return rows.empty()
+             ? ""
+             : fmt::format(
+                   "<div class=wide><table><thead><tr>{}</tr></thead><tbody>\n{}</tbody></table></div>\n",
+                   head, rows);
 }
 
 std::string heading(const std::string& text) { return "<th>" + html_text(text) + "</th>"; }
@@ -168,8 +171,9 @@ std::string responses_html(const Json& summary, bool envelopes) {
   std::string item;
   for (const Figure& f : response_figures(summary)) {
     if ((f.sheet == Sheet::envelope) != envelopes) continue;
-    if (f.item != item) rows += (rows.empty() ? "" : "</tr>\n") +
-                                fmt::format("<tr><td>{}</td><td>{}</td>", html_text(f.item), html_text(f.unit));
+    if (f.item != item)
+      rows += (rows.empty() ? "" : "</tr>\n") +
+              fmt::format("<tr><td>{}</td><td>{}</td>", html_text(f.item), html_text(f.unit));
     item = f.item;
     rows += cell(f.value);
     if (f.quantity == "at the end") continue;
@@ -202,7 +206,8 @@ std::vector<CaseRow> case_rows(const std::vector<LoadCase>& cases) {
       }
       row->values[c] = figure;
     }
-  std::stable_sort(rows.begin(), rows.end(), [](const CaseRow& a, const CaseRow& b) { return a.of.sheet < b.of.sheet; });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const CaseRow& a, const CaseRow& b) { return a.of.sheet < b.of.sheet; });
   return rows;
 }
 
@@ -283,7 +288,8 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
       if (other.name == name)
         throw FileError(directory.string(), "has the name \"" + name + "\", as another case has");
     cases.push_back({name, read_summary(directory)});
-    const Json &units = entry_of(cases.back().summary, "units"), &first = entry_of(cases.front().summary, "units");
+    const Json &units = entry_of(cases.back().summary, "units"),
+               &first = entry_of(cases.front().summary, "units");
     if (units != first)
       throw FileError(directory.string(), "has other units than " + directories.front().string() + ": " +
                                               json_line(units) + ", expected " + json_line(first));
@@ -323,8 +329,9 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
                          html_text(text_in(entry_of(outcome, "kind"))), t ? shown(*t) : "",
                          html_text(json_line(entry_of(events, "total"))));
   }
-  text += section("cases", "Load cases",
-                  table("<th>case</th><th>title</th><th>outcome</th><th>reached t</th><th>events</th>", facts));
+  text +=
+      section("cases", "Load cases",
+              table("<th>case</th><th>title</th><th>outcome</th><th>reached t</th><th>events</th>", facts));
   const std::vector<CaseRow> rows = case_rows(cases);
   text += section("loads", "Support loads", rows_html(cases, rows, Sheet::support));
   text += section("responses", "Responses", rows_html(cases, rows, Sheet::response));

@@ -84,13 +84,14 @@ std::string preformatted(const std::string& text) {
 
 std::string page(const std::string& title, const std::string& kind, const std::string& body,
                  const std::string& data) {
-  return fill_in(part("page.html"), {{"title", html_text(title)},
-                                     {"kind", html_text(kind)},
-                                     {"style", part("style.css")},
-                                     {"body", body},
-                                     {"data", data},
-                                     {"script", part("stage.js") + part("player.js") + part("charts.js") + part("filters.js")},
-                                     {"version", html_text(version)}});
+  return fill_in(part("page.html"),
+                 {{"title", html_text(title)},
+                  {"kind", html_text(kind)},
+                  {"style", part("style.css")},
+                  {"body", body},
+                  {"data", data},
+                  {"script", part("stage.js") + part("player.js") + part("charts.js") + part("filters.js")},
+                  {"version", html_text(version)}});
 }
 
 std::string outcome_text(const Json& summary) {
@@ -145,8 +146,9 @@ std::string event_table(const fs::path& file, const Units& units) {
   of_columns["t_error"] = unit_in_words("time", units);
   const std::string table = csv_table(file, most_rows, columns, of_columns);
   return table.empty() ? ""
-                       : table + "<p class=hint>N and T are those just before the event. events.csv has rates, "
-                                 "impulses and forces after it, too.</p>\n";
+                       : table +
+                             "<p class=hint>N and T are those just before the event. events.csv has rates, "
+                             "impulses and forces after it, too.</p>\n";
 }
 
 /// What the terminal calls a condition of the audit, and its unit.
@@ -268,8 +270,7 @@ std::string results_page(const fs::path& directory) {
   for (const char* table : {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv",
                             "spread.csv", "residuals.csv", "events.csv", "study.csv", "sweep.csv"})
     body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
-  body +=
-      section("pictures", "Pictures",
+  body += section("pictures", "Pictures",
                   pictures(directory, "running the command again with gnuplot on PATH", body.size()));
   body += section("facts", marker, preformatted(json_text(json)));
   return page(title_of(json, directory), kind, body, "null");

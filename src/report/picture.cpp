@@ -179,8 +179,10 @@ std::string figures(const fs::path& directory, std::size_t room) {
   }
   std::string text, left_out;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (shown[i]) text += all[i].second;
-    else left_out += (left_out.empty() ? "" : ", ") + all[i].first.stem().string();
+    if (shown[i])
+      text += all[i].second;
+    else
+      left_out += (left_out.empty() ? "" : ", ") + all[i].first.stem().string();
   }
   if (!left_out.empty())
     text += "<p class=hint>Left out, so that the page stays below 3 MB; they are in plots/: " +

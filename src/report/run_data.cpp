@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_values = 60'000;  // of displacements on a page: with their times a megabyte
-constexpr std::size_t most_motion = 16'000;   // rows of contacts
+constexpr std::size_t most_motion = 16'000;  // rows of contacts
 constexpr std::size_t most_events = 5'000;
 
 double rounded(double value, int digits) {

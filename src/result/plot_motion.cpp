@@ -41,7 +41,7 @@ constexpr std::size_t most_displacements = 8, chosen_displacements = 6;
 struct PanelOfLines {
   std::string key, label;  ///< key: what its lines have in common
   std::vector<PlottedLine> lines;
-  std::string axis = "";  ///< where gnuplot would not find a good one
+  std::string axis = "";      ///< where gnuplot would not find a good one
   std::size_t chosen_of = 0;  ///< above 0: the lines are those of so many that move most
 };
 

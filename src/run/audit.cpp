@@ -98,26 +98,28 @@ double Auditor::slip(std::size_t contact, const ContactState& state, const Conta
 }
 
 void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const Point& point) {
-  for (std::size_t k = 0; k < mode.size(); ++k) {
-    const Contact& contact = model_.contacts[k];
-    const ContactMotion m = motion(k, forcing, t, point);
-    const int index = static_cast<int>(k);
-    Peak& peak = peaks_[k];
-    const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
-    peak.tangential = std::max(peak.tangential, std::abs(ut - at_start_[k].ut));
-    peak.normal = std::max(peak.normal, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
-    bears(k, t, m.N, m.T);
-    supports_[k].slip_at_end = slip(k, mode[k], m);
-    landings_.observe(k, m.N);
+  for (std::size_t k = 0; k < mode.size(); ++k) observe(k, forcing, t, mode, point);
+}
 
-    const Violations off = violations(contact, mode[k].state, m);
-    raise(audit_.tension, off.tension, t, index);
-    raise(audit_.gap, off.gap, t, index);
-    raise(audit_.penetration, off.penetration, t, index);
-    raise(audit_.product, off.product, t, index);
-    raise(audit_.friction, off.friction, t, index);
-    raise(audit_.direction, off.direction, t, index);
-  }
+void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mode& mode, const Point& point) {
+  const Contact& contact = model_.contacts[k];
+  const ContactMotion m = motion(k, forcing, t, point);
+  const int index = static_cast<int>(k);
+  Peak& peak = peaks_[k];
+  const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
+  peak.tangential = std::max(peak.tangential, std::abs(ut - at_start_[k].ut));
+  peak.normal = std::max(peak.normal, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
+  bears(k, t, m.N, m.T);
+  supports_[k].slip_at_end = slip(k, mode[k], m);
+  landings_.observe(k, m.N);
+
+  const Violations off = violations(contact, mode[k].state, m);
+  raise(audit_.tension, off.tension, t, index);
+  raise(audit_.gap, off.gap, t, index);
+  raise(audit_.penetration, off.penetration, t, index);
+  raise(audit_.product, off.product, t, index);
+  raise(audit_.friction, off.friction, t, index);
+  raise(audit_.direction, off.direction, t, index);
 }
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }

@@ -26,6 +26,8 @@ class Auditor {
   void begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point);
   /// Contacts at the end of a step or after an event.
   void observe(const Forcing& forcing, double t, const Mode& mode, const Point& point);
+  /// One contact; of the point what it touches.
+  void observe(std::size_t contact, const Forcing& forcing, double t, const Mode& mode, const Point& point);
   void equilibrium(double t, double residual);
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
   void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,

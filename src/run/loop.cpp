@@ -1,6 +1,7 @@
 #include "run/loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/rounding.hpp"
@@ -189,7 +190,9 @@ void Loop::pass(const Step& step) {
     witness_.passes(t, forcing_, point);
   }
   response_.inside(*engine_, step.begin, step.end);
-  motion_.step(step.begin, step.end, engine_->turning_points());
+  const auto turns = motion_.wanted() || curves_.wanted() ? std::nullopt : engine_->contact_turns();
+  motion_.step(step.begin, step.end, turns ? std::vector<double>{} : engine_->turning_points());
+  if (turns) pass_turns(*turns);
   while (const auto moment = motion_.next()) {
     engine_->glimpse(moment->t, point_);
     if (moment->turns && !(meddler_ && meddler_->forgets_peaks_inside()))
@@ -206,6 +209,17 @@ void Loop::pass(const Step& step) {
   if (step.kind != Step::Kind::event && curves_.needs(t_)) {
     add_curves(t_, t_);
     motion_.adapt(t_, curves_.asked());
+  }
+}
+
+/// Nobody draws the motion: each contact is looked at where it turns itself.
+void Loop::pass_turns(const std::vector<Stepper::ContactTurn>& turns) {
+  for (const auto& [contact, t] : turns) {
+    if (!std::isfinite(t)) continue;
+    engine_->glimpse(t, contact, point_);
+    if (!(meddler_ && meddler_->forgets_peaks_inside()))
+      auditor_.observe(contact, forcing_, t, decision_.mode, point_);
+    witness_.passes(contact, t, forcing_, point_);
   }
 }
 

@@ -76,6 +76,7 @@ class Loop {
   bool steer();
   bool steered();
   void pass(const Step& step);
+  void pass_turns(const std::vector<Stepper::ContactTurn>& turns);
   bool instant(std::vector<Fired> fired, std::optional<Mode> adopted = std::nullopt);
   bool witnessed();
   void meddle(Instant now, Decision& decided);

@@ -40,6 +40,8 @@ class MotionRecord {
   [[nodiscard]] std::optional<Moment> next();
   /// At t, the time of the last row: how close rows must be for curves; with those of the contacts it is how close they are.
   void adapt(double t, double asked);
+  /// Somebody draws it.
+  [[nodiscard]] bool wanted() const { return wanted_; }
   /// Does a line need a row at t, the end of a step?
   [[nodiscard]] bool needs(double t) const;
   /// A row of every contact; times ascend, and may repeat.

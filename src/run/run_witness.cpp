@@ -141,17 +141,19 @@ void RunWitness::start_peaks(const Instant& now) {
 }
 
 void RunWitness::passes(double t, const Forcing& forcing, const Point& point) {
+  for (std::size_t k = 0; k < passed_.size(); ++k) passes(k, t, forcing, point);
+}
+
+void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const Point& point) {
   if (engine_.limits.step > 0.0) return;  // peaks are those of the ends of steps
-  for (std::size_t k = 0; k < passed_.size(); ++k) {
-    const Contact& c = model_.contacts[k];
-    const auto at = static_cast<Eigen::Index>(2 * k);
-    PassedPeak& p = passed_[k];
-    p.most.N = std::max(p.most.N, std::abs(point.forces[at]));
-    p.most.T = std::max(p.most.T, std::abs(point.forces[at + 1]));
-    p.most.normal = std::max(p.most.normal, std::abs(c.normal.dot(point.u) - p.g0));
-    const double ut = c.body_tangent().dot(point.u) - forcing.surface(k, t, 0);
-    p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
-  }
+  const Contact& c = model_.contacts[k];
+  const auto at = static_cast<Eigen::Index>(2 * k);
+  PassedPeak& p = passed_[k];
+  p.most.N = std::max(p.most.N, std::abs(point.forces[at]));
+  p.most.T = std::max(p.most.T, std::abs(point.forces[at + 1]));
+  p.most.normal = std::max(p.most.normal, std::abs(c.normal.dot(point.u) - p.g0));
+  const double ut = c.body_tangent().dot(point.u) - forcing.surface(k, t, 0);
+  p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
 }
 
 void RunWitness::peaks(double t, const std::vector<Peak>& told) {

@@ -41,6 +41,8 @@ class RunWitness {
 
   /// A point inside a step, that of a row or where something turns.
   void passes(double t, const Forcing& forcing, const Point& point);
+  /// One contact; of the point what it touches.
+  void passes(std::size_t contact, double t, const Forcing& forcing, const Point& point);
   /// At the end: none of those points is beyond what is told.
   void peaks(double t, const std::vector<Peak>& told);
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -29,7 +31,8 @@ TEST_CASE("cli new: each scene is written, checked and run, and something happen
   CHECK(has(shell.read("out/run.toml"), "Matrices of another program"));
 }
 
-TEST_CASE("cli new: scenes of earthquakes come with their accelerograms, which `quake` makes again to the byte") {
+TEST_CASE(
+    "cli new: scenes of earthquakes come with their accelerograms, which `quake` makes again to the byte") {
   const Shell shell;
   for (const std::string from : {"rack", "isolator", "rocking", "building"}) {
     CAPTURE(from);
@@ -43,8 +46,8 @@ TEST_CASE("cli new: scenes of earthquakes come with their accelerograms, which `
     const Ending check = shell.run({"check", name + ".toml"});
     CAPTURE(check.err);
     CHECK(check.code == 0);
-    const Ending run = shell.run({"run", name + ".toml", "-o", "out", "--force", "--no-plots", "--quiet",
-                                  "--set", "run.t_end=3"});
+    const Ending run = shell.run(
+        {"run", name + ".toml", "-o", "out", "--force", "--no-plots", "--quiet", "--set", "run.t_end=3"});
     CAPTURE(run.err);
     CHECK(run.code == 0);
     CHECK(has(shell.read("out/events.csv"), ",slip,stick,"));

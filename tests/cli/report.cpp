@@ -47,8 +47,8 @@ TEST_CASE("cli report: a page opens with support loads; several runs stand side 
   const Shell shell;
   shell.write("belt.toml", belt(10.0));
   CHECK(shell.run({"run", "belt.toml", "-o", "one", "--no-plots"}).code == 0);
-  CHECK(shell.run({"run", "belt.toml", "-o", "two", "--no-plots", "--set", "contacts.belt.friction=0.2"}).code ==
-        0);
+  CHECK(shell.run({"run", "belt.toml", "-o", "two", "--no-plots", "--set", "contacts.belt.friction=0.2"})
+            .code == 0);
   CHECK(shell.run({"report", "one"}).code == 0);
   const std::string page = shell.read("one/report.html");
   const std::size_t loads = page.find("<h2>Support loads</h2>"), events = page.find("<h2>Events</h2>");

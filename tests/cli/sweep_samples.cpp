@@ -84,11 +84,16 @@ TEST_CASE("cli sweep: keys of one --sample share its draws; --engine is that of 
   const Shell shell;
   shell.write("block.toml", sliding_block);
   const auto sweep = [&](const std::string& directory, const std::string& keys, const std::string& engine) {
-    const Ending ending =
-        shell.run({"sweep", "block.toml", "--sample", keys + "=uniform(1,3)", "--sample",
-                   "contacts.floor.friction=normal(0.5,0.05)", "--samples", "20", "--seed", "5", "--sequence",
-                   "sobol", "--response", "residual:floor", "--engine", engine, "--quiet", "--no-plots", "-o",
-                   directory});
+    const Ending ending = shell.run({"sweep",      "block.toml",
+                                     "--sample",   keys + "=uniform(1,3)",
+                                     "--sample",   "contacts.floor.friction=normal(0.5,0.05)",
+                                     "--samples",  "20",
+                                     "--seed",     "5",
+                                     "--sequence", "sobol",
+                                     "--response", "residual:floor",
+                                     "--engine",   engine,
+                                     "--quiet",    "--no-plots",
+                                     "-o",         directory});
     CAPTURE(ending.err);
     REQUIRE(ending.code == 0);
   };

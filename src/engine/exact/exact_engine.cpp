@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 #include "model/decay.hpp"
 #include "motion/clock.hpp"
 #include "motion/equilibrium.hpp"
@@ -19,6 +20,8 @@ namespace {
 constexpr int fewest_levels = 12, more_levels = 6;
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
+constexpr double most_beside =
+    0.1;  // of the square of a growth: steps are five in a hundred shorter at most; chosen
 constexpr double least_share = 1e-6;    // of the greatest motion, down to which each one keeps its digits
 constexpr std::size_t first_terms = 4;  // of a series: a motion may start from rest under a load that grows
 constexpr double flights_a_step = 3.0;
@@ -48,10 +51,51 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
                 diagonal_decay(model.mass.diagonal(), model.damping.diagonal(), model.stiffness.diagonal())});
 }
 
-/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
 double ExactEngine::growth_of(const ModeSystemPtr& system) {
-  const std::vector<State> states = states_of(system->mode());
+  std::vector<State> states = states_of(system->mode());
   if (const double* known = growth_.find(states)) return *known;
+  if (const auto beside = growth_beside(*system)) return *beside;
+  near_growth_ = probed_growth(system);
+  growth_.insert(states, near_growth_, states.size() * sizeof(State));
+  near_ = std::move(states);
+  return near_growth_;
+}
+
+/// What a contact adds at most to the square of the growth, by closing, sticking or slipping.
+double ExactEngine::stiffening(const ModeSystem& system, std::size_t c) {
+  double& known = stiffenings_[c];
+  if (known >= 0.0) return known;
+  const Contact& contact = model_.contacts[c];
+  Vector x(static_cast<Eigen::Index>(system.unknowns().size())), work(x.size());
+  const auto effect = [&](const Combination& form) {
+    x.setZero();
+    form.add_to(x, 1.0);
+    system.solve(x.data(), work.data());
+    return norm_.of(x.head(model_.size()));
+  };
+  const double n = effect(contact.normal), t = effect(contact.tangent);
+  const double kn = contact.normal_stiffness, kt = contact.tangential_stiffness.value_or(0.0);
+  const double friction = std::max(static_friction(contact), kinetic_friction(contact));
+  return known = kn * (n + friction * t) * norm_.normal(c) + kt * t * norm_.tangent(c);
+}
+
+/// The growth of states that differ from the nearest known ones in few soft contacts. Nothing: in more than that.
+std::optional<double> ExactEngine::growth_beside(const ModeSystem& system) {
+  if (near_.empty() || !system.factorised().by_mass) return std::nullopt;
+  stiffenings_.resize(near_.size(), -1.0);
+  const double square = near_growth_ * near_growth_;
+  double more = 0.0;
+  for (std::size_t c = 0; c < near_.size(); ++c) {
+    if (system.mode()[c].state == near_[c]) continue;
+    if (model_.contacts[c].normal_damping > 0.0 || model_.contacts[c].own) return std::nullopt;
+    more += growth_margin * growth_margin * stiffening(system, c);
+    if (!(more <= most_beside * square)) return std::nullopt;
+  }
+  return std::sqrt(square + more);
+}
+
+/// |x_(k+1)| (k+1)/s over |x_k| for large k, from a motion in which all modes take part.
+double ExactEngine::probed_growth(const ModeSystemPtr& system) {
   const Eigen::Index n = model_.size();
   Vector u(n), v(n);
   std::mt19937_64 random(1);  // the same motion in every run
@@ -68,7 +112,7 @@ double ExactEngine::growth_of(const ModeSystemPtr& system) {
     if (a > 0.0)
       greatest = std::max(greatest, fastest_ * std::sqrt(static_cast<double>((k + 1) * (k + 2)) * b / a));
   }
-  return growth_.insert(states, growth_margin * greatest, states.size() * sizeof(State));
+  return growth_margin * greatest;
 }
 
 void ExactEngine::start(const Segment& segment) {
@@ -344,6 +388,40 @@ void ExactEngine::glimpse(double t, Point& point) {
   if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
   point.a.resize(0);
   place_at((t - series_.t) / series_.scale, point);
+}
+
+std::optional<std::vector<Stepper::ContactTurn>> ExactEngine::contact_turns() const {
+  std::vector<ContactTurn> result;
+  for (const TurningPoints::Turn& turn : turns_.turns()) result.push_back({turn.contact(), turn.time});
+  return result;
+}
+
+/// The same sums as place_at, of the degrees of freedom and forces of one contact.
+void ExactEngine::glimpse(double t, std::size_t contact, Point& point) {
+  if (t == t_ && end_.u.size() > 0) return evaluate(t, point);
+  const double x = (t - series_.t) / series_.scale;
+  point.a.resize(0);
+  point.u.resize(series_.u.rows());
+  point.v.resize(series_.u.rows());
+  point.forces.resize(series_.forces.rows());
+  const Contact& c = model_.contacts[contact];
+  for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+    for (const auto& term : form->terms) {
+      const auto i = static_cast<Eigen::Index>(term.first);
+      double u = 0.0, v = 0.0;
+      for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) {
+        u = u * x + series_.u(i, k);
+        v = v * x + static_cast<double>(k + 1) / series_.scale * series_.u(i, k + 1);
+      }
+      point.u[i] = u;
+      point.v[i] = v;
+    }
+  for (const std::size_t slot : {normal_slot(contact), tangent_slot(contact)}) {
+    const auto i = static_cast<Eigen::Index>(slot);
+    double f = 0.0;
+    for (auto k = static_cast<Eigen::Index>(degree_) + 1; k-- > 0;) f = f * x + series_.forces(i, k);
+    point.forces[i] = f;
+  }
 }
 
 /// All but accelerations.

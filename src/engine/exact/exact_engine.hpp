@@ -7,6 +7,11 @@
 // radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
 // A step is as long as the series still converges to rounding with that bound, and short enough that its
 // terms do not cancel. docs/theory.md gives the argument that no event is missed.
+//
+// W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
+// few soft contacts; in the norm of flow_norm.hpp these add at most
+//   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
+// and that is taken as long as it adds little.
 #pragma once
 
 #include <numbers>
@@ -36,6 +41,8 @@ class ExactEngine final : public Stepper {
   void evaluate(double t, Point& point) override;
   /// Without accelerations.
   void glimpse(double t, Point& point) override;
+  void glimpse(double t, std::size_t contact, Point& point) override;
+  [[nodiscard]] std::optional<std::vector<ContactTurn>> contact_turns() const override;
   void integrate(double from, double to, Works& works) override;
   [[nodiscard]] double residual() override;
   /// The guard is exact but for rounding, which the decision knows.
@@ -51,6 +58,9 @@ class ExactEngine final : public Stepper {
 
  private:
   [[nodiscard]] double growth_of(const ModeSystemPtr& system);
+  [[nodiscard]] double probed_growth(const ModeSystemPtr& system);
+  [[nodiscard]] std::optional<double> growth_beside(const ModeSystem& system);
+  [[nodiscard]] double stiffening(const ModeSystem& system, std::size_t contact);
   [[nodiscard]] double first_step() const;
   void weigh();
   void measure(std::size_t first, std::size_t last);
@@ -81,6 +91,9 @@ class ExactEngine final : public Stepper {
   FlowNorm norm_;
   std::size_t degree_ = 0;  // of all polynomials on the last step
   BoundedCache<std::vector<State>, double> growth_{most_growths};
+  std::vector<State> near_;  // the last states whose growth was found from a series; empty: none
+  double near_growth_ = 0.0;
+  std::vector<double> stiffenings_;  // one a contact; negative: not known yet
   Segment segment_;
   Series series_;
   std::vector<ContactSeries> contacts_;

@@ -18,6 +18,11 @@ struct GuardPath {
 
   /// Where the straight line between the ends falls to zero; g0 > 0 >= g1.
   [[nodiscard]] double linear() const { return g0 / (g0 - g1); }
+  struct Fall {
+    double x = 0.0, slope = 0.0;  ///< slope: by x
+  };
+  /// Where the cubic falls to zero, g0 > 0 >= g1. Nothing: it rises there, or is no number.
+  [[nodiscard]] std::optional<Fall> fall() const;
   /// Positive at both ends: the place of its least value inside, if that is not positive.
   [[nodiscard]] std::optional<double> dip() const;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace signorini {
 namespace {
 
@@ -116,8 +118,20 @@ void TurningPoints::find_beside(std::size_t end, const Path& path, std::size_t p
   record(path, place, at);
 }
 
+/// The sums of the magnitudes of its terms show that it stays within all that it was before.
+bool TurningPoints::stays(const Path& path, const Range& range, double x_end) {
+  double reach = 0.0, power = 1.0;
+  for (std::size_t k = 1; k <= path.degree; ++k) {
+    power *= x_end;
+    reach += std::abs(path.a[k]) * power;
+  }
+  const double a = path.a[0], rounding = rounding::of_many * (std::abs(a) + reach);
+  return a + reach + rounding < range.greatest && a - reach - rounding > range.least;
+}
+
 void TurningPoints::find_of(const Path& path, std::size_t place, const Samples& x, Ends ends) {
   Range& range = ranges_[place];
+  if (stays(path, range, x[turn_samples])) return;
   Samples value{};
   value.fill(path.a[path.degree]);
   for (std::size_t k = path.degree; k-- > 0;)

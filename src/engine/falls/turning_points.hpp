@@ -53,6 +53,7 @@ class TurningPoints {
   struct Turn {
     std::size_t kind = 0;
     double time = 0.0;
+    [[nodiscard]] std::size_t contact() const { return kind / (2 * watched.size()); }
   };
   [[nodiscard]] const std::vector<Turn>& turns() const { return turns_; }
   /// Ascending, of the last step.
@@ -75,6 +76,7 @@ class TurningPoints {
     std::size_t degree;
     double begin, scale;
   };
+  [[nodiscard]] static bool stays(const Path& path, const Range& range, double x_end);
   /// place: of the range.
   void find_of(const Path& path, std::size_t place, const Samples& x, Ends ends);
   void find_beside(std::size_t end, const Path& path, std::size_t place, const Samples& x,

@@ -45,7 +45,7 @@ void NewmarkEngine::start(const Segment& segment) {
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   NewmarkStep::Key key;
   for (const State s : states_of(decision.mode)) key.push_back(static_cast<int>(s));
-  step_.set(std::move(key), rows_of(model_, decision.mode));
+  step_.set(std::move(key), decision.system->rows());
   inner_time_ = nan;
   a_before_.resize(0);
   h_ = h_before_ = 0.0;
@@ -156,6 +156,31 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
   return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
 }
 
+/// The fall of a guard that holds at the beginning of the step and not at its end: looked for first where its values and
+/// rates at both ends say, then on as far again as its slope there asks for.
+double NewmarkEngine::fall_near(std::size_t slot, double h) {
+  const Watched& w = watched_[slot];
+  double lo = 0.0, g_lo = w.g0, hi = h, g_hi = w.g1;
+  const auto narrow = [&](double at) {
+    if (!(at > lo && at < hi)) return std::numeric_limits<double>::quiet_NaN();
+    const double g = value_after(slot, at);
+    if (g > 0.0) {
+      lo = at;
+      g_lo = g;
+    } else if (g <= 0.0) {
+      hi = at;
+      g_hi = g;
+    }
+    return g;
+  };
+  const GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
+  if (const auto fall = w.has_rate ? path.fall() : std::nullopt) {
+    const double g = narrow(fall->x * h);
+    if (g != 0.0 && fall->slope < 0.0) (void)narrow(h * (fall->x - 2.0 * g / fall->slope));
+  }
+  return fall_between(slot, lo, g_lo, hi, g_hi);
+}
+
 /// Contacts without an element have forces that follow accelerations, and what interpolation leaves of a gap,
 /// a slip rate or a force of theirs the decision takes out at once: modes above the step keep that blow, and
 /// blows make the next events.
@@ -207,7 +232,7 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
     case Candidate::Kind::none:
       return false;
     case Candidate::Kind::fall:
-      h = interpolates(slot) ? linear_fall(slot, h) : fall_between(slot, 0.0, w.g0, h, g1);
+      h = interpolates(slot) ? linear_fall(slot, h) : fall_near(slot, h);
       return true;
     case Candidate::Kind::dip: {
       // Down and up again within the step: the step redone to the least value tells.

@@ -71,6 +71,7 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
+  [[nodiscard]] double fall_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
   /// Narrows the step to the candidate. False: it is none.

@@ -7,11 +7,17 @@
 // contact's row T = -s f N is the paper's compensating load (11), predicted and corrected in one solve.
 // The unknown of a degree of freedom is a1, v1 where it has a damper but no mass, u1 where it has neither:
 // nothing is divided by h, so a step may be as short as the clock tells.
+//
+// Factorisations of large structures (`economical_from`):
+//   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp), until
+//                                                its solves have cost as much as a factorisation
+//   at a length near the last odd one            x += A_odd^-1 (b - A x), until rounding is left
 #pragma once
 
 #include "base/bounded_cache.hpp"
 #include "linear/system_matrix.hpp"
 #include "linear/undamped_motion.hpp"
+#include "linear/updated_factors.hpp"
 #include "motion/point.hpp"
 #include "signorini/result.hpp"
 
@@ -41,8 +47,15 @@ class NewmarkStep {
   void count(Counters& counters) const;
 
  private:
-  [[nodiscard]] const TriangularFactors* factors_for(double h, bool kept);
+  using Factors = std::shared_ptr<const TriangularFactors>;
+  [[nodiscard]] bool solve_kept(double h);
+  [[nodiscard]] bool solve_odd(double h);
   [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
+  void weigh(double h);
+  [[nodiscard]] bool update(double h);
+  [[nodiscard]] bool refine(double h);
+  [[nodiscard]] std::vector<ChangedRow> changed_rows() const;
+  void take_rest(const Vector& b, const Vector& x, double h);
   void know_motion(const Point& from, double h);
   void read_motion(const Point& from, double h, Point& to) const;
 
@@ -54,12 +67,19 @@ class NewmarkStep {
   const bool massless_;
   MotionKinds in_rows_;  // which unknown each degree of freedom has
   SystemMatrix workshop_;
-  BoundedCache<std::pair<Key, double>, TriangularFactors> kept_;  // by rows and length
-  SystemMatrix odd_;                                              // for a length that will not come again
+  BoundedCache<std::pair<Key, double>, Factors> kept_;  // by rows and length
+  SystemMatrix odd_;                                    // for a length that will not come again
   Key odd_key_;
-  double odd_h_ = 0.0;                       // 0: it holds nothing
-  const TriangularFactors* last_ = nullptr;  // what the last step used; null after a change of rows
+  double odd_h_ = 0.0;  // 0: it holds nothing
+  Factors last_;        // of a length that is kept, used last; null after a change of rows
   double last_h_ = 0.0;
+  const bool economical_;
+  UpdatedFactors updated_;       // of rows in force from base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;  // of its base
+  double base_h_ = 0.0;
+  bool updates_ = false;           // it is in force, for last_h_
+  double spent_ = 0.0;             // numbers that its solves took since rows changed
+  Vector odd_x_, rest_, product_;  // the last solution at an odd length; scratch
   std::vector<Weights> weights_;
   Vector u_, v_, none_, x_, work_;  // known parts of the motion, right-hand side and solution, scratch
   long solves_ = 0;

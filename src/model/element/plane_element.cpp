@@ -17,7 +17,8 @@ void fill_strains(const Slopes& slopes, Rows& rows) {
 }  // namespace
 
 Eigen::Matrix3d PlaneMaterial::stresses() const {
-  const double across = strain ? nu / (1.0 - nu) : nu;  // plane strain: nu and E of the plane stress that is alike
+  const double across =
+      strain ? nu / (1.0 - nu) : nu;  // plane strain: nu and E of the plane stress that is alike
   const double modulus = strain ? E / (1.0 - nu * nu) : E;
   return modulus / (1.0 - across * across) *
          Eigen::Matrix3d{{1.0, across, 0.0}, {across, 1.0, 0.0}, {0.0, 0.0, 0.5 * (1.0 - across)}};

@@ -23,7 +23,7 @@ struct PlaneMaterial {
   double E = 0.0, nu = 0.0, density = 0.0, thickness = 1.0;
   bool strain = false;  ///< plane strain, else plane stress
 
-  [[nodiscard]] Eigen::Matrix3d stresses() const;      ///< D
+  [[nodiscard]] Eigen::Matrix3d stresses() const;        ///< D
   [[nodiscard]] Eigen::Vector3d thermal_strain() const;  ///< e
 };
 

@@ -15,8 +15,7 @@ namespace signorini {
 [[nodiscard]] inline std::optional<double> static_reaction(const Model& model, std::size_t contact) {
   const Contact& c = model.contacts[contact];
   if (c.is_pressed()) return c.normal_force.value(0.0);
-  if (model.static_start && contact < model.statics.reactions.size())
-    return model.statics.reactions[contact];
+  if (model.static_start && contact < model.statics.reactions.size()) return model.statics.reactions[contact];
   return std::nullopt;
 }
 

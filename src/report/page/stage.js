@@ -156,7 +156,7 @@ class Stage {
 }
 
 // Puts each label at the first place around its point where it covers no other label, node or member: eight directions, then
-// farther off. Where there is none it stands where it covers least.
+// farther off. Where there is none it stands where it covers least, and a contact, named elsewhere too, has none.
 const placeLabels = (stage, g, labels) => {
   const taken = [], still = data.nodes.map(() => [0, 0, 0]);
   for (const node of data.nodes) {
@@ -195,6 +195,7 @@ const placeLabels = (stage, g, labels) => {
       }
       if (best.cost < 1) break;
     }
+    if (pale && best.cost > 30) { label.remove(); continue; }  // contacts are named at the bars of states, too
     label.setAttribute("x", best.left.toFixed(1));
     label.setAttribute("y", best.base.toFixed(1));
     taken.push(best.box);

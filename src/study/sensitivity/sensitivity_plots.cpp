@@ -109,7 +109,8 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   constexpr double rounding_of_derivatives = 1e-9;  // chosen: their errors are 1e-10 and less of the greatest
-  while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first) sizes.pop_back();
+  while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
+    sizes.pop_back();
   std::vector<const Response*> list;
   for (std::size_t i = 0; i < std::min(sizes.size(), most_figures); ++i) list.push_back(sizes[i].second);
   return list;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/rounding.hpp"
+#include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;
 
@@ -62,6 +63,36 @@ std::vector<MotionJet> motions_in(const Model& model, State first, State second)
 }  // namespace
 
 TEST_SUITE_BEGIN("unit/motion/jet");
+
+TEST_CASE("orders that contacts are asked for are the same to the last bit, whatever others are asked for") {
+  const Model model = rubbing_row(17);
+  const Structure structure(model);
+  ModeSystems systems(model, structure);
+  JetMaker jets(systems);
+  const ModeSystemPtr system = systems.of(rubbing_mode(model, 5));
+  REQUIRE(system);
+  const Forcing forcing(model, 0.0, Side::after);
+  std::vector<MotionJet> all, some;
+  const Jet whole = jets.make(system, forcing, 0.0, model.u0, model.v0, all);
+  const auto same = [](const ContactMotion& a, const ContactMotion& b) {
+    return a.N == b.N && a.T == b.T && a.gap == b.gap && a.ut == b.ut && a.vn == b.vn && a.vt == b.vt &&
+           a.an == b.an && a.at == b.at;
+  };
+  for (const std::size_t greatest : {1U, 2U, 3U, 5U}) {
+    CAPTURE(greatest);
+    const auto asked = [&](std::size_t c) { return 1 + c % greatest; };
+    const Jet jet =
+        jets.make(system, forcing, 0.0, model.u0, model.v0, some,
+                  [&](std::size_t c, const MotionJet&, std::size_t orders) { return orders >= asked(c); });
+    CHECK(jet.u == whole.u);
+    CHECK(jet.forces == whole.forces);
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      for (std::size_t k = 0; k < asked(c); ++k) CHECK(same(some[c].noise[k], all[c].noise[k]));
+      const std::size_t known = asked(c) == 1 ? 2 : MotionJet::orders;
+      for (std::size_t k = 0; k < known; ++k) CHECK(same(some[c].motion[k], all[c].motion[k]));
+    }
+  }
+}
 
 TEST_CASE(
     "an acceleration that is a difference of forces is zero within its noise, which is some roundings") {

@@ -52,7 +52,8 @@ TEST_SUITE("unit/report/load_cases") {
   TEST_CASE("load cases: one run's tables have signs, times that are buttons, and escaped names") {
     const Json json = parse_json(summary("7.5", "-9.0", "-0.01"));
     const std::string loads = support_loads_html(json);
-    CHECK(loads.find("<td>shoe &lt;1&gt;</td><td class=n>-7.5</td><td class=n>-9</td><td class=n data-t=\"1.25\">1.25</td>"
+    CHECK(loads.find("<td>shoe &lt;1&gt;</td><td class=n>-7.5</td><td class=n>-9</td><td class=n "
+                     "data-t=\"1.25\">1.25</td>"
                      "<td class=n>0</td>") != std::string::npos);  // 1e-18 beside 9 is rounding
     CHECK(loads.find("<th>N least [kN]</th><th>at t [s]</th>") != std::string::npos);
     CHECK(loads.find("<th>friction loss [kN m]</th>") != std::string::npos);
@@ -86,10 +87,12 @@ TEST_SUITE("unit/report/load_cases") {
   TEST_CASE("load cases: what cannot stand side by side is refused with its directory") {
     const Runs runs;
     const auto one = runs.add("one", summary("1", "-1", "0"));
-    CHECK_THROWS_WITH_AS(read_load_cases({one, runs.path / "none"}), doctest::Contains("holds no run"), FileError);
+    CHECK_THROWS_WITH_AS(read_load_cases({one, runs.path / "none"}), doctest::Contains("holds no run"),
+                         FileError);
     CHECK_THROWS_WITH_AS(read_load_cases({one, one}), doctest::Contains("as another case has"), FileError);
     const auto newtons = runs.add("newtons", summary("1", "-1", "0", "N"));
-    CHECK_THROWS_WITH_AS(read_load_cases({one, newtons}), doctest::Contains("has other units than"), FileError);
+    CHECK_THROWS_WITH_AS(read_load_cases({one, newtons}), doctest::Contains("has other units than"),
+                         FileError);
     const auto broken = runs.add("broken", "{");
     CHECK_THROWS_WITH_AS(read_load_cases({one, broken}), doctest::Contains("is not JSON"), FileError);
   }

@@ -20,6 +20,23 @@ TEST_SUITE("unit/engine/falls/guard_path") {
     }
   }
 
+  TEST_CASE("a cubic that falls does so at its root, with its slope") {
+    // (a - x) (x^2 + b x + 1)
+    for (double a : {1e-6, 0.13, 0.5, 0.97})
+      for (double b : {-1.5, 0.0, 3.0}) {
+        CAPTURE(a);
+        CAPTURE(b);
+        const auto q = [&](double x) { return x * x + b * x + 1.0; };
+        const auto p = [&](double x) { return (a - x) * q(x); };
+        const auto r = [&](double x) { return -q(x) + (a - x) * (2.0 * x + b); };
+        const auto fall = GuardPath{p(0.0), p(1.0), r(0.0), r(1.0)}.fall();
+        REQUIRE(fall);
+        CHECK(std::abs(fall->x - a) < 1e-3);  // a guess
+        CHECK(fall->slope == doctest::Approx(r(a)).epsilon(0.01));
+      }
+    CHECK_FALSE(GuardPath{1.0, -1.0, std::nan(""), 0.0}.fall());
+  }
+
   TEST_CASE("a cubic that dips below zero between positive ends is seen, down to a touch") {
     // (x - a)^2 (x + 1) + e
     for (double a : {0.1, 0.5, 0.9})

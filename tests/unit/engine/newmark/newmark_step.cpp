@@ -7,6 +7,7 @@
 #include "motion/consistent.hpp"
 #include "motion/equilibrium.hpp"
 #include "signorini/simulate.hpp"
+#include "unit/linear/rubbing_row.hpp"
 
 using namespace signorini;
 
@@ -76,5 +77,55 @@ TEST_SUITE("unit/engine/newmark/newmark_step") {
     step.count(counters);
     CHECK(counters.factorisations == 2);
     CHECK(counters.solves == 20);
+  }
+
+  /// Steps of all lengths in many states: each fulfils its equations, whatever factorisation was used for it.
+  TEST_CASE("steps by updates and refinement fulfil equilibrium and rows, with few factorisations") {
+    for (const int masses : {9, 77}) {  // every step factorised; avoided
+      const Model m = rubbing_row(masses);
+      const Structure structure(m);
+      const Forcing forcing(m, 0.0, Side::after);
+      NewmarkStep step(m, structure);
+      const Eigen::Index n = m.size(), forces = 2 * static_cast<Eigen::Index>(m.contacts.size());
+      Point from{m.u0, m.v0, Vector::Zero(forces), Vector::LinSpaced(n, -1.0, 1.0)}, to;
+      Mode mode = rubbing_mode(m, 11);
+      const double dt = 0.01;
+      int states = 0;
+      for (int i = 0; i < 24; ++i) {
+        State& changed = mode[static_cast<std::size_t>(5 * i) % mode.size()].state;
+        changed = changed == State::stick  ? State::slip_minus
+                  : changed == State::open ? State::stick
+                                           : State::open;
+        NewmarkStep::Key key;
+        for (const State s : states_of(mode)) key.push_back(static_cast<int>(s));
+        step.set(key, rows_of(m, mode));
+        ++states;
+        const auto check = [&](double h, bool kept) {
+          CAPTURE(h);
+          CAPTURE(i);
+          REQUIRE(step.take(forcing, from, h, h, kept, to));
+          const double force = 1.0 + 1e3 * to.u.cwiseAbs().maxCoeff();
+          CHECK(imbalance(m, structure, forcing, h, to) < 1e-12 * force);
+          const Vector u = from.u + h * from.v + 0.25 * h * h * (from.a + to.a);
+          CHECK((to.u - u).cwiseAbs().maxCoeff() < 1e-14);
+          for (std::size_t k = 0; k < m.contacts.size(); ++k) {
+            const ContactMotion motion = motion_of(m.contacts[k], k, forcing, h, to);
+            CHECK(std::abs(step.rows()[k].normal.value(motion)) < 1e-12 * force);
+            CHECK(std::abs(step.rows()[k].tangent.value(motion)) < 1e-12 * force);
+          }
+        };
+        check(dt, true);
+        for (const double part : {0.3, 0.31, 0.3101, 0.9}) check(part * dt, false);
+        check(dt, true);
+      }
+      Counters counters;
+      step.count(counters);
+      const long factored = counters.factorisations + counters.refactorisations;
+      CAPTURE(factored);
+      if (masses < 50)
+        CHECK(factored == states * 5);
+      else
+        CHECK(factored < states * 3);
+    }
   }
 }

@@ -33,8 +33,7 @@ void check_patch(PlaneShape shape, bool curved, bool strain) {
   const PlaneSystem system(distorted_grid(shape, curved), material);
   const Eigen::Vector3d stress(31.0, -17.0, 9.0), e = strains_of(material, stress);
   const Eigen::VectorXd exact = system.sampled([&](double x, double y) {
-    return PlaneVector{2e-3 + e[0] * x + (0.5 * e[2] - 1e-3) * y,
-                       -1e-3 + (0.5 * e[2] + 1e-3) * x + e[1] * y};
+    return PlaneVector{2e-3 + e[0] * x + (0.5 * e[2] - 1e-3) * y, -1e-3 + (0.5 * e[2] + 1e-3) * x + e[1] * y};
   });
   const Eigen::VectorXd u =
       system.solve(Eigen::VectorXd::Zero(system.size()), boundary_unknowns(system), exact);
@@ -60,8 +59,8 @@ struct RingErrors {
 RingErrors ring_errors(PlaneShape shape, int n, bool strain) {
   const double a = 1.0, b = 2.0, p = 3.0;
   const PlaneMaterial material = material_of(strain);
-  const PlaneSystem system(ring_mesh({{0.0, 0.0}, a, b, 0.0, std::numbers::pi / 2.0}, {shape, {n, 2 * n}, {1.0, 1.0}}),
-                           material);
+  const PlaneSystem system(
+      ring_mesh({{0.0, 0.0}, a, b, 0.0, std::numbers::pi / 2.0}, {shape, {n, 2 * n}, {1.0, 1.0}}), material);
   std::vector<bool> held(static_cast<std::size_t>(system.size()), false);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(system.size());
   for (const auto& group : system.mesh.groups) {

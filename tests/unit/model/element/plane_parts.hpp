@@ -87,7 +87,8 @@ struct PlaneSystem {
 [[nodiscard]] inline const char* name_of(PlaneShape shape) {
   return std::array{"t3", "t6", "q4", "q8"}[static_cast<std::size_t>(shape)];
 }
-inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, PlaneShape::q4, PlaneShape::q8};
+inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, PlaneShape::q4,
+                                                PlaneShape::q8};
 
 /// A grid of a rectangle, turned by an odd angle, whose inner nodes are moved by up to a quarter of an element, by a fixed
 /// pattern; with `curved` middles of inner edges as well.
@@ -98,7 +99,8 @@ inline constexpr std::array all_plane_shapes = {PlaneShape::t3, PlaneShape::t6, 
   for (const auto& group : mesh.groups)
     for (const int n : group.nodes) boundary[static_cast<std::size_t>(n)] = true;
   for (const auto& e : mesh.elements)
-    for (std::size_t i = 0; i < corner_count(e.shape); ++i) corner[static_cast<std::size_t>(e.nodes[i])] = true;
+    for (std::size_t i = 0; i < corner_count(e.shape); ++i)
+      corner[static_cast<std::size_t>(e.nodes[i])] = true;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (boundary[i] || !corner[i]) continue;
     const double k = static_cast<double>(i);

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "study/quake/response_spectrum.hpp"
-#include "study/quake/target_spectrum.hpp"
 
 using namespace signorini;
 
@@ -54,7 +53,8 @@ TEST_SUITE("unit/study/quake") {
     const double u = (end - std::sin(w * end) / w) / (w * w), v = (1.0 - std::cos(w * end)) / (w * w);
     const double exact = w * w * std::hypot(u, v / w);
     CHECK(pseudo_acceleration(coarse, 0.5, 0.8, 0.0) == doctest::Approx(exact).epsilon(3.1e-3));
-    CHECK(pseudo_acceleration(fine, 0.0025, 0.8, 0.0) == doctest::Approx(exact).epsilon(1e-5));
+    // A greatest value between two samples is (w dt)^2 / 8 = 4.8e-5 of it above them.
+    CHECK(pseudo_acceleration(fine, 0.0025, 0.8, 0.0) == doctest::Approx(exact).epsilon(4.9e-5));
   }
 
   TEST_CASE("quake: the ground comes to rest where it was, has its peak, and follows its seed") {
@@ -97,30 +97,5 @@ TEST_SUITE("unit/study/quake") {
       return std::exp(weighted / sum);
     };
     CHECK(center(1.5) / center(3.0) > 1.4);
-  }
-
-  TEST_CASE("quake: the spectrum of EN 1998-1, ground B and D, within 15 % everywhere and 3 % on average") {
-    for (const char* name : {"ec8-B", "ec8-D"}) {
-      CAPTURE(name);
-      QuakeSpec spec;
-      spec.pga = 2.0;
-      spec.target = TargetSpectrum::read(name, spec.pga);
-      const std::vector<double> a = quake(spec);
-      // Closed forms of the standard, at other periods than those of the iteration.
-      const bool b = name[4] == 'B';
-      const double S = b ? 1.2 : 1.35, TB = b ? 0.15 : 0.2, TC = b ? 0.5 : 0.8;
-      double sum = 0.0;
-      int count = 0;
-      for (double T = 0.06; T < 2.0; T *= 1.083) {
-        const double exact = 2.0 * S * (T < TB ? 1.0 + 1.5 * T / TB : T < TC ? 2.5 : 2.5 * TC / T);
-        const double is = pseudo_acceleration(a, spec.dt, T, 0.05);
-        CAPTURE(T);
-        CHECK(std::abs(is / exact - 1.0) < 0.15);
-        sum += is / exact;
-        ++count;
-      }
-      CHECK(std::abs(sum / count - 1.0) < 0.03);
-      CHECK(std::abs(by_small_steps(a, spec.dt).end_displacement) < 1e-11);
-    }
   }
 }

@@ -1,0 +1,91 @@
+#include "cli/orbit_over.hpp"
+
+#include <fmt/core.h>
+
+#include <limits>
+
+#include "base/number.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/owned_folder.hpp"
+#include "cli/table.hpp"
+#include "cli/terminal.hpp"
+#include "study/orbit/branch_files.hpp"
+
+namespace signorini::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const OwnedFolder& branch_folder() {
+  static const OwnedFolder folder{"branch", "branch.json", {"branch.csv"}};
+  return folder;
+}
+
+class BranchWatch final : public Recorder {
+ public:
+  void event(const Event& /*event*/) override {}
+  void sample(const Sample& /*sample*/) override {}
+  bool progress(double /*t*/) override { return !Interrupt::asked(); }
+};
+
+/// Points at which something happens, the first and the last one.
+std::string branch_table(const BranchOptions& over, const Branch& branch) {
+  Table table({over.path, "period", "amplitude", "multiplier", "stable", "events", "special"},
+              {true, true, true, true, false, true, false});
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const BranchPoint& p = branch.points[i];
+    if (p.special.empty() && i > 0 && i + 1 < branch.points.size()) continue;
+    table.row({fmt::format("{:.9g}", p.parameter), fmt::format("{:.9g}", p.period), number(p.amplitude),
+               number(p.max_multiplier),
+               !p.stable   ? "?"
+               : *p.stable ? "yes"
+                           : std::string("no, ") + to_string(p.loss),
+               std::to_string(p.events), p.special});
+  }
+  return table.str();
+}
+
+}  // namespace
+
+void read_over(const std::string& text, BranchOptions& options) {
+  const std::size_t equals = text.find('=');
+  const std::size_t colon = equals == std::string::npos ? equals : text.find(':', equals);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto value = [&](std::size_t begin, std::size_t end) {
+    return colon == std::string::npos ? none : parse_number(text.substr(begin, end - begin)).value_or(none);
+  };
+  const double from = value(equals + 1, colon), to = value(colon + 1, text.size());
+  if (equals == 0 || !(from < to || to < from))
+    throw UsageError(fmt::format("--over {}: expected PATH=FROM:TO, two different numbers", text));
+  options.path = text.substr(0, equals);
+  options.from = from;
+  options.to = to;
+}
+
+ExitCode run_over(const std::string& scene, const SceneReader& read, const BranchOptions& over,
+                  const fs::path& path, const OutputOptions& options) {
+  check_folder(path, branch_folder(), options.force, scene);
+  const Scene first = read({{over.path, shortest(over.from)}});
+  std::vector<std::string> outputs;
+  for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
+  begin_folder(path, branch_folder());
+  BranchWriter writer(path, outputs);
+  Interrupt interrupt;
+  BranchWatch watch;
+  const Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
+  const std::string json = branch_json(over, first.units, branch);
+  write_file(path / "branch.json", json);
+  if (options.json) print(json);
+  if (options.tables())
+    print(branch_table(over, branch) +
+          fmt::format("\n{} points: {}\nresults: {}/ (branch.csv, branch.json)\n", branch.points.size(),
+                      branch.end, path.string()));
+  if (Interrupt::asked()) {
+    print_error("interrupted; the points up to here are kept in " + path.string());
+    return ExitCode::interrupted;
+  }
+  if (!branch.complete) print_error("the branch ends early: " + branch.end);
+  return branch.complete ? ExitCode::done : ExitCode::stopped;
+}
+
+}  // namespace signorini::cli

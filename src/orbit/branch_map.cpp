@@ -1,0 +1,85 @@
+#include "orbit/branch_map.hpp"
+
+#include "base/number.hpp"
+#include "model/rescale.hpp"
+#include "orbit/load_period.hpp"
+#include "run/choose_engine.hpp"
+
+namespace signorini {
+namespace {
+
+// Of the range: differences of the map over it have its third derivative times 1e-10 and rounding over 1e-5. Chosen.
+constexpr double difference = 1e-5;
+
+}  // namespace
+
+BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first,
+                     Recorder* recorder)
+    : read_(read), options_(options), recorder_(recorder), autonomous_(first.autonomous) {
+  const SceneReader begun = [&](const std::vector<Override>& changes) {
+    std::vector<Override> all{{options_.path, shortest(options_.from)}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read_(all);
+  };
+  t_end_ = std::max(begun({}).run.t_end, first.phase + 4.0 * first.period);
+  Model on_orbit = build_model(orbit_scene(begun, first));
+  machine_ = on_orbit.machine;
+  phase_ = first.phase / machine_.time;
+  first_ = rescaled(std::move(on_orbit), inverse(machine_));
+  start_.state.u = first_.u0;
+  start_.state.v = first_.v0;
+  for (const Contact& c : first_.contacts) {
+    start_.state.shears.push_back(c.initial_shear);
+    start_.state.slips.push_back(c.initial_slip);
+  }
+  start_.duration = first.period / machine_.time;
+}
+
+double BranchMap::parameter(double s) const {
+  return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
+}
+
+Scene BranchMap::scene_at(double s) const {
+  return read_({{options_.path, shortest(parameter(s))}, {"run.t_end", shortest(t_end_)}});
+}
+
+double BranchMap::period(double s) const {
+  if (autonomous_) return start_.duration;
+  const Scene scene = scene_at(s);
+  const double period =
+      options_.orbit.period ? *options_.orbit.period : load_period(scene).period.value_or(0.0);
+  return period * options_.orbit.times / machine_.time;
+}
+
+PeriodMap BranchMap::at(double s, bool outputs) const {
+  const Scene scene = scene_at(s);
+  Model model = build_model(scene);
+  RunSpec run = scene.run;
+  run.engine = choose_engine(model, run).engine;
+  model = rescaled(std::move(model), inverse(machine_));
+  model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
+  run = rescaled(run, inverse(machine_));
+  const double section = autonomous_ ? 0.0 : section_ * period(s);
+  return {driven_from(std::move(model), phase_ + section), run, recorder_, outputs};
+}
+
+OrbitPass BranchMap::pass(const BranchState& state, bool tangents) const {
+  return at(state.s).pass({state.state, state.duration, tangents});
+}
+
+Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
+  const OrbitSection section(first_, pass.begin);
+  const auto gap = [&](double s) -> std::optional<Vector> {
+    const OrbitPass other = this->pass({state.state, autonomous_ ? state.duration : period(s), s}, false);
+    if (!other.done()) return std::nullopt;
+    return section.coordinates(other.end) - section.coordinates(other.begin);
+  };
+  const auto above = gap(state.s + difference), below = gap(state.s - difference);
+  const Vector here = section.coordinates(pass.end) - section.coordinates(pass.begin);
+  if (above && below) return (*above - *below) / (2.0 * difference);
+  if (above) return (*above - here) / difference;
+  if (below) return (here - *below) / difference;
+  return Vector::Zero(here.size());
+}
+
+}  // namespace signorini

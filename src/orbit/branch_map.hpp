@@ -1,0 +1,55 @@
+// branch_map.hpp: the period map of a scene at any value of one of its keys.
+//
+//   y = (x, dT, s)       x: directions at the section; dT where the motion is driven by itself; s: (p - from)/(to - from)
+//   G(y) = B^T (z(T; z, s) - z),    dG/ds by central differences of the map, dG/dx from Phi
+//
+// All models have the units of the machine of the first one, so that states are comparable.
+#pragma once
+
+#include "orbit/period_map.hpp"
+#include "signorini/orbit.hpp"
+
+namespace signorini {
+
+/// An orbit, or a guess at one.
+struct BranchState {
+  OrbitState state;       ///< at the section
+  double duration = 0.0;  ///< machine's; of a forced orbit that of the loads
+  double s = 0.0;
+};
+
+class BranchMap {
+ public:
+  BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
+
+  [[nodiscard]] bool autonomous() const { return autonomous_; }
+  [[nodiscard]] double parameter(double s) const;
+  /// The loads' period at s, times `times`; machine's.
+  [[nodiscard]] double period(double s) const;
+  [[nodiscard]] const BranchState& start() const { return start_; }
+  [[nodiscard]] const Model& model() const { return first_; }
+  /// Section as a part of the period.
+  [[nodiscard]] double section() const { return section_; }
+  void move_section(double part) { section_ = part; }
+
+  [[nodiscard]] PeriodMap at(double s, bool outputs = false) const;
+  [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true) const;
+  /// dG/ds, coordinates at the section, not yet times B^T.
+  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
+
+ private:
+  [[nodiscard]] Scene scene_at(double s) const;
+
+  const SceneReader& read_;
+  BranchOptions options_;
+  Recorder* recorder_;
+  bool autonomous_;
+  Factors machine_;
+  double phase_;  // machine's
+  double t_end_;  // of scenes
+  double section_ = 0.0;
+  Model first_;
+  BranchState start_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,113 @@
+// signorini orbit: files, exit codes, and a run.toml that computes the orbit once more.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/program.hpp"
+
+using namespace signorini::cli_test;
+
+TEST_SUITE_BEGIN("cli/orbit");
+
+namespace {
+
+/// A forced oscillator with a slider; one line in [run] more.
+std::string rubbed(const std::string& load, const std::string& run = "") {
+  return "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\n[run]\nt_end = "
+         "9.0\nengine = "
+         "\"exact\"\n" +
+         run +
+         "\n[matrices]\nmass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.02]]\n[[contacts]]\nname = "
+         "\"pad\"\nlaw = "
+         "\"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 1.0\ntangential_stiffness = "
+         "20.0\n" +
+         load + "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n";
+}
+
+std::string harmonic(const std::string& more = "") {
+  return "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 3.0\nhistory = { type = \"harmonic\", omega = "
+         "1.5" +
+         more + " }\n";
+}
+
+std::size_t rows_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE("cli orbit: a run of one period, its multipliers, and a run.toml that begins on the orbit") {
+  for (const std::string& more : {std::string(), std::string(", start = 2.5")}) {
+    CAPTURE(more);
+    const Shell shell;
+    shell.write("s.toml", rubbed(harmonic(more), "initial = { u = [0.3], v = [0.1] }"));
+    const Ending ending = shell.run({"orbit", "s.toml", "--no-plots"});
+    CAPTURE(ending.err);
+    REQUIRE(ending.code == 0);
+    CHECK(ending.out.find("stable (greatest multiplier") != std::string::npos);
+    const nlohmann::json orbit = nlohmann::json::parse(shell.read("s-orbit/orbit.json"));
+    CHECK(orbit.at("stable") == true);
+    CHECK(orbit.at("residual").get<double>() <= 1e-12);
+    CHECK(orbit.at("multipliers").size() == 2);
+    CHECK(orbit.at("sequence").size() == 4);
+    const Ending again = shell.run({"run", "s-orbit/run.toml", "-o", "again", "--no-plots"});
+    CAPTURE(again.err);
+    CHECK(again.code == 0);
+    CHECK(shell.read("again/events.csv") == shell.read("s-orbit/events.csv"));
+    // It closes: the last row of states.csv is the state that the run began with.
+    std::istringstream first(shell.read("s-orbit/start/states.csv")), last(shell.read("s-orbit/states.csv"));
+    std::string header, start, end;
+    std::getline(first, header);
+    std::getline(first, start);
+    std::getline(last, header);
+    std::getline(last, end);
+    double t0 = 0.0, u0 = 0.0, t1 = 0.0, u1 = 0.0;
+    REQUIRE(std::sscanf(start.c_str(), "%lf,%lf", &t0, &u0) == 2);
+    REQUIRE(std::sscanf(end.c_str(), "%lf,%lf", &t1, &u1) == 2);
+    CHECK(std::abs(u1 - u0) <= 1e-12);
+    const Ending refused = shell.run({"orbit", "s.toml", "--no-plots"});
+    CHECK(refused.code == 6);
+    CHECK(shell.run({"orbit", "s.toml", "--no-plots", "--force", "--quiet"}).code == 0);
+  }
+}
+
+TEST_CASE("cli orbit: no period, no orbit and a wrong range have their exit codes and reasons") {
+  const Shell shell;
+  shell.write("still.toml", rubbed(""));
+  const Ending still = shell.run({"orbit", "still.toml"});
+  CHECK(still.code == 3);
+  CHECK(still.err.find("--period") != std::string::npos);
+  // Resonance without damping: nothing repeats itself.
+  shell.write("grows.toml",
+              "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" "
+              "}\n[run]\nt_end = 9.0\nengine = "
+              "\"exact\"\n[matrices]\nmass = [[1.0]]\nstiffness = [[1.0]]\n[[loads]]\ndirection = { d0 = 1.0 "
+              "}\namplitude = "
+              "1.0\nhistory = { type = \"harmonic\", omega = 1.0 }\n");
+  const Ending grows = shell.run({"orbit", "grows.toml"});
+  CHECK(grows.code == 4);
+  CHECK(grows.err.find("no orbit found in grows.toml") != std::string::npos);
+  shell.write("s.toml", rubbed(harmonic()));
+  for (const char* over : {"loads.1.amplitude", "loads.1.amplitude=3", "=3:4", "loads.1.amplitude=3:3"}) {
+    CAPTURE(over);
+    CHECK(shell.run({"orbit", "s.toml", "--over", over, "--force"}).code == 2);
+  }
+}
+
+TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of the range") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  const Ending ending = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.5", "-o", "branch"});
+  CAPTURE(ending.err);
+  REQUIRE(ending.code == 0);
+  const std::string table = shell.read("branch/branch.csv");
+  CHECK(table.starts_with("parameter,period,amplitude,x minimum,x maximum,max_multiplier,stable,"));
+  const nlohmann::json branch = nlohmann::json::parse(shell.read("branch/branch.json"));
+  CHECK(branch.at("complete") == true);
+  CHECK(rows_of(table) == branch.at("points").get<std::size_t>() + 1);
+  CHECK(table.find("\n3,") != std::string::npos);
+  CHECK(table.find("\n3.5,") != std::string::npos);
+}
+
+TEST_SUITE_END();

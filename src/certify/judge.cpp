@@ -121,7 +121,7 @@ class Judge {
       return false;
     }
     horizon_.at(std::min(a->t, b->t),
-                fmt::format("{} has as its partner {} in the companion", describe(*a), describe(*b)));
+                fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
     return false;
   }
 

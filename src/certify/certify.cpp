@@ -192,7 +192,7 @@ std::string why_not(const RunSpec& run, const CompanionPlan& plan, double wall_t
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify runs one";
   if (plan.runs.front().run.engine == run.engine)
-    return fmt::format("a companion run would take about {:.2g} times as long as the run; --certify runs one",
+    return fmt::format("a companion run would cost about {:.2g} times the run; --certify runs one",
                        plan.cost);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "

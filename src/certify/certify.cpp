@@ -124,7 +124,7 @@ class CompanionTask {
       track.reached = 0.0;
       track.stop = "the companion failed: " + failure_;
     } else if (tracker_.too_long) {
-      track.stop = "the companion takes far longer than was expected; --certify lets it go on";
+      track.stop = "the companion takes far longer than expected; --certify lets it continue";
     } else if (report_.outcome.kind == Outcome::Kind::stopped) {
       track.stop = "the companion stopped: " + report_.outcome.reason;
     } else if (report_.outcome.kind == Outcome::Kind::interrupted) {
@@ -189,13 +189,14 @@ bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost <
 
 /// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then.
 std::string why_not(const RunSpec& run, const CompanionPlan& plan, double wall_time) {
-  if (!(plan.cost > 0.0)) return "nobody knows beforehand what a companion costs here; --certify takes one";
+  if (!(plan.cost > 0.0))
+    return "the cost of a companion run cannot be estimated for this scene; --certify runs one";
   if (plan.runs.front().run.engine == run.engine)
-    return fmt::format("a companion is expected to cost {:.2g} times the run; --certify takes one",
+    return fmt::format("a companion run would cost about {:.2g} times the run; --certify runs one",
                        plan.cost);
   return fmt::format(
-      "a companion by {} is expected to take {} s, by order of magnitude, and the run took {:.2g} s; "
-      "--certify takes one",
+      "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
+      "--certify runs one",
       plan.name, about_seconds(plan.seconds), wall_time);
 }
 

@@ -80,14 +80,14 @@ class Judge {
       if (track->forgiven_at)
         horizon_.at(
             *track->forgiven_at,
-            fmt::format("at t = {:.9g} rounding left several states of contacts open", *track->forgiven_at));
+            fmt::format("at t = {:.9g} rounding left several contact states possible", *track->forgiven_at));
     for (const Track* track : {&run_, &companion})
       if (track->objection) horizon_.at(track->objection->t, track->objection->sentence);
     if (const auto& graze = companion.graze)
       horizon_.at(
           graze->t,
           fmt::format("the {} of '{}' comes back into the companion's tolerance at t = {:.9g} and leaves it "
-                      "without an event: whether it fell there is told by a smaller rtol, or by exact",
+                      "without an event; a smaller rtol, or engine exact, decides whether it fell there",
                       graze->guard, names_[static_cast<std::size_t>(graze->contact)], graze->t));
     if (companion.reached < run_.reached)
       horizon_.at(companion.reached, companion.stop.empty() ? "the companion has ended" : companion.stop);
@@ -114,13 +114,14 @@ class Judge {
       return true;
     }
     if (same(*a, *b)) {
-      horizon_.at(std::min(a->t, b->t),
-                  fmt::format("{} comes {:.2g} after the contact's event before, which is off by {:.2g}",
-                              describe(*a), since, factor_ * change));
+      horizon_.at(
+          std::min(a->t, b->t),
+          fmt::format("{} follows the contact's event before by {:.2g}, and this time has an error of {:.2g}",
+                      describe(*a), since, factor_ * change));
       return false;
     }
     horizon_.at(std::min(a->t, b->t),
-                fmt::format("{} stands against {} in the companion", describe(*a), describe(*b)));
+                fmt::format("{} has the partner {} in the companion", describe(*a), describe(*b)));
     return false;
   }
 
@@ -131,9 +132,11 @@ class Judge {
     past.speeds[past.next++ % remembered] = std::abs(r - other) / std::max({r, other, 1.0});
     const double off = factor_ * *std::max_element(past.speeds.begin(), past.speeds.end()) * std::max(r, 1.0);
     if (off < std::abs(r - 1.0)) return true;
-    horizon_.at(std::min(a.t, b.t),
-                fmt::format("{} is left at {:.6g} of the slowest speed that flies, which is off by {:.2g}",
-                            describe(a), r, off));
+    horizon_.at(
+        std::min(a.t, b.t),
+        fmt::format(
+            "{} ends with {:.6g} of the slowest speed that flies, and this part has an error of {:.2g}",
+            describe(a), r, off));
     return false;
   }
 

@@ -296,11 +296,11 @@ std::string certification(const Model& model, const CertifiedReport& run) {
   for (std::size_t i = 0; i < c.t_errors.size(); ++i)
     if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
   const std::string beside =
-      fmt::format("beside {}, {:.2f} s and {:.2f} s of waiting", c.companion, c.wall_time, c.wait);
+      fmt::format("companion: {}, {:.2f} s, waited {:.2f} s", c.companion, c.wall_time, c.wait);
   const std::string to_end =
       run.report.outcome.kind == Outcome::Kind::done
-          ? "certain to the end"
-          : fmt::format("certain to t = {:.9g} {}, where the run ended", c.until, model.units.time);
+          ? "certified to the end"
+          : fmt::format("certified to t = {:.9g} {}, where the run ended", c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
   // Before the first event there are no times that could be off.
   const std::string times =
@@ -308,10 +308,10 @@ std::string certification(const Model& model, const CertifiedReport& run) {
   std::string text =
       c.complete
           ? fmt::format("{}: all {} rows of events{} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certain until t = {:.9g} {}: {} of {} rows of events{} ({}); then {}\n", c.until,
+          : fmt::format("certified until t = {:.9g} {}: {} of {} rows of events{} ({}); then {}\n", c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
-    text += fmt::format("the order of {} of neighbouring events of different contacts is not certain\n",
+    text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",
                         count_of(c.unordered, "pair"));
   return text;
 }

@@ -46,10 +46,11 @@ Refusal no_system(const Model& model, const Mode& mode) {
     if (!mode[c].is_open() && (model.contacts[c].takes_impulses() || model.contacts[c].sticks_rigidly()))
       held.push_back(c);
   if (!held.empty()) return dependent_rows(std::move(held));
-  return {Refusal::Kind::singular,
-          "the equations of motion are singular: beside the greatest stiffnesses and masses the least are "
-          "rounding, or leave the range of numbers",
-          {}};
+  return {
+      Refusal::Kind::singular,
+      "the equations of motion are singular: the least stiffnesses and masses are below the rounding of the "
+      "greatest, or outside the range of numbers",
+      {}};
 }
 
 /// What makes forces unique. Only sliders may have a tangential_stiffness without a normal one.

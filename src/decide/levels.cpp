@@ -144,9 +144,9 @@ Refusal Levels::refusal(const Level& level, const Enumerated& all) const {
   Refusal result{several ? Refusal::Kind::ambiguous : Refusal::Kind::paradox,
                  several
                      ? "several motions continue this one (Painleve's paradox: friction is so strong that "
-                       "a contact may as well press as let go)"
+                       "a contact may either press or open)"
                      : "no motion continues this one (Painleve's paradox: friction is so strong that "
-                       "pressing a sliding contact pushes it into what it slides on)",
+                       "pressing a sliding contact pushes it into its surface)",
                  level.contacts, condition_of(problem), all.least_miss};
   const double acceleration = factor_of(unit::acceleration, model_.unit);  // as the scene has it
   const double per_force = acceleration / model_.unit.force;

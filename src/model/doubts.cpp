@@ -70,7 +70,7 @@ class Doubts {
       const bool idle =
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
       if (idle && magnitude(load.history, scene_.run.t_end) > 0.0)
-        found_.push_back(load.name + " acts only along what supports hold: it moves nothing");
+        found_.push_back(load.name + " acts only along directions that supports fix: it has no effect");
     }
   }
 
@@ -98,8 +98,8 @@ class Doubts {
     }
     if (falling_.empty()) return;
     found_.push_back(
-        fmt::format("nothing stops the fall from {}: the static loads drive what touches there "
-                    "along the normal, which points out of the ground",
+        fmt::format("nothing stops the fall from {}: the static loads push the structure there along the "
+                    "normal, away from the ground; is the normal reversed?",
                     names(model_, falling_)));
   }
 
@@ -135,10 +135,10 @@ class Doubts {
       if (gives && std::find(falling_.begin(), falling_.end(), k) == falling_.end()) touching.push_back(k);
     }
     if (touching.empty()) return;
-    found_.push_back(
-        fmt::format("the weight comes suddenly at t = 0 on {}, closed without force: that rings, "
-                    "with up to twice the static force; initial = \"static\" starts at rest",
-                    names(model_, touching)));
+    found_.push_back(fmt::format(
+        "the weight acts suddenly at t = 0 on {}, closed without force: the structure will oscillate, "
+        "with up to twice the static force; initial = \"static\" starts at rest",
+        names(model_, touching)));
   }
 
   void drag() {
@@ -148,9 +148,9 @@ class Doubts {
     const Eigen::MatrixXd free = null_motions(problem.matrix(closed));
     if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
     found_.push_back(
-        fmt::format("damping alpha = {:.4g} 1/{} drags free motions, too: what slides or flies "
-                    "loses its velocity with the time constant 1/alpha = {:.4g} {}; beta alone "
-                    "leaves it",
+        fmt::format("damping alpha = {:.4g} 1/{} slows free motions, too: parts that slide or fly "
+                    "lose their velocity with the time constant 1/alpha = {:.4g} {}; beta alone "
+                    "does not slow them",
                     model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
                     model_.units.time));
   }
@@ -184,8 +184,8 @@ class Doubts {
         if (inside <= std::max(before, after) + rounded && inside >= std::min(before, after) - rounded)
           continue;
         found_.push_back(fmt::format(
-            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} which a clock "
-            "of sixteen digits tells for sure: its impulse is lost; let it last longer",
+            "'{}' has a pulse at {:.9g} that lasts {:.3g}, less than the {:.3g} that times of sixteen "
+            "digits can resolve: its impulse is lost; make the pulse longer",
             load.name, a * model_.unit.time, (b - a) * model_.unit.time, least * model_.unit.time));
       }
     }
@@ -213,8 +213,8 @@ class Doubts {
   void another_structure() {
     if (!scene_.initial.saved || scene_.initial.saved->differing.empty()) return;
     found_.push_back(
-        fmt::format("goes on from a run in {} whose scene has other {}: its displacements, velocities and "
-                    "shears are taken as they stand",
+        fmt::format("continues from a run in {} whose scene has other {}: its displacements, velocities and "
+                    "shears are used unchanged",
                     scene_.initial.saved->run, listed_plainly(scene_.initial.saved->differing)));
   }
 
@@ -226,8 +226,8 @@ class Doubts {
     if (loose.empty()) return;
     found_.push_back(
         fmt::format("initial_shear at {} does not fit the displacements: a static start has no "
-                    "friction, so that nothing carries it and it is gone with the first "
-                    "oscillation; give displacements that hold it",
+                    "friction, so nothing balances it and it vanishes with the first "
+                    "oscillation; give displacements that balance it",
                     names(model_, loose)));
   }
 
@@ -238,12 +238,12 @@ class Doubts {
     const double rate = found->rate / model_.unit.time;
     if (found->omega == 0.0)
       throw SceneError(scene_.initial.place, "run.initial",
-                       fmt::format("no slow start: with {} slipping at the limit a motion runs away as "
-                                   "exp({:.4g} t): that is no equilibrium that could be reached",
+                       fmt::format("no slow start: with {} slipping at the limit a motion grows like "
+                                   "exp({:.4g} t), so this equilibrium cannot be reached",
                                    names(model_, found->contacts), rate));
     found_.push_back(fmt::format(
-        "should {} slip on after the slow start, an oscillation of {:.4g} rad/{} would grow as exp({:.4g} t) "
-        "(flutter); damping may stop it",
+        "if the slip of {} continues after the slow start, an oscillation of {:.4g} rad/{} grows like "
+        "exp({:.4g} t) (flutter); damping may stop it",
         names(model_, found->contacts), found->omega / model_.unit.time, model_.units.time, rate));
   }
 

@@ -21,7 +21,7 @@ EngineChoice choose_engine(const Model& model, const RunSpec& run) {
   try {
     engine_row(Engine::exact).refuse(model, run);
   } catch (const SceneError&) {
-    return {Engine::ida, true, "a law or a load of the scene has no closed flow"};
+    return {Engine::ida, true, "a law or a load of the scene has no motion in closed form"};
   }
   const double decay = fastest_decay(model), oscillation = std::max(model.omega_max, 1.0 / run.t_end);
   if (decay > slow * oscillation)

@@ -24,7 +24,7 @@ constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 
 
 ModalKind modal_kind(const Model& model) {
   const std::string why = proportional_refusal(model);
-  if (model.size() > most_unknowns) return {false, false, "more unknowns than modes are kept of"};
+  if (model.size() > most_unknowns) return {false, false, "so many unknowns that their modes are not stored"};
   if (why.empty()) return {false, most_state_springs(model) > most_rank, ""};
   if (std::string other = damped_refusal(model); !other.empty()) return {true, false, other};
   return {true, most_state_terms(model) > most_damped_terms,
@@ -35,19 +35,22 @@ namespace {
 
 /// Where modes can follow the scene.
 FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind& kind) {
-  if (model.size() < fewest_unknowns) return {false, "auto: few unknowns, for which the series is as fast"};
-  if (kind.crowded) return {false, "auto: more contacts than a state's modes are worth"};
-  if (!kind.damped) return {true, "auto: modes follow all of it"};
+  if (model.size() < fewest_unknowns) return {false, "auto: with so few unknowns the series is as fast"};
+  if (kind.crowded)
+    return {
+        false,
+        "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
+  if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
   const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
     return contact.takes_impulses() || contact.sticks_rigidly();
   });
   // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
   if (rigid)
-    return {false, "auto: hits of rigid contacts move the whole mesh, which complex modes do not gain by"};
+    return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
   if (model.size() < fewest_damped_unknowns ||
       worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
-    return {false, "auto: complex modes of the contacts' states would cost as much as the series"};
-  return {true, "auto: complex modes follow all of it"};
+    return {false, "auto: the complex modes of the contact states would cost as much as the series"};
+  return {true, "auto: complex modes can follow the whole scene"};
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ bool Loop::steer() {
                                                   [](double t, const Breakpoint& b) { return t < b.time; }) -
                                  breakpoints_.begin());
   }
-  return on || stop("stopped by who steers", Outcome::Kind::interrupted);
+  return on || stop("stopped by the observer", Outcome::Kind::interrupted);
 }
 
 /// After an instant, as long as loads are changed there: each change is an instant of its own.

@@ -33,7 +33,7 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
 std::string impact_gain(double t, double gain) {
   return fmt::format(
       "the impact at {:.9g} gains the energy {:.4g}: Newton's law of restitution with friction "
-      "does that at times",
+      "may do that",
       t, gain);
 }
 
@@ -55,18 +55,16 @@ std::optional<std::string> shared_motion(const Model& model, const Decision& dec
   }
   if (names.empty()) return std::nullopt;
   return fmt::format(
-      "{} hold one motion together from t = {:.6g} on: the motion is unique, their forces are not; of those "
-      "within the limits of "
-      "friction the least are taken (sum of squares)",
+      "{} hold the same motion from t = {:.6g} on: the motion is unique, their friction forces are not; the "
+      "forces with the least sum of squares within the friction limits are taken",
       names.size() > 1 ? "contacts " + listed(names, 5) : "contact " + listed(names, 5) + " and others", t);
 }
 
 std::string left_at_once(const Model& model, std::size_t c, double t) {
   return fmt::format(
-      "contact '{}' let go at t = {:.9g}: no continuous motion goes on there, and the parts without mass on "
-      "it moved "
-      "at once to where they are in equilibrium without it; with mass or a damper on them they need time for "
-      "that",
+      "contact '{}' let go at t = {:.9g}, because no continuous motion exists there: the parts without mass "
+      "on it jumped to their equilibrium without the contact; with mass or a damper on them they would need "
+      "time for that",
       model.contacts[c].name, t);
 }
 
@@ -81,10 +79,11 @@ std::optional<std::string> energy_lost(const Audit& audit, const Method& method,
           ? fmt::format("{:.2g}, more than was exchanged ({:.2g})", off, audit.energy_scale)
           : fmt::format("{:.2g} of what was exchanged", off / audit.energy_scale);
   const std::string told =
-      fmt::format("the energy balance is off by {} (at t = {:.6g}); ", much, audit.energy.t);
-  if (method.engine == Engine::exact) return told + "signorini verify sets two other engines beside this run";
+      fmt::format("the energy balance has an error of {} (at t = {:.6g}); ", much, audit.energy.t);
+  if (method.engine == Engine::exact)
+    return told + "signorini verify compares this run with two other engines";
   const bool steps = name_of(method.engine).accuracy == Accuracy::step;
-  return told + (steps ? "use a smaller run.dt" : "use a tighter rtol, an atol that fits the motion") +
+  return told + (steps ? "use a smaller run.dt" : "use a smaller rtol, or an atol that fits the motion") +
          (other ? fmt::format(", or engine \"{}\"", to_string(Engine::exact)) : "");
 }
 

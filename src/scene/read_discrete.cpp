@@ -66,7 +66,7 @@ namespace {
 /// Of a spring hanger: hot + stiffness travel = cold.
 void read_hanger(Table& table, Spring& spring) {
   if (table.has("preload"))
-    table.fail("preload", "stands beside hanger, whose cold load it is: expected one of the two");
+    table.fail("preload", "cannot be combined with hanger, whose cold load it is: expected one of the two");
   Table hanger = table.child("hanger");
   const double hot = hanger.number("hot");
   const std::optional<double> cold = hanger.optional_number("cold"),

@@ -10,7 +10,7 @@
 //   guard          a guard of the old state is zero at the time of its event
 //   continuity     u; T and p of what sticks before or after
 //
-// The laws are written anew from docs/theory.md. This folder includes the model, the constants of contacts and the
+// The laws are written anew from docs/theory-checks.md. This folder includes the model, the constants of contacts and the
 // roundings, and nothing that decides, advances or localises: an error there cannot hide here.
 #pragma once
 

@@ -367,7 +367,8 @@ amplitude = 20.0
   const Model flutters = built(pad(0.0));
   CHECK(flutters.statics.stages.back().states[0] == State::slip_plus);
   REQUIRE(flutters.warnings.size() == 1);
-  CHECK(flutters.warnings[0].find("should contact 'pad' slip on after the slow start, an oscillation of") !=
+  CHECK(flutters.warnings[0].find(
+            "if the slip of contact 'pad' continues after the slow start, an oscillation of") !=
         std::string::npos);
   CHECK(flutters.warnings[0].find("flutter") != std::string::npos);
   CHECK(built(pad(40.0)).warnings.empty());

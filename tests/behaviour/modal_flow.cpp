@@ -288,8 +288,8 @@ TEST_CASE("flows: auto follows the pipeline in modes, and few unknowns or what m
     const Scene scene = read_scene(SIGNORINI_MODELS "/pipeline.toml", all);
     return simulate(build_model(scene), scene.run).report.method.flow_reason;
   };
-  CHECK(flow_of({}) == "auto: modes follow all of it");
-  CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: few unknowns, for which the series is as fast");
+  CHECK(flow_of({}) == "auto: modes can follow the whole scene");
+  CHECK(flow_of({{"members.1.elements", "[1,1]"}}) == "auto: with so few unknowns the series is as fast");
   CHECK(flow_of({{"contacts.first.tangential_damping", "10.0"}}) ==
         "auto: modes cannot follow shear elements");
   CHECK(flow_of({{"run.flow", "taylor"}}) == "as given");
@@ -302,15 +302,16 @@ TEST_CASE(
     const Scene scene = read_scene(std::string(SIGNORINI_MODELS "/") + model, changes);
     return choose_flow(build_model(scene), scene.run).reason;
   };
-  const std::string gains = "auto: complex modes follow all of it",
-                    dear = "auto: complex modes of the contacts' states would cost as much as the series";
+  const std::string gains = "auto: complex modes can follow the whole scene",
+                    dear = "auto: the complex modes of the contact states would cost as much as the series";
   CHECK(chosen("pipeline.toml", {{"contacts.first.normal_damping", "10.0"}}) == gains);
   CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}}) == gains);
   CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}, {"members.1.elements", "[2,6]"}}) == dear);
   CHECK(chosen("pipeline.toml", {{"damping.beta", "1e-8"}, {"run.t_end", "0.1"}}) == dear);
   CHECK(chosen("rigid-frame.toml", {{"members.1.elements", "[8,4,8]"}}) ==
-        "auto: hits of rigid contacts move the whole mesh, which complex modes do not gain by");
-  CHECK(chosen("piping.toml", {}) == "auto: more contacts than a state's modes are worth");
+        "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time");
+  CHECK(chosen("piping.toml", {}) ==
+        "auto: with this many contacts, computing the modes of each contact state costs more than it saves");
 }
 
 TEST_CASE(

@@ -14,7 +14,7 @@ TEST_SUITE_BEGIN("behaviour/sensitivity_engines");
 TEST_CASE("the pipeline by friction: event times that differences of `exact` gave") {
   const Sensitivities s = rates_of_model("pipeline", {"contacts.*.friction"});
   REQUIRE(s.events.size() == 251);
-  // central differences, plateau of their steps: docs/theory.md (Sensitivities)
+  // central differences, plateau of their steps: docs/theory-checks.md (Sensitivities)
   CHECK(std::abs(s.event_rates.front()[0].t - 6.4399031e-4) <= 1e-10);
   CHECK(std::abs(s.event_rates.back()[0].t + 2.12704e-2) <= 1e-6 * 2.12704e-2 + 5e-8);
   double greatest = 0.0;

@@ -267,7 +267,8 @@ friction = 0.34
     CAPTURE(degrees);
     const std::string said = refusal(at_angle(text, degrees));
     CAPTURE(said);
-    CHECK(said.find("no slow start: at 0 of stage 'loads' nothing holds the motion") != std::string::npos);
+    CHECK(said.find("no slow start: at 0 of stage 'loads' nothing restrains the motion") !=
+          std::string::npos);
   }
 }
 

@@ -347,8 +347,8 @@ TEST_CASE("cli run: a certified run that stops says so in every file, and to whe
   CHECK(ending.code == 4);
   CHECK(has(ending.err, "the computation stopped early, at t = 0.4 s: 2 events at one instant"));
   // The companion stops as the run does, some roundings earlier or later.
-  CHECK(has(ending.out, "certain until t = 0.4 s: 2 of 2 rows of events, times within "));
-  CHECK_FALSE(has(ending.out, "certain to the end"));
+  CHECK(has(ending.out, "certified until t = 0.4 s: 2 of 2 rows of events, times within "));
+  CHECK_FALSE(has(ending.out, "certified to the end"));
   const json summary = json::parse(shell.read("balls-run/summary.json"));
   CHECK(summary["outcome"]["kind"] == "stopped");
   const json& refusal = summary["refusal"];
@@ -376,7 +376,7 @@ TEST_CASE("cli run: what is certain of a run that stops is certain to there, not
   shell.write("two.toml", text);
   const Ending ending = shell.run({"run", "two.toml", "--no-plots", "--certify", "--engine", "exact"});
   CHECK(ending.code == 4);
-  CHECK(has(ending.out, "certain to t = 0 s, where the run ended: no event"));
+  CHECK(has(ending.out, "certified to t = 0 s, where the run ended: no event"));
   const json summary = json::parse(shell.read("two-run/summary.json"));
   CHECK(summary["certified"]["complete"] == true);
   CHECK(summary["refusal"]["kind"] == "dependent");

@@ -28,7 +28,7 @@ TEST_CASE("cli run --certify: two columns more, errors.csv, and until when") {
           0);
   const Ending ending = shell.run({"run", "belt.toml", "-o", "sure", "--no-plots", "--certify"});
   CHECK(ending.code == 0);
-  CHECK(has(ending.out, "certain to the end"));
+  CHECK(has(ending.out, "certified to the end"));
   CHECK(first_line(shell.read("sure/events.csv")) ==
         first_line(shell.read("plain/events.csv")) + ",t_error,certain");
   std::istringstream sure(shell.read("sure/events.csv")), plain(shell.read("plain/events.csv"));

@@ -275,7 +275,7 @@ Step ExactEngine::failed(std::string reason) {
 std::string ExactEngine::hindrance(double scale) const {
   if (growth_now_ * resolution_at(t_, 0.0) > 1.0)
     return fmt::format(
-        "the fastest motion, {:.3g} rad per unit of time, is below the resolution of the clock at this time",
+        "the fastest motion, {:.3g} rad per unit of time, is too fast for the resolution of time here",
         growth_now_ / growth_margin / model_.unit.time);
   if (!end_.u.allFinite()) return overflow;
   if (!(scale > 0.0)) return "the step has fallen below the resolution of time";
@@ -321,7 +321,7 @@ void ExactEngine::warn_of_touch(std::size_t slot, double t) {
   if (touches_ <= most_touches)
     warnings.push_back(
         fmt::format("contact '{}': its {} touches zero at {:.9g}; whether it falls there is not decidable "
-                    "at this precision, and it was taken not to",
+                    "at this precision; it counts as not fallen",
                     model_.contacts[contact_of_guard(slot)].name,
                     to_string(segment_.decision->guards[slot].kind), t * model_.unit.time));
   else if (touches_ == most_touches + 1)

@@ -279,7 +279,8 @@ BdfStep BdfIntegrator::advance() {
     char* name = IDAGetReturnFlagName(flag);
     step.kind = BdfStep::Kind::failed;
     step.begin = step.end = m_->reported_end;
-    step.reason = fmt::format("IDA cannot go on: {}: {}", name, with_times_in(m_->message, m_->unit_of_time));
+    step.reason =
+        fmt::format("IDA cannot continue: {}: {}", name, with_times_in(m_->message, m_->unit_of_time));
     std::free(name);
     return step;
   }

@@ -183,8 +183,8 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     if (!std::exchange(touched_, true))
       warnings.push_back(fmt::format(
           "contact '{}': its {} returns to zero at {:.9g} and sinks below it by less than the tolerances of "
-          "its steps; it was taken not to fall there, nor where it does so again; whether it does is told by "
-          "a smaller {}, or by engine exact",
+          "its steps; it counts as not fallen, there and where this happens again; a smaller {}, or engine "
+          "exact, decides whether it falls",
           model_.contacts[contact_of_guard(c.slot)].name, to_string(guards[c.slot].kind),
           c.time * model_.unit.time, tolerance_in_force(guards[c.slot].kind, tolerance_, model_)));
     return true;

@@ -102,7 +102,7 @@ class Path {
     if (solver.ok() && solver.negative_pivots() > 0 && null.cols() == 0)
       refuse_stage("the stiffness is indefinite");
     const std::string name = null.cols() > 0 ? describe_motion(null.col(0), map_) : std::string("structure");
-    refuse_stage(fmt::format("nothing holds the {}: what would follow is no equilibrium", name));
+    refuse_stage(fmt::format("nothing restrains the {}: no equilibrium follows", name));
   }
 
   [[nodiscard]] bool rubs(std::size_t k) const { return contacts_[k].has_friction(); }
@@ -205,7 +205,7 @@ class Path {
       if (!shared.undetermined.empty()) doubt(shared);
       if (found->several)
         doubt(fmt::format(
-            "at {:.4g} of stage '{}' {} may go on in several ways that all keep the laws of contact; "
+            "at {:.4g} of stage '{}' {} may continue in several ways that all satisfy the laws of contact; "
             "the start takes the one with the least slips and openings",
             part_, stage_->name, names_of_unknowns(unknowns)));
       take_states(unknowns, shared.moves);
@@ -218,9 +218,8 @@ class Path {
     std::vector<std::string> names;
     for (const std::size_t k : shared.undetermined) names.push_back(contacts_[k].name);
     const std::string sentence = fmt::format(
-        "stage '{}': nothing resists the {} where {} {} at the limit, so that the data do not say how far "
-        "each of them "
-        "goes; the start takes the least",
+        "stage '{}': nothing resists the {} where {} {} at the limit, so the data do not determine how far "
+        "each of them slips; the start takes the least",
         stage_->name, describe_motion(shared.motion, map_), listed(names), names.size() == 1 ? "is" : "are");
     doubt(sentence);
   }
@@ -264,8 +263,8 @@ class Path {
     const Friction& f = contacts_[k].friction;
     if (slip_sign(to) != 0 && slip_sign(s.state) == 0 && f.kinetic < f.static_)
       refuse_stage(
-          fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: what "
-                      "would follow is no equilibrium",
+          fmt::format("contact '{}' begins to slip, and its friction falls from static to kinetic: no "
+                      "equilibrium follows",
                       contacts_[k].name));
     // What only touches at the very beginning has no state that it could leave.
     const bool begins = part_ == 0.0 && s.N == 0.0 && s.T == 0.0;

@@ -64,9 +64,9 @@ void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, 
   throw SceneError(
       place, key,
       fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
-                  "ill-conditioned that roundoff hides what holds the structure; use fewer elements, "
+                  "ill-conditioned that roundoff hides how the structure is held; use fewer elements, "
                   "or give the initial state (if the structure is a mechanism, fewer elements will "
-                  "show which motion nothing holds)",
+                  "show which motion is unrestrained)",
                   problem.size()));
 }
 
@@ -86,7 +86,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
   throw SceneError(
       place, key,
-      fmt::format("a static start is impossible, the structure is a mechanism: nothing holds its {}; "
+      fmt::format("a static start is impossible, the structure is a mechanism: nothing restrains its {}; "
                   "add a support, a spring or a contact, or give the initial state",
                   names));
 }
@@ -100,7 +100,7 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
     const int holder = gripped.driven_motion().holder;
     const std::string hold =
         holder < 0
-            ? "nothing holds it"
+            ? "nothing restrains it"
             : fmt::format("only friction, at contact '{}', could hold it, and the static start has none",
                           problem.contacts[static_cast<std::size_t>(holder)].name);
     throw SceneError(place, key,

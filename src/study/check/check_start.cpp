@@ -67,10 +67,10 @@ std::optional<Ambiguity> ambiguity_among(const Model& model, const std::vector<s
         }
         if (share) continue;
         group.push_back(c.name);
-        return Ambiguity{k, fmt::format("contacts {} stick rigidly to one and the same motion, so nobody can "
-                                        "say which of them carries the force; give them a "
-                                        "tangential_stiffness",
-                                        listed(group))};
+        return Ambiguity{k,
+                         fmt::format("contacts {} stick rigidly to the same motion, so their friction forces "
+                                     "are not unique; give them a tangential_stiffness",
+                                     listed(group))};
       }
     }
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);

@@ -1,4 +1,4 @@
-// directory_witness.hpp: the witness of a run by its files alone (docs/theory.md, "The witness").
+// directory_witness.hpp: the witness of a run by its files alone (docs/theory-checks.md, "The witness").
 //
 //   run.toml -> model;   summary.json -> engine;   instants.csv, events.csv -> src/witness, instant by instant
 //   contacts.csv: a row a time and contact, its state that of the last instant, its guards, its forces those of its state

@@ -122,7 +122,7 @@ TEST_CASE("judge: a shift that events share ends nothing, one that changes betwe
   const Verdict changes = judge(run, {track({1.0, 2.0, 3.0, 3.13})}, 2.0, names);
   CHECK(certain(changes) == 3);  // 2 x 0.03 > 0.1 / 2
   CHECK(changes.until == doctest::Approx(3.1));
-  CHECK(changes.reason.find("is off by 0.06") != std::string::npos);
+  CHECK(changes.reason.find("has an error of 0.06") != std::string::npos);
 }
 
 TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") {
@@ -217,7 +217,7 @@ TEST_CASE("judge: nothing is certain from where rounding left several states ope
   const Verdict own = judge(run, {companion}, 2.0, names);
   CHECK(own.until == 2.5);
   CHECK(certain(own) == 2);
-  CHECK(own.reason.find("left several states") != std::string::npos);
+  CHECK(own.reason.find("left several contact states") != std::string::npos);
   run.forgiven_at.reset();
   companion.forgiven_at = 1.5;
   CHECK(judge(run, {companion}, 2.0, names).until == 1.5);

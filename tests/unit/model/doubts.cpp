@@ -27,7 +27,7 @@ bool says(const std::vector<std::string>& doubts, const std::string& words) {
 TEST_SUITE_BEGIN("unit/model/doubts");
 
 TEST_CASE("a load along what a support holds") {
-  CHECK(says(doubts_of("load-on-held"), "load 1 acts only along what supports hold"));
+  CHECK(says(doubts_of("load-on-held"), "load 1 acts only along directions that supports fix"));
   CHECK(doubts_of("load-on-held", {{"loads.1.amplitude", "0.0"}}).empty());
   CHECK(doubts_of("load-on-held", {{"loads.1.direction", "[1.0, 1.0]"}}).empty());
 }
@@ -85,7 +85,7 @@ TEST_CASE("weight that comes at t = 0") {
 }
 
 TEST_CASE("mass-proportional damping on what slides") {
-  CHECK(says(doubts_of("pump"), "damping alpha = 1.077 1/s drags free motions"));
+  CHECK(says(doubts_of("pump"), "damping alpha = 1.077 1/s slows free motions"));
   CHECK(says(doubts_of("pump"), "1/alpha = 0.9284 s"));
   CHECK(doubts_of("load-on-held").size() == 1);
 }

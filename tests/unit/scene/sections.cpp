@@ -177,7 +177,7 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
   has(refusal_of(spring("hanger = { hot = 12.0, cold = 10.0, travel = 0.02 }")),
       "the stiffness would be -100");
   has(refusal_of(spring("preload = 1.0\nhanger = { hot = 12.0, cold = 14.0, travel = 0.1 }")),
-      "stands beside hanger");
+      "cannot be combined with hanger");
   has(refusal_of(scene_with("", "[[springs]]\nnode = \"A\"\nrotation_stiffness = 1.0\npreload = 2.0\n")),
       "needs a direction beside it");
 }

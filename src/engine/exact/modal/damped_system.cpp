@@ -211,7 +211,7 @@ DampedState DampedSystem::make(const Mode& mode) const {
   out.terms = dampers_;
   for (std::size_t c = 0; c < mode.size(); ++c) add_contact(c, mode[c], out);
   if (out.terms.size() > most_damped_terms) {
-    out.modes.failure = "more springs, constraints and dampers than a state's modes are worth";
+    out.modes.failure = "too many springs, constraints and dampers for the modes of a contact state";
     return out;
   }
   if (holds_twice(out.terms)) {

@@ -85,7 +85,7 @@ void ModalEngine::see_touches(const Passage& passage, double begin) {
     if (++touches_ <= most_touches)
       warnings.push_back(fmt::format(
           "contact '{}': its {} touches zero near {:.9g}; whether it falls there is not decidable "
-          "at this precision, and it was taken not to",
+          "at this precision; it counts as not fallen",
           model_.contacts[contact_of_guard(slot)].name, to_string(segment_.decision->guards[slot].kind),
           begin * model_.unit.time));
 }

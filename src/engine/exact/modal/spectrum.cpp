@@ -40,7 +40,7 @@ Spectrum::Spectrum(const Poles& poles, Eigen::MatrixXd u, Eigen::MatrixXd v, boo
   std::iota(order_.begin(), order_.end(), std::size_t(0));
   values_ = poles.base;
   if (rank_ > most_rank) {
-    failure_ = "more springs of closed contacts than a state's modes are worth";
+    failure_ = "too many springs of closed contacts for the modes of a contact state";
     return;
   }
   if (rank_ == 0) {  // the open modes themselves, which are orthonormal

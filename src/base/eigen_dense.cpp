@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <limits>
 
 namespace signorini {
@@ -119,9 +120,12 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
   return a.completeOrthogonalDecomposition().solve(b);
 }
 
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least) {
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
+                                  double size) {
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(least);
+  const double greatest = svd.singularValues().size() > 0 ? svd.singularValues()[0] : 0.0;
+  if (!(greatest > least * size)) return Eigen::VectorXd::Zero(a.cols());
+  svd.setThreshold(least * std::max(1.0, size / greatest));
   return svd.solve(b);
 }
 

@@ -58,9 +58,10 @@ struct EigenPairs {
 [[nodiscard]] Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// The shortest x with the least |A x - b|, singular values of A below `least` of the greatest taken as zero.
+/// The shortest x with the least |A x - b|. Singular values of A below `least` of the greatest are taken as zero, and those below
+/// `least` of `size`: that of the terms whose difference A is.
 [[nodiscard]] Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
-                                                double least);
+                                                double least, double size = 0.0);
 
 /// Some x with the least |A x - b|: what depends on other columns takes no part; A: n x m, m <= n.
 [[nodiscard]] Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);

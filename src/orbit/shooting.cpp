@@ -15,7 +15,7 @@ constexpr double reached = 1e-2;  // of the tolerance: no step is tried from the
 // Residual over amplitude at which an orbit is closed although the residual no longer falls: what rounding of a long
 // or stiff period leaves. Chosen; above it a search has failed.
 constexpr double closed_at_last = 1e-9;
-// Singular values of Phi - I below this, relative to the greatest: the rounding of Phi, well below what a
+// Singular values of Phi - I below this, relative to the greatest and to Phi: the rounding of Phi, well below what a
 // disturbance that dies out in 1e7 periods has. Chosen.
 constexpr double least_singular = 1e-9;
 
@@ -29,14 +29,15 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
   const Eigen::Index n = section.size(), all = n + (free_period ? 1 : 0);
   if (all == 0) return {};
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(all, all);
-  A.topLeftCorner(n, n) = B.transpose() * pass.end_rates - Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd phi = B.transpose() * pass.end_rates;
+  A.topLeftCorner(n, n) = phi - Eigen::MatrixXd::Identity(n, n);
   Vector b = Vector::Zero(all);
   b.head(n) = -gap;
   if (free_period) {
     A.block(0, n, n, 1) = B.transpose() * section.rates(pass.end);
     A.block(n, 0, 1, n) = (B.transpose() * section.rates(pass.begin)).transpose();
   }
-  return shortest_solution(A, b, least_singular);
+  return shortest_solution(A, b, least_singular, phi.norm());
 }
 
 /// One step, halved until the residual falls; trials have no tangents, which cost far more than a run. False: it does not

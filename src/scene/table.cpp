@@ -91,6 +91,12 @@ void check_name(const std::string& name, const SourcePlace& place, const std::st
                        name));
 }
 
+void check_reference(const std::string& name, const SourcePlace& place, const std::string& path) {
+  const std::size_t dot = name.find('.');
+  check_name(name.substr(0, dot), place, path);
+  if (dot != std::string::npos) check_name(name.substr(dot + 1), place, path);
+}
+
 bool Names::add(const std::string& name) {
   if (!index_.emplace(name, list_.size()).second) return false;
   list_.push_back(name);
@@ -199,7 +205,8 @@ std::optional<std::string> Table::optional_text(std::string_view name) {
   if (!found) return std::nullopt;
   if (!found->is_string()) wrong(name, describe_type(row));
   const std::string& result = found->as_string()->get();
-  if (row.type == KeyType::name) check_name(result, place_of(*found), path(name));
+  if (row.type == KeyType::name)
+    (name == "name" ? check_name : check_reference)(result, place_of(*found), path(name));
   record_.set(name, toml_string(result));
   return result;
 }

@@ -93,6 +93,8 @@ class Table {
 
 /// Refuses names that could not stand in a column of a CSV file or in the path of a --set.
 void check_name(const std::string& name, const SourcePlace& place, const std::string& path);
+/// The same for what names something: a name, or BODY.NUMBER for a node of a mesh.
+void check_reference(const std::string& name, const SourcePlace& place, const std::string& path);
 
 /// Names in the order of the file, with fast search.
 class Names {

@@ -83,7 +83,10 @@ void check_all(const std::vector<Override>& settings, double part, double time, 
     if (std::any_of(without.begin(), without.end(),
                     [&](const std::string& name) { return file.ends_with("/" + name + ".toml"); }))
       continue;
-    const halves::Difference d = halves::split(file, settings, part);
+    // Of piping to 10 s: after that its certificate has errors of up to 1e-4 s, and later no event is certain.
+    std::vector<Override> own = settings;
+    if (file.ends_with("/piping.toml")) own.push_back({"run.t_end", "10"});
+    const halves::Difference d = halves::split(file, own, part);
     INFO(d.first);
     CHECK(d.events_agree);
     CHECK(d.time <= time);

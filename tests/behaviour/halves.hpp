@@ -108,8 +108,9 @@ inline std::string show(const Event& e) {
   return fmt::format("t = {:.15g} contact {} {} -> {}", e.t, e.contact, to_string(e.from), to_string(e.to));
 }
 
-/// Each contact has the same events, in the same order; of two contacts the order may be the other where their times
-/// differ by less than what the run itself gives for their uncertainty: halves of a symmetric structure.
+/// Each contact has the same events, in the same order. Of two contacts the order may be the other where their times differ by
+/// less than what the run itself gives for their uncertainty, or by less than twice what times of the two runs differ, which
+/// is limited: halves of a symmetric structure.
 inline void compare_events(const std::vector<Event>& expected, const std::vector<Event>& found, double t,
                            double t_end, Difference& d) {
   d.events = expected.size();
@@ -128,7 +129,8 @@ inline void compare_events(const std::vector<Event>& expected, const std::vector
     const Event& partner = expected[own[place++]];
     d.time = std::max(d.time, std::abs(event.t + t - partner.t) / t_end);
     if (partner.to != event.to) return differ(show(partner), show(event));
-    const double unsure = partner.t_uncertainty.value_or(0.0) + event.t_uncertainty.value_or(0.0);
+    const double unsure =
+        partner.t_uncertainty.value_or(0.0) + event.t_uncertainty.value_or(0.0) + 2.0 * d.time * t_end;
     if (partner.t < latest - slack - unsure) return differ("earlier: " + show(partner), show(event));
     if (partner.t >= latest) slack = unsure;
     latest = std::max(latest, partner.t);

@@ -1,8 +1,11 @@
 #include "orbit/branch_map.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+
 #include "base/number.hpp"
 #include "model/rescale.hpp"
-#include "orbit/load_period.hpp"
 #include "run/choose_engine.hpp"
 
 namespace signorini {
@@ -10,6 +13,8 @@ namespace {
 
 // Of the range: differences of the map over it have its third derivative times 1e-10 and rounding over 1e-5. Chosen.
 constexpr double difference = 1e-5;
+constexpr double most_periods = 44.0;  // of a transient behind a gap of the branch, and of the orbit itself
+constexpr double same_time = 1e-9;     // of a period: rounding of times that are written as text
 
 }  // namespace
 
@@ -39,16 +44,42 @@ double BranchMap::parameter(double s) const {
   return s == 1.0 ? options_.to : options_.from + s * (options_.to - options_.from);
 }
 
+/// Loads that repeat themselves act up to the end of the run: far enough for the period at s and a transient.
 Scene BranchMap::scene_at(double s) const {
-  return read_({{options_.path, shortest(parameter(s))}, {"run.t_end", shortest(t_end_)}});
+  const auto until = [&](double t_end) {
+    return read_({{options_.path, shortest(parameter(s))}, {"run.t_end", shortest(t_end)}});
+  };
+  Scene scene = until(t_end_);
+  if (autonomous_) return scene;
+  const double period = loads_at(scene).period.value_or(0.0) * options_.orbit.times;
+  const double needed = phase_ * machine_.time + most_periods * period;
+  return needed > t_end_ ? until(needed) : scene;
+}
+
+/// Errors: SceneError where the loads do not repeat themselves as they do at the start of the branch.
+LoadPeriod BranchMap::loads_at(const Scene& scene) const {
+  LoadPeriod loads = options_.orbit.period ? check_period(scene, *options_.orbit.period) : load_period(scene);
+  const double phase = phase_ * machine_.time;
+  if (loads.settled > phase + same_time * std::max(phase, loads.period.value_or(0.0)))
+    throw SceneError(
+        {}, options_.path,
+        fmt::format("the loads repeat themselves from t = {:g} on, at the start of the branch from {:g} on",
+                    loads.settled, phase));
+  return loads;
 }
 
 double BranchMap::period(double s) const {
   if (autonomous_) return start_.duration;
-  const Scene scene = scene_at(s);
-  const double period =
-      options_.orbit.period ? *options_.orbit.period : load_period(scene).period.value_or(0.0);
-  return period * options_.orbit.times / machine_.time;
+  return loads_at(scene_at(s)).period.value_or(0.0) * options_.orbit.times / machine_.time;
+}
+
+/// A state of one model means nothing in a model with other unknowns.
+void BranchMap::check_structure(const Model& model) const {
+  const bool same_basis = model.basis.has_value() == first_.basis.has_value() &&
+                          model.reduction.has_value() == first_.reduction.has_value() &&
+                          (!model.reduction || model.reduction->shapes == first_.reduction->shapes);
+  if (model.size() != first_.size() || model.contacts.size() != first_.contacts.size() || !same_basis)
+    throw SceneError({}, options_.path, "the unknowns of the model change along the branch");
 }
 
 PeriodMap BranchMap::at(double s, bool outputs) const {
@@ -57,6 +88,7 @@ PeriodMap BranchMap::at(double s, bool outputs) const {
   RunSpec run = scene.run;
   run.engine = choose_engine(model, run).engine;
   model = rescaled(std::move(model), inverse(machine_));
+  check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
   run = rescaled(run, inverse(machine_));
   const double section = autonomous_ ? 0.0 : section_ * period(s);

@@ -6,6 +6,7 @@
 // All models have the units of the machine of the first one, so that states are comparable.
 #pragma once
 
+#include "orbit/load_period.hpp"
 #include "orbit/period_map.hpp"
 #include "signorini/orbit.hpp"
 
@@ -39,6 +40,8 @@ class BranchMap {
 
  private:
   [[nodiscard]] Scene scene_at(double s) const;
+  [[nodiscard]] LoadPeriod loads_at(const Scene& scene) const;
+  void check_structure(const Model& model) const;
 
   const SceneReader& read_;
   BranchOptions options_;

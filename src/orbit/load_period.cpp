@@ -38,6 +38,7 @@ std::vector<Driver> drivers(const Scene& scene) {
     add(scene.members[i].temperature, fmt::format("members.{}.temperature", i + 1));
     add(scene.members[i].initial_strain, fmt::format("members.{}.initial_strain", i + 1));
   }
+  for (const BodySpec& b : scene.bodies) add(b.temperature, "bodies." + b.name + ".temperature");
   for (const ContactSpec& c : scene.contacts) {
     add(c.normal_force, c.key("normal_force"));
     add(c.surface_velocity, c.key("surface_velocity"), true);

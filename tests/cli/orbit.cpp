@@ -95,6 +95,25 @@ TEST_CASE("cli orbit: no period, no orbit and a wrong range have their exit code
   }
 }
 
+TEST_CASE(
+    "cli orbit: a branch on which the given period is not that of the loads, or on which they settle later, "
+    "is refused") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  const Ending period = shell.run({"orbit", "s.toml", "--period", "4.1887902047863905", "--over",
+                                   "loads.1.history.omega=1.5:1.8", "--no-plots"});
+  CAPTURE(period.err);
+  CHECK(period.code == 3);
+  CHECK(period.err.find("repeats itself") != std::string::npos);
+  shell.write("late.toml",
+              rubbed(harmonic() + "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.5\nhistory = { type = "
+                                  "\"rectangle\", start = 0.5, end = 1.0 }\n"));
+  const Ending late = shell.run({"orbit", "late.toml", "--over", "loads.2.history.end=1:500", "--no-plots"});
+  CAPTURE(late.err);
+  CHECK(late.code == 3);
+  CHECK(late.err.find("the loads repeat themselves from t = ") != std::string::npos);
+}
+
 TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of the range") {
   const Shell shell;
   shell.write("s.toml", rubbed(harmonic()));

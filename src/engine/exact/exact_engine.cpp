@@ -87,7 +87,11 @@ std::optional<double> ExactEngine::growth_beside(const ModeSystem& system) {
   double more = 0.0;
   for (std::size_t c = 0; c < near_.size(); ++c) {
     if (system.mode()[c].state == near_[c]) continue;
-    if (model_.contacts[c].normal_damping > 0.0 || model_.contacts[c].own) return std::nullopt;
+    const Contact& contact = model_.contacts[c];
+    // Rows on accelerations, dashpots and forces that are no product of these stiffnesses change the growth otherwise.
+    if (contact.normal_damping > 0.0 || contact.own || contact.takes_impulses() || contact.sticks_rigidly() ||
+        contact.friction.varies() || contact.bowl)
+      return std::nullopt;
     more += growth_margin * growth_margin * stiffening(system, c);
     if (!(more <= most_beside * square)) return std::nullopt;
   }

@@ -13,8 +13,8 @@ namespace {
 
 // Of the range: differences of the map over it have its third derivative times 1e-10 and rounding over 1e-5. Chosen.
 constexpr double difference = 1e-5;
-constexpr double most_periods = 44.0;  // of a transient behind a gap of the branch, and of the orbit itself
-constexpr double same_time = 1e-9;     // of a period: rounding of times that are written as text
+constexpr double most_periods = restart_periods + 4.0;  // of a transient, and of the orbit itself
+constexpr double same_time = 1e-9;  // of a period: rounding of times that are written as text
 
 }  // namespace
 
@@ -68,10 +68,11 @@ LoadPeriod BranchMap::loads_at(const Scene& scene) const {
   return loads;
 }
 
-double BranchMap::period(double s) const {
-  if (autonomous_) return start_.duration;
-  return loads_at(scene_at(s)).period.value_or(0.0) * options_.orbit.times / machine_.time;
+double BranchMap::period_of(const Scene& scene) const {
+  return loads_at(scene).period.value_or(0.0) * options_.orbit.times / machine_.time;
 }
+
+double BranchMap::period(double s) const { return autonomous_ ? start_.duration : period_of(scene_at(s)); }
 
 /// A state of one model means nothing in a model with other unknowns.
 void BranchMap::check_structure(const Model& model) const {
@@ -91,7 +92,7 @@ PeriodMap BranchMap::at(double s, bool outputs) const {
   check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
   run = rescaled(run, inverse(machine_));
-  const double section = autonomous_ ? 0.0 : section_ * period(s);
+  const double section = autonomous_ ? 0.0 : section_ * period_of(scene);
   return {driven_from(std::move(model), phase_ + section), run, recorder_, outputs};
 }
 

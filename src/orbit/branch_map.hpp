@@ -12,6 +12,9 @@
 
 namespace signorini {
 
+/// Of a transient that looks for the orbit behind a gap of the branch.
+inline constexpr int restart_periods = 40;
+
 /// An orbit, or a guess at one.
 struct BranchState {
   OrbitState state;       ///< at the section
@@ -40,6 +43,7 @@ class BranchMap {
 
  private:
   [[nodiscard]] Scene scene_at(double s) const;
+  [[nodiscard]] double period_of(const Scene& scene) const;
   [[nodiscard]] LoadPeriod loads_at(const Scene& scene) const;
   void check_structure(const Model& model) const;
 

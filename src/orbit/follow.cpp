@@ -29,7 +29,6 @@ constexpr double singular = 1e-9;           // as in shooting.cpp
 constexpr double amplitudes_a_range =
     5.0;                               // in which the state may change as far as the parameter in its range
 constexpr double restart_step = 2e-3;  // of the range
-constexpr int restart_periods = 40;
 
 /// What a correction ended with.
 struct Corrected {

@@ -46,9 +46,10 @@ TEST_CASE("cli: the memory of a run does not grow with its events") {
                                                    {"ida", 1200.0, 3600.0, 10'000},
                                                    {"newmark", 1200.0, 3600.0, 10'000},
                                                    {"friction-iteration", 1200.0, 3600.0, 10'000}}) {
-    CAPTURE(row.engine);
+    const std::string engine = row.engine;
+    CAPTURE(engine);
     const Shell shell;
-    const Spent once = spent(shell, row.engine, row.once), later = spent(shell, row.engine, row.later);
+    const Spent once = spent(shell, engine, row.once), later = spent(shell, engine, row.later);
     CHECK(once.code == 0);
     CHECK(later.code == 0);
     CHECK(later.events > row.events);

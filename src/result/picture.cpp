@@ -39,7 +39,7 @@ std::string named_tics(char axis, const std::vector<std::pair<std::string, std::
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::string formatted;
     for (const char c : names[i].first) formatted += c == '%' ? "%%" : std::string(1, c);
-    s += (i > 0 ? ", " : "") + quoted(formatted) + fmt::format(" {}", names[i].second);
+    s += (i > 0 ? ", " : "") + signorini::quoted(formatted) + fmt::format(" {}", names[i].second);
   }
   return s + ")";
 }

@@ -12,7 +12,7 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "result/picture_look.hpp"
@@ -28,7 +28,7 @@ struct Curve {
   std::string rows;                 ///< "'marks.csv' skip 1"; or a function of x, or "keyentry"
   std::string columns;              ///< "1:5"; empty: of such a function or entry
   std::string look;                 ///< "with lines linecolor '#1a1a1a'"
-  std::optional<std::string> name;  ///< in the legend
+  std::optional<std::string> name = std::nullopt;  ///< in the legend
 };
 
 /// Lower and upper edge of a panel, as fractions of the picture's height.

@@ -79,10 +79,11 @@ class ContactPicture {
   [[nodiscard]] Panel friction_force() const {
     std::vector<Curve> curves;
     const auto limits = [&](double f, const std::string& name, const std::string& dash) {
+      const std::string at = fmt::format("{}:", contact_table().number("t"));
       const std::string limit = fmt::format("{}*abs({})", f, contact_table().value("N"));
       const std::string look = "with lines linecolor '#c0182b' linewidth 1.0" + dash;
-      curves.push_back({rows_, "1:(" + limit + ")", look, name + " ±f|N|"});
-      curves.push_back({rows_, "1:(-" + limit + ")", look});
+      curves.push_back({rows_, at + "(" + limit + ")", look, name + " ±f|N|"});
+      curves.push_back({rows_, at + "(-" + limit + ")", look});
     };
     const bool one = contact_.static_friction == contact_.kinetic_friction;
     limits(contact_.static_friction, say(run_, one ? "limits" : "static"), "");
@@ -108,7 +109,7 @@ class ContactPicture {
   /// Of a column of the contact's table.
   [[nodiscard]] Curve curve(std::string_view column, const char* colour, const std::string& title,
                             const char* look = "") const {
-    return {rows_, fmt::format("1:{}", contact_table().number(column)),
+    return {rows_, fmt::format("{}:{}", contact_table().number("t"), contact_table().number(column)),
             fmt::format("with lines linewidth 1.4 linecolor '{}'{}", colour, look), title};
   }
 
@@ -138,7 +139,7 @@ Picture states_picture(const PlottedRun& run) {
       if (std::none_of(bands.begin(), bands.end(), [&](const auto& b) { return b.state == state; })) continue;
       panel.curves.push_back(
           {"'states-" + run.slugs[k] + ".csv' skip 1",
-           band_at(state) + fmt::format(":({0}):1:2:({0}-0.38):({0}+0.38)", k),
+           band_at(state, fmt::format("{}", k), fmt::format("{}-0.38", k), fmt::format("{}+0.38", k)),
            "with boxxy fillstyle solid 1.0 noborder linecolor '" + state_colour(state) + "'",
            std::exchange(name, std::nullopt)});
     }

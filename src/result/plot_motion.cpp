@@ -141,7 +141,8 @@ Picture energy_picture(const PlottedRun& run) {
   const std::string unit = " [" + run.facts.units.force + " " + run.facts.units.length + "]";
   const auto curve_in = [&](const char* column) {
     return curve_of(run, column,
-                    {rows_over_time("../energy.csv", run.energies.times), 1, energy_table().number(column)});
+                    {rows_over_time("../energy.csv", run.energies.times), energy_table().number("t"),
+                     energy_table().number(column)});
   };
   const TableColumn balance = curve_in(balance_column);
   Panel energies{say(run, "energy") + unit, {}, "", 0.72};

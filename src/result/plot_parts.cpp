@@ -81,16 +81,18 @@ const CsvTable<PlottedRun::Band>& band_table() {
   return table;
 }
 
-std::string band_at(const std::string& state) {
-  return "(" + band_table().word("state") + " eq " + quoted(state) + " ? " + band_table().value("from") +
-         " : NaN)";
+std::string band_at(const std::string& state, const std::string& y, const std::string& low,
+                    const std::string& high) {
+  const CsvTable<PlottedRun::Band>& table = band_table();
+  return fmt::format("({} eq {} ? {} : NaN):({}):{}:{}:({}):({})", table.word("state"), quoted(state),
+                     table.value("from"), y, table.number("from"), table.number("to"), low, high);
 }
 
 std::vector<Curve> bands_of(const PlottedRun& run, std::size_t k, double opacity) {
   std::vector<Curve> curves;
   for (const std::string& state : state_names())
     if (occurs(run, k, state))
-      curves.push_back({"'states-" + run.slugs[k] + ".csv' skip 1", band_at(state) + ":(0.5):1:2:(0):(1)",
+      curves.push_back({"'states-" + run.slugs[k] + ".csv' skip 1", band_at(state, "0.5", "0", "1"),
                         fmt::format("axes x1y2 with boxxy fillstyle solid {} noborder linecolor '{}'",
                                     opacity, state_colour(state))});
   return curves;

@@ -40,8 +40,9 @@ struct TableColumn {
 [[nodiscard]] std::string state_colour(const std::string& state);
 /// states-CONTACT.csv.
 [[nodiscard]] const CsvTable<PlottedRun::Band>& band_table();
-/// For gnuplot: where a band of this state begins, and nothing for the other bands.
-[[nodiscard]] std::string band_at(const std::string& state);
+/// For gnuplot: the bands of this state about y, from `low` to `high`; nothing for the other bands.
+[[nodiscard]] std::string band_at(const std::string& state, const std::string& y, const std::string& low,
+                                  const std::string& high);
 /// States in the order of legends.
 [[nodiscard]] const std::vector<std::string>& state_names();
 /// They fill the panel (second y axis 0..1) with the states of contact k; `opacity` 0..1.

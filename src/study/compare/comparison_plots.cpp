@@ -92,8 +92,8 @@ class Pictures {
         const auto index = static_cast<std::size_t>(found - contacts.begin());
         panel.curves.push_back(
             {contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
-             fmt::format("1:{}", contact_table().number(curve.column)), "with lines " + look(r),
-             legend_name(report_.runs[r].figures.name)});
+             fmt::format("{}:{}", contact_table().number("t"), contact_table().number(curve.column)),
+             "with lines " + look(r), legend_name(report_.runs[r].figures.name)});
       }
       picture.panels.push_back(panel);
     }
@@ -180,9 +180,11 @@ class Pictures {
                           table.value("difference"), table.number("t_reference"), table.word("run")),
               "with points pointtype 7 pointsize 0.7 " + colour, legend_name(name)};
     }
+    const std::size_t time =
+        curve.name == "motion" ? motion_difference_table().number("t") : force_difference_table().number("t");
     return {rows_over_time(curve.name + "-" + run_slug(name, r) + ".csv", runs_[r].times),
-            fmt::format("1:(${0} > 0 ? ${0} : NaN)", curve.column), "with lines linewidth 1.1 " + colour,
-            legend_name(name)};
+            fmt::format("{0}:(${1} > 0 ? ${1} : NaN)", time, curve.column),
+            "with lines linewidth 1.1 " + colour, legend_name(name)};
   }
 
   fs::path folder_;

@@ -25,9 +25,9 @@ inline constexpr double room_above = 62.0, room_below = 70.0;
 
 /// A curve, marks, bands or an entry of the legend.
 struct Curve {
-  std::string rows;                 ///< "'marks.csv' skip 1"; or a function of x, or "keyentry"
-  std::string columns;              ///< "1:5"; empty: of such a function or entry
-  std::string look;                 ///< "with lines linecolor '#1a1a1a'"
+  std::string rows;     ///< "'marks.csv' skip 1"; or a function of x, or "keyentry"
+  std::string columns;  ///< "1:5"; empty: of such a function or entry
+  std::string look;     ///< "with lines linecolor '#1a1a1a'"
   std::optional<std::string> name = std::nullopt;  ///< in the legend
 };
 

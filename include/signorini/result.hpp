@@ -193,6 +193,19 @@ struct Peak {
   double N = 0.0, T = 0.0;                ///< greatest |N|, |T|
 };
 
+/// A value and its first time.
+struct Turn {
+  double value = 0.0, t = 0.0;
+};
+
+/// What a support bears, with signs: over all steps and instants, those of Peak among them. least N: the greatest
+/// compression. Slip is that of the contact, in the state before the run's first event and at its end.
+struct SupportLoad {
+  Turn least_N, greatest_N, least_T, greatest_T;
+  double slip_at_start = 0.0, slip_at_end = 0.0;
+  [[nodiscard]] double residual_slip() const { return slip_at_end - slip_at_start; }
+};
+
 /// One stay of a contact on its ground; a hit that rebounds at once has start = end.
 struct Landing {
   double start = 0.0, end = 0.0;
@@ -252,6 +265,7 @@ struct Report {
   Counters counters;
   Audit audit;
   std::vector<Peak> peaks;                     ///< one a contact
+  std::vector<SupportLoad> supports;           ///< one a contact
   std::vector<std::vector<Landing>> landings;  ///< one list a contact; empty for sliders
   std::vector<OutputExtremes> response;        ///< one an output
   std::map<std::string, long> events_by_type;

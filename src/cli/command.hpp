@@ -35,6 +35,7 @@ void add_fit(Program& program);
 void add_keys(Program& program);
 void add_schema(Program& program);
 void add_new(Program& program);
+void add_quake(Program& program);
 void add_completion(Program& program);
 void add_man(Program& program);
 

@@ -62,11 +62,49 @@ std::string small(std::string text) {
   return text;
 }
 
+/// What somebody may look for, and the words of the keys that mean it. A word is also looked for as it is.
+struct Synonym {
+  std::string_view word;
+  std::initializer_list<std::string_view> keys;
+};
+const Synonym synonyms[] = {
+    {"earthquake", {"base_motion", "base motion"}},
+    {"quake", {"base_motion", "base motion"}},
+    {"seismic", {"base_motion", "base motion"}},
+    {"accelerogram", {"base_motion"}},
+    {"hanger", {"springs[].preload", "springs[].stiffness"}},
+    {"bearing", {"pendulums[]", "normal_force"}},
+    {"isolator", {"pendulums[]"}},
+    {"stress", {"sif", "output[].quantity", "output[].fibre"}},
+    {"temperature", {"thermal"}},
+    {"heat", {"temperature", "thermal"}},
+    {"thermal", {"temperature"}},
+    {"weight", {"gravity", "mass_per_length"}},
+    {"shoe", {"contacts[]"}},
+    {"guide", {"stops[]"}},
+    {"elbow", {"members.bend", "members[].bend"}},
+    {"support", {"supports[]", "contacts[]"}},
+    {"damper", {"damping"}},
+    {"dashpot", {"damping"}},
+    {"snubber", {"springs[].damping"}},
+    {"impact", {"restitution"}},
+};
+
+bool line_has(const std::string& line, const std::string& word) {
+  if (line.find(word) != std::string::npos) return true;
+  for (const Synonym& synonym : synonyms) {
+    if (word != synonym.word && word != std::string(synonym.word) + "s") continue;
+    for (const std::string_view key : synonym.keys)
+      if (line.find(key) != std::string::npos) return true;
+  }
+  return false;
+}
+
 bool speaks_of(const std::vector<std::string>& row, const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& cell : row) line += small(cell) + " ";
   return std::all_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return line.find(small(word)) != std::string::npos; });
+                     [&](const std::string& word) { return line_has(line, small(word)); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "base/duration.hpp"
 #include "cli/terminal.hpp"
 
 namespace signorini::cli {
@@ -37,14 +38,26 @@ void Live::advise(double t) {
   print_note(note);
 }
 
+std::string Live::time_left(double t) {
+  constexpr double settled = 1.0, window = 5.0;  // s
+  const auto now = std::chrono::steady_clock::now();
+  const auto seconds = [&](auto from) { return std::chrono::duration<double>(now - from).count(); };
+  if (seconds(pace_from_) > window) {  // the pace of the last one or two windows
+    pace_from_ = std::exchange(next_pace_from_, now);
+    pace_t_ = std::exchange(next_pace_t_, t);
+  }
+  if (seconds(start_) < settled || !(t > pace_t_)) return "";
+  return ", about " + duration_text(seconds(pace_from_) * (t_end_ - t) / (t - pace_t_)) + " left";
+}
+
 bool Live::progress(double t) {
   const bool go_on = Relay::progress(t) && !Interrupt::asked();
   if (advice_ && go_on && t > 0.0) advise(t);
   if (!show_progress_) return go_on;
   if (const auto now = std::chrono::steady_clock::now(); now >= next_line_) {
     next_line_ = now + std::chrono::milliseconds(100);
-    progress_line(fmt::format("t = {:.6g} of {:.6g} {}, {:.0f} %, {} events", t, t_end_, model_.units.time,
-                              t_end_ > 0.0 ? 100.0 * t / t_end_ : 0.0, count_));
+    progress_line(fmt::format("t = {:.6g} of {:.6g} {}, {:.0f} %, {} events{}", t, t_end_, model_.units.time,
+                              t_end_ > 0.0 ? 100.0 * t / t_end_ : 0.0, count_, time_left(t)));
     line_shown_ = true;
   }
   return go_on;

@@ -39,6 +39,8 @@ class Live : public Relay {
 
  private:
   void advise(double t);
+  /// ", about 8 s left", by the pace of the last seconds; empty at the beginning.
+  [[nodiscard]] std::string time_left(double t);
 
   Interrupt interrupt_;
   const Model& model_;
@@ -50,6 +52,8 @@ class Live : public Relay {
   long count_ = 0;
   std::function<std::string(double)> advice_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point pace_from_ = start_, next_pace_from_ = start_;
+  double pace_t_ = 0.0, next_pace_t_ = 0.0;
 };
 
 }  // namespace signorini::cli

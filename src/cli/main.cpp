@@ -106,6 +106,7 @@ int main_program(int argc, char** argv) {
   add_report(program);
   add_paraview(program);
   add_new(program);
+  add_quake(program);
   add_keys(program);
   add_schema(program);
   add_completion(program);

@@ -1,12 +1,15 @@
 // signorini new NAME: a commented scene to start from.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include "base/embedded.hpp"
 #include "base/suggest.hpp"
 #include "cli/command.hpp"
+#include "cli/quake.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
 
@@ -22,6 +25,37 @@ std::vector<std::string> template_names() {
   return names;
 }
 
+/// The text with the scene's name in place of @NAME@.
+std::string named(std::string_view text, const std::string& name) {
+  constexpr std::string_view mark = "@NAME@";
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t next = text.find(mark, at);
+    result += text.substr(at, next - at);
+    if (next == std::string_view::npos) break;
+    result += name;
+    at = next + mark.size();
+  }
+  return result;
+}
+
+/// The accelerograms of a template: of its lines "#     signorini quake NAME OPTIONS". `folder`: that of the scene.
+std::vector<QuakeOptions> quakes_of(const std::string& text, const fs::path& folder) {
+  constexpr std::string_view mark = "#     signorini quake ";
+  std::vector<QuakeOptions> list;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(mark)) continue;
+    CLI::App app;
+    QuakeOptions& options = list.emplace_back();
+    add_quake_options(app, options);
+    app.parse(line.substr(mark.size()));
+    options.name = (folder / options.name).string();
+    options.quiet = true;
+  }
+  return list;
+}
+
 ExitCode write_new_scene(const std::string& name, const std::string& from, bool force) {
   const std::vector<std::string> names = template_names();
   std::size_t k = 0;
@@ -32,10 +66,23 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   if (path.filename().empty())
     throw UsageError(fmt::format("NAME: found \"{}\", expected a file's name", name));
   if (path.extension() != ".toml") path += ".toml";
-  if (!force && fs::exists(fs::symlink_status(path)))
-    throw FileError(path.string(), "is there already; --force replaces it");
-  write_file(path, std::string(scene_templates()[k].text));
-  print(fmt::format("{}\n", path.string()));
+  const std::string stem = path.stem().string();
+  const bool makes_files = scene_templates()[k].text.find("@NAME@") != std::string_view::npos;
+  if (makes_files && stem.find_first_of("\"\\ ") != std::string::npos)
+    throw UsageError(fmt::format("NAME: found \"{}\", expected a name without blanks and quotes", name));
+  const std::string text = named(scene_templates()[k].text, stem);
+  std::vector<QuakeOptions> quakes = quakes_of(text, path.parent_path());
+  std::vector<std::string> files{path.string()};
+  for (QuakeOptions& options : quakes) {
+    options.force = force;
+    for (const std::string& file : quake_files(options)) files.push_back(file);
+  }
+  for (const std::string& file : files)
+    if (!force && fs::exists(fs::symlink_status(file)))
+      throw FileError(file, "is there already; --force replaces it");
+  write_file(path, text);
+  for (const QuakeOptions& options : quakes) write_quake(options);
+  for (const std::string& file : files) print(fmt::format("{}\n", file));
   print_note(fmt::format("signorini check {0}, and then signorini run {0}", path.string()));
   return ExitCode::done;
 }

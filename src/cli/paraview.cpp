@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct FrameOptions {
   std::string directory;
   int count = 200;
+  bool events = false;
 };
 
 ExitCode write_frames(const FrameOptions& options) {
@@ -32,7 +33,7 @@ ExitCode write_frames(const FrameOptions& options) {
   if (!complete_pictures(directory)) return ExitCode::interrupted;
   const Json data = run_data(read_scene((directory / "run.toml").string()), directory);
   const auto count = static_cast<std::size_t>(options.count);
-  const std::vector<double> times = frame_times(data, count, std::max<std::size_t>(count, 1000));
+  const std::vector<double> times = frame_times(data, count, options.events);
   print(write_paraview(directory, data, times).string() + "\n");
   return ExitCode::done;
 }
@@ -46,6 +47,7 @@ void add_paraview(Program& program) {
   command->add_option("DIR", options->directory, "a directory that `signorini run` wrote")->required();
   command->add_option("--frames", options->count, "at equal distances in time (default: 200)")
       ->option_text("N");
+  command->add_flag("--events", options->events, "a frame at the time of each event, too");
   command->callback([&program, options] { program.action = [options] { return write_frames(*options); }; });
 }
 

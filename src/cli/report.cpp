@@ -8,6 +8,7 @@
 #include "base/number.hpp"
 #include "base/rounding.hpp"
 #include "engine/tolerance.hpp"
+#include "model/statics/static_reaction.hpp"
 #include "run/expected.hpp"
 #include "run/trial.hpp"
 
@@ -161,28 +162,56 @@ std::string event_table(const Live& live, const Model& model, const Certificate*
   return table.str(style);
 }
 
+std::string support_table(const Model& model, const Report& report, TableStyle style) {
+  const std::size_t most = style == TableStyle::plain ? 24 : model.contacts.size();
+  if (model.contacts.empty() || report.supports.size() < model.contacts.size()) return "";
+  const std::string force = " [" + model.units.force + "]", length = " [" + model.units.length + "]";
+  const std::string at = "at t [" + model.units.time + "]";
+  double farthest = 0.0, greatest = 0.0;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    farthest = std::max(farthest, report.peaks[k].tangential);
+    greatest = std::max({greatest, report.peaks[k].N, report.peaks[k].T});
+  }
+  // Rounding beside the greatest of its kind would only distract.
+  const auto beside = [](double x, double most_of_all) {
+    return number(std::abs(x) > rounding::of_many * most_of_all ? x : 0.0);
+  };
+  Table table({"support loads", "N at rest" + force, "N least" + force, at, "N greatest" + force, at,
+               "T least" + force, at, "T greatest" + force, at, "residual slip" + length,
+               "friction loss [" + model.units.force + " " + model.units.length + "]"},
+              {false, true, true, true, true, true, true, true, true, true, true, true});
+  for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
+    const SupportLoad& load = report.supports[k];
+    const auto reaction = static_reaction(model, k);
+    std::vector<std::string> cells{model.contacts[k].name,
+                                   reaction ? beside(*reaction == 0.0 ? 0.0 : -*reaction, greatest) : ""};
+    for (const Turn& turn : {load.least_N, load.greatest_N, load.least_T, load.greatest_T}) {
+      cells.push_back(beside(turn.value, greatest));
+      cells.push_back(number(turn.t));
+    }
+    const auto& work = report.audit.friction_work;
+    cells.push_back(beside(load.residual_slip(), farthest));
+    cells.push_back(k < work.size() ? number(work[k]) : "");
+    table.row(std::move(cells));
+  }
+  if (model.contacts.size() > most)
+    table.line(fmt::format("... {} more; all are in summary.json", model.contacts.size() - most));
+  return table.str(style);
+}
+
 std::string contact_table(const Model& model, const Report& report, TableStyle style) {
   const std::size_t most = style == TableStyle::plain ? 24 : model.contacts.size();
   if (model.contacts.empty() || report.peaks.size() < model.contacts.size()) return "";
-  const std::string force = " [" + model.units.force + "]", unit = " [" + model.units.length + "]";
+  const std::string unit = " [" + model.units.length + "]";
   double greatest = 0.0;
   for (const Peak& peak : report.peaks) greatest = std::max({greatest, peak.tangential, peak.normal});
   // A motion of rounding would only distract.
   const auto length = [&](double x) { return number(x > rounding::of_many * greatest ? x : 0.0); };
-  Table table({"contact", "static -N" + force, "peak along t" + unit, "along n" + unit, "|N|" + force,
-               "|T|" + force, "friction loss [" + model.units.force + " " + model.units.length + "]"},
-              {false, true, true, true, true, true, true});
-  for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
-    const Peak& peak = report.peaks[k];
-    const bool at_rest = model.static_start && k < model.statics.reactions.size();
-    const auto& work = report.audit.friction_work;
-    table.row({model.contacts[k].name, at_rest ? number(model.statics.reactions[k]) : "",
-               length(peak.tangential), length(peak.normal), number(peak.N), number(peak.T),
-               k < work.size() ? number(work[k]) : ""});
-  }
-  if (model.contacts.size() > most) {
+  Table table({"greatest motion from the start", "along t" + unit, "along n" + unit}, {false, true, true});
+  for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k)
+    table.row({model.contacts[k].name, length(report.peaks[k].tangential), length(report.peaks[k].normal)});
+  if (model.contacts.size() > most)
     table.line(fmt::format("... {} more; all are in summary.json", model.contacts.size() - most));
-  }
   return table.str(style);
 }
 

@@ -18,8 +18,12 @@ namespace signorini::cli {
 [[nodiscard]] std::string event_table(const Live& live, const Model& model, const Certificate* certificate,
                                       TableStyle style = TableStyle::plain);
 
-/// One row a contact: static reaction, greatest motions and forces, friction loss. In a style for papers all
-/// of them, as of events and outputs.
+/// One row a contact: N at rest, extremes of N and T with their times, residual slip, friction loss. In a style for
+/// papers all of them, as of events and outputs.
+[[nodiscard]] std::string support_table(const Model& model, const Report& report,
+                                        TableStyle style = TableStyle::plain);
+
+/// One row a contact: greatest motions from the start.
 [[nodiscard]] std::string contact_table(const Model& model, const Report& report,
                                         TableStyle style = TableStyle::plain);
 

@@ -1,4 +1,4 @@
-// signorini report DIR: one page of HTML that needs nothing else.
+// signorini report DIR [DIR...]: one page of HTML that needs nothing else.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
@@ -41,17 +41,41 @@ ExitCode report(const fs::path& directory, const fs::path& given) {
   return ExitCode::done;
 }
 
+/// Several runs: FILE, and the same as a table beside it, FILE with .csv.
+ExitCode report_cases(const std::vector<std::string>& directories, const fs::path& given) {
+  const std::vector<LoadCase> cases =
+      read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
+  const fs::path page = given.empty() ? "cases.html" : given;
+  fs::path table = page;
+  table.replace_extension(".csv");
+  if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
+  write_file(page, load_cases_page(cases));
+  write_file(table, load_cases_csv(cases));
+  print(page.string() + "\n" + table.string() + "\n");
+  return ExitCode::done;
+}
+
 }  // namespace
 
 void add_report(Program& program) {
-  auto directory = std::make_shared<std::string>();
+  auto directories = std::make_shared<std::vector<std::string>>();
   auto output = std::make_shared<std::string>();
   CLI::App* command = program.app.add_subcommand(
-      "report", "write one page of HTML about a run, comparison, study, sweep or verification");
-  command->add_option("DIR", *directory, "the directory of results")->required();
-  command->add_option("-o,--output", *output, "the page (default: DIR/report.html)")->option_text("FILE");
-  command->callback([&program, directory, output] {
-    program.action = [directory, output] { return report(*directory, *output); };
+      "report",
+      "write one page of HTML about a run, comparison, study, sweep or verification, or load cases");
+  command
+      ->add_option("DIR", *directories,
+                   "the directory of results; of several runs, load cases side by side: a page and a CSV")
+      ->required();
+  command
+      ->add_option("-o,--output", *output,
+                   "the page (default: DIR/report.html; of several: cases.html, and cases.csv)")
+      ->option_text("FILE");
+  command->callback([&program, directories, output] {
+    program.action = [directories, output] {
+      return directories->size() == 1 ? report(directories->front(), *output)
+                                      : report_cases(*directories, *output);
+    };
   });
 }
 

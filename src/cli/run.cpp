@@ -76,8 +76,9 @@ std::string reduction_line(const Model& model) {
 std::string told(const Scene& scene, const Model& model, const CertifiedReport& certified,
                  const std::string& events, const fs::path& path, bool pictures) {
   const Report& report = certified.report;
-  const std::string tables = stacked({start_table(model), events, contact_table(model, report),
-                                      response_table(model, report), closing(scene.run, model, report)});
+  const std::string tables =
+      stacked({support_table(model, report), response_table(model, report), start_table(model), events,
+               contact_table(model, report), closing(scene.run, model, report)});
   const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
@@ -135,8 +136,9 @@ ExitCode run(const RunOptions& options, const std::vector<std::string>& command_
 
   if (options.json) print(kept.summary);
   if (!plain) {
-    print(stacked({start_table(model, style), events, contact_table(model, report, style),
-                   response_table(model, report, style), audit_table(model, report.audit, style)}));
+    print(stacked({support_table(model, report, style), response_table(model, report, style),
+                   start_table(model, style), events, contact_table(model, report, style),
+                   audit_table(model, report.audit, style)}));
   } else if (options.tables()) {
     print(told(scene, model, certified, events, path, !options.no_plots));
   }

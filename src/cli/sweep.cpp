@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/duration.hpp"
 #include "base/fingerprint.hpp"
 #include "base/machine.hpp"
 #include "base/number.hpp"
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SweepOptions : OutputOptions {
-  std::string scene;
+  std::string scene, engine;
   std::vector<std::string> varied, settings, merge, responses, samples;
   bool together = false;
   std::optional<long> sample_count, seed;
@@ -164,7 +165,10 @@ fs::path output_directory(const SweepOptions& options, const Share& share) {
 class Progress {
  public:
   Progress(const SweepDirectory& directory, std::size_t all, bool line)
-      : directory_(directory), all_(all), line_(line && stderr_is_terminal()) {}
+      : directory_(directory),
+        all_(all),
+        there_(directory.rows().size()),
+        line_(line && stderr_is_terminal()) {}
   ~Progress() {
     if (line_) progress_line("");
   }
@@ -180,14 +184,23 @@ class Progress {
       directory_.write_table();
     }
     if (line_)
-      progress_line(
-          fmt::format("{} of {}, {} running", directory_.rows().size(), count_of(all_, "run"), running));
+      progress_line(fmt::format("{} of {}, {} running{}", directory_.rows().size(), count_of(all_, "run"),
+                                running, time_left(now)));
   }
 
  private:
+  [[nodiscard]] std::string time_left(std::chrono::steady_clock::time_point now) const {
+    const std::size_t done = directory_.rows().size() - there_;
+    if (done == 0) return "";
+    const double s = std::chrono::duration<double>(now - start_).count();
+    return ", about " +
+           duration_text(s * static_cast<double>(all_ - there_ - done) / static_cast<double>(done)) + " left";
+  }
+
   const SweepDirectory& directory_;
-  std::size_t all_, written_ = 0;
+  std::size_t all_, there_, written_ = 0;  // there: before this process began
   bool line_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point next_;
 };
 
@@ -279,7 +292,8 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   if (!options.quiet) {
     print_patterns(options.scene, options.settings);
     print_patterns(options.scene, options.settings, "--vary", options.varied);
-    print_patterns(options.scene, options.settings, "--sample", options.samples);
+    for (const Vary& vary : spec.vary)
+      if (vary.sampled) print_patterns(options.scene, options.settings, "--sample", {vary.path});
   }
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
@@ -341,8 +355,21 @@ ExitCode merge(const SweepOptions& options) {
   return ExitCode::stopped;
 }
 
-ExitCode sweep_or_merge(const SweepOptions& options, const std::vector<std::string>& command_line) {
-  (void)table_style_of(options.table, options);
+/// --engine is a setting: sweep.json has it, and another engine is another sweep.
+SweepOptions with_engine(SweepOptions options) {
+  if (options.engine.empty()) return options;
+  for (const std::string& varied : options.varied)
+    if (varied.starts_with("run.engine="))
+      throw UsageError(fmt::format("--engine {}: has no effect, --vary {} sets it anew in every run",
+                                   options.engine, varied));
+  const Override engine = engine_override(options.engine, "--engine");
+  options.settings.push_back(engine.path + "=" + engine.value);
+  return options;
+}
+
+ExitCode sweep_or_merge(const SweepOptions& given, const std::vector<std::string>& command_line) {
+  (void)table_style_of(given.table, given);
+  const SweepOptions options = with_engine(given);
   if (!options.merge.empty()) return merge(options);
   if (options.scene.empty()) throw UsageError("sweep: expected SCENE, or --merge DIR...");
   if (options.varied.empty() && options.samples.empty())
@@ -374,10 +401,11 @@ void add_sweep(Program& program) {
       ->option_text("QUERY")
       ->allow_extra_args(false);
   command
-      ->add_option("--sample", options->samples,
-                   "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
-                   "triangular(least,likely,greatest) (may be repeated)")
-      ->option_text("PATH=DISTRIBUTION")
+      ->add_option(
+          "--sample", options->samples,
+          "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
+          "triangular(least,likely,greatest); keys with commas between share each draw (may be repeated)")
+      ->option_text("PATH[,PATH...]=DISTRIBUTION")
       ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
                              "");
@@ -392,6 +420,8 @@ void add_sweep(Program& program) {
                    "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")
       ->option_text("DIR");
   add_settings(*command, options->settings);
+  command->add_option("--engine", options->engine, "of all runs, instead of the scene's run.engine")
+      ->option_text("NAME");
   command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")
       ->option_text("N")
       ->check(given);

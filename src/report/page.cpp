@@ -12,6 +12,7 @@
 #include "base/json.hpp"
 #include "base/version.hpp"
 #include "report/html.hpp"
+#include "report/load_cases.hpp"
 #include "report/picture.hpp"
 #include "report/run_data.hpp"
 #include "result/csv_read.hpp"
@@ -83,13 +84,14 @@ std::string preformatted(const std::string& text) {
 
 std::string page(const std::string& title, const std::string& kind, const std::string& body,
                  const std::string& data) {
-  return fill_in(part("page.html"), {{"title", html_text(title)},
-                                     {"kind", html_text(kind)},
-                                     {"style", part("style.css")},
-                                     {"body", body},
-                                     {"data", data},
-                                     {"script", part("stage.js") + part("player.js") + part("filters.js")},
-                                     {"version", html_text(version)}});
+  return fill_in(part("page.html"),
+                 {{"title", html_text(title)},
+                  {"kind", html_text(kind)},
+                  {"style", part("style.css")},
+                  {"body", body},
+                  {"data", data},
+                  {"script", part("stage.js") + part("player.js") + part("charts.js") + part("filters.js")},
+                  {"version", html_text(version)}});
 }
 
 std::string outcome_text(const Json& summary) {
@@ -131,19 +133,22 @@ std::string run_facts(const Json& summary) {
   return text;
 }
 
-/// events.csv, with units in its header, and the error of a time beside it.
+/// Of events.csv what fits a page, with units in the header: the rest stays in the file.
 std::string event_table(const fs::path& file, const Units& units) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return "";
+  const std::vector<std::string> header = CsvReader(file).header();
+  std::vector<std::string> columns;
+  for (const char* name : {"t", "t_error", "contact", "event", "from", "to", "N", "T"})
+    if (std::find(header.begin(), header.end(), name) != header.end()) columns.emplace_back(name);
   std::map<std::string, std::string> of_columns;
   for (const EventColumn& column : event_columns) of_columns[column.name] = unit_in_words(column.unit, units);
-  of_columns["guard_rate"].clear();  // of each guard its own
-  const std::string error_of_time = "t_error";
-  of_columns[error_of_time] = unit_in_words("time", units);
-  std::vector<std::string> columns = CsvReader(file).header();
-  const auto found = std::find(columns.begin(), columns.end(), error_of_time);
-  if (found != columns.end()) std::rotate(columns.begin() + 1, found, found + 1);
-  return csv_table(file, most_rows, columns, of_columns);
+  of_columns["t_error"] = unit_in_words("time", units);
+  const std::string table = csv_table(file, most_rows, columns, of_columns);
+  return table.empty() ? ""
+                       : table +
+                             "<p class=hint>N and T are those just before the event. events.csv has rates, "
+                             "impulses and forces after it, too.</p>\n";
 }
 
 /// What the terminal calls a condition of the audit, and its unit.
@@ -191,8 +196,10 @@ std::string json_facts(const Json& json) {
   return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
 }
 
-std::string pictures(const fs::path& directory, const std::string& command) {
-  const std::string all = figures(directory);
+/// `taken`: bytes of the page without them.
+std::string pictures(const fs::path& directory, const std::string& command, std::size_t taken) {
+  constexpr std::size_t most = 2'950'000;  // of 3 MB
+  const std::string all = figures(directory, taken < most ? most - taken : 0);
   return all.empty() ? "<p>There are none; " + html_text(command) + " draws them.</p>\n" : all;
 }
 
@@ -225,16 +232,31 @@ std::string kind_of_results(const fs::path& directory) {
 
 std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
   const Json summary = read_json(directory / "summary.json");
-  const Json data = run_data(scene, directory);
-  std::string body = section("summary", "Summary", run_facts(summary));
+  Json data = run_data(scene, directory);
+  data["response_units"] = Json::object();
+  for (const Json& output : member(summary, "response"))
+    data["response_units"][value_text(member(output, "name"))] = value_text(member(output, "unit"));
+  std::string body = section("loads", "Support loads", support_loads_html(summary));
+  body += section("responses", "Responses", responses_html(summary, false));
+  body += section("envelopes", "Member envelopes", responses_html(summary, true));
+  body += section("summary", "Summary", run_facts(summary));
   body += part("player.html");
-  body +=
-      section("events", "Events", part("events.html") + event_table(directory / "events.csv", scene.units));
   body += section("audit", "Audit", audit_table(summary, scene.units));
-  body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string()));
-  body += section("check", "What check says", preformatted(check));
-  body += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));
-  return page(title_of(summary, directory), "run", body, script_json(json_line(data)));
+  const std::string events = event_table(directory / "events.csv", scene.units);
+  body += section("events", "Events", events.empty() ? "" : part("events.html") + events);
+  std::string end = section("check", "What check says", preformatted(check));
+  end += section("scene", "What was asked", preformatted(whole_file(directory / "run.toml")));
+  const std::string json = script_json(json_line(data));
+  constexpr std::size_t style_and_script = 50'000;
+  const std::size_t taken = body.size() + end.size() + json.size() + style_and_script;
+  body += section("pictures", "Pictures", pictures(directory, "signorini plot " + directory.string(), taken));
+  return page(title_of(summary, directory), "run", body + end, json);
+}
+
+std::string load_cases_page(const std::vector<LoadCase>& cases) {
+  std::string names;
+  for (const LoadCase& each : cases) names += (names.empty() ? "" : ", ") + each.name;
+  return page("Load cases: " + names, "load cases", load_cases_html(cases), "null");
 }
 
 std::string results_page(const fs::path& directory) {
@@ -248,8 +270,8 @@ std::string results_page(const fs::path& directory) {
   for (const char* table : {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv",
                             "spread.csv", "residuals.csv", "events.csv", "study.csv", "sweep.csv"})
     body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
-  body +=
-      section("pictures", "Pictures", pictures(directory, "running the command again with gnuplot on PATH"));
+  body += section("pictures", "Pictures",
+                  pictures(directory, "running the command again with gnuplot on PATH", body.size()));
   body += section("facts", marker, preformatted(json_text(json)));
   return page(title_of(json, directory), kind, body, "null");
 }

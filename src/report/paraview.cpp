@@ -161,7 +161,7 @@ void add_forces(Grid& grid, const Json& data, const std::vector<FrameEnd>& ends,
 
 }  // namespace
 
-std::vector<double> frame_times(const Json& data, std::size_t count, std::size_t most) {
+std::vector<double> frame_times(const Json& data, std::size_t count, bool events) {
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const Json& own : data["curve"]["times"]) {
     if (own.empty()) continue;
@@ -173,12 +173,12 @@ std::vector<double> frame_times(const Json& data, std::size_t count, std::size_t
   for (std::size_t i = 0; i < count; ++i)
     times.push_back(
         count < 2 ? first : first + (last - first) * static_cast<double>(i) / static_cast<double>(count - 1));
-  std::vector<double> all = times;
+  if (!events) return times;
   for (const Json& event : data["events"])
-    if (const double t = event[0].get<double>(); t <= last) all.push_back(t);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all.size() <= most ? all : times;
+    if (const double t = event[0].get<double>(); t <= last) times.push_back(t);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
 }
 
 std::string vtu_frame(const Json& data, double t) {

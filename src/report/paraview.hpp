@@ -19,9 +19,8 @@
 
 namespace signorini {
 
-/// `count` times from the first of the record to the last at equal distances, and those of events as long as all of them are no
-/// more than `most`.
-[[nodiscard]] std::vector<double> frame_times(const Json& data, std::size_t count, std::size_t most);
+/// `count` times from the first of the record to the last at equal distances; with `events` those of events, too.
+[[nodiscard]] std::vector<double> frame_times(const Json& data, std::size_t count, bool events);
 
 /// The text of a frame. `data`: run_data().
 [[nodiscard]] std::string vtu_frame(const Json& data, double t);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "report/html.hpp"
@@ -125,14 +127,66 @@ std::string figure(const fs::path& svg, const std::string& caption) {
       html_text(caption), address(slim_svg(read_whole(svg))));
 }
 
-std::string figures(const fs::path& directory) {
-  std::vector<fs::path> files;
+namespace {
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve(4 * (bytes.size() / 3 + 1));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned long three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = 256 * three + (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : digits[(three >> (18 - 6 * k)) & 63U];
+  }
+  return text;
+}
+
+/// The SVG, or the PNG beside it where that is smaller: a picture of many thousand points.
+std::string smaller_figure(const fs::path& svg) {
+  std::string text = figure(svg, svg.stem().string());
+  const fs::path png = fs::path(svg).replace_extension(".png");
+  std::error_code error;
+  constexpr double letters_a_byte = 4.0 / 3.0;
+  const auto size = static_cast<double>(fs::file_size(png, error));
+  if (error || letters_a_byte * size > static_cast<double>(text.size())) return text;
+  return fmt::format(
+      "<figure><img loading=lazy decoding=async alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+      "<figcaption>{0}</figcaption></figure>\n",
+      html_text(svg.stem().string()), base64(read_whole(png)));
+}
+
+}  // namespace
+
+std::string figures(const fs::path& directory, std::size_t room) {
+  std::vector<std::pair<fs::path, std::string>> all;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory / "plots", error))
-    if (entry.path().extension() == ".svg") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::string text;
-  for (const fs::path& file : files) text += figure(file, file.stem().string());
+    if (entry.path().extension() == ".svg") all.emplace_back(entry.path(), smaller_figure(entry.path()));
+  std::sort(all.begin(), all.end());
+  // Small ones first, those of single contacts last: the charts of the page have what these show.
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto of_contact = [&](std::size_t i) { return all[i].first.stem().string().starts_with("contact-"); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(of_contact(a), all[a].second.size()) < std::pair(of_contact(b), all[b].second.size());
+  });
+  std::vector<bool> shown(all.size(), false);
+  for (const std::size_t i : order) {
+    shown[i] = all[i].second.size() <= room;
+    if (shown[i]) room -= all[i].second.size();
+  }
+  std::string text, left_out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (shown[i])
+      text += all[i].second;
+    else
+      left_out += (left_out.empty() ? "" : ", ") + all[i].first.stem().string();
+  }
+  if (!left_out.empty())
+    text += "<p class=hint>Left out, so that the page stays below 3 MB; they are in plots/: " +
+            html_text(left_out) + ".</p>\n";
   return text;
 }
 

@@ -17,7 +17,8 @@ namespace signorini {
 /// <figure> with the picture; `caption` is text. Errors: FileError.
 [[nodiscard]] std::string figure(const std::filesystem::path& svg, const std::string& caption);
 
-/// Figures of all SVG files of DIR/plots, by name; empty where there are none.
-[[nodiscard]] std::string figures(const std::filesystem::path& directory);
+/// Figures of the SVG files of DIR/plots, by name, each as the PNG beside it where that is smaller; empty where there are none. No
+/// more than `room` bytes: what does not fit is named in a sentence.
+[[nodiscard]] std::string figures(const std::filesystem::path& directory, std::size_t room);
 
 }  // namespace signorini

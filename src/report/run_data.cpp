@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_values = 120'000;  // of displacements on a page: about a megabyte
-constexpr std::size_t most_motion = 16'000;   // rows of contacts
+constexpr std::size_t most_values = 60'000;  // of displacements on a page: with their times a megabyte
+constexpr std::size_t most_motion = 16'000;  // rows of contacts
 constexpr std::size_t most_events = 5'000;
 
 double rounded(double value, int digits) {
@@ -129,7 +129,11 @@ Displacements displacements(const fs::path& directory, double t_end) {
 
 Json curve_json(const Displacements& all) {
   Json times = Json::array(), columns = Json::array();
-  for (const std::vector<double>& t : all.times) times.push_back(t);
+  for (const std::vector<double>& t : all.times) {
+    Json rounded_times = Json::array();
+    for (const double value : t) rounded_times.push_back(rounded(value, 9));
+    times.push_back(std::move(rounded_times));
+  }
   for (const Displacements::Curve& curve : all.curves) {
     Json u = Json::array();
     for (const double value : curve.u) u.push_back(number(value));
@@ -357,6 +361,32 @@ Json events_json(const Scene& scene, const fs::path& directory) {
   return events;
 }
 
+/// Columns of response.csv, with units of summary.json; rows left out evenly, jumps kept.
+Json responses_json(const fs::path& directory) {
+  Json responses = Json::array();
+  const fs::path file = directory / "response.csv";
+  if (!is_file(file)) return responses;
+  CsvReader reader(file);
+  const std::vector<std::string> names = reader.header();
+  std::vector<double> t;
+  std::vector<std::vector<double>> columns(names.size());
+  while (reader.next()) {
+    t.push_back(reader.t());
+    for (std::size_t k = 1; k < names.size(); ++k) columns[k].push_back(reader.number(k));
+  }
+  constexpr std::size_t most_rows_shown = 4000;
+  const std::size_t most = std::min(most_rows_shown, most_values / names.size());
+  const std::vector<std::size_t> rows = kept_rows(t, most);
+  Json times = Json::array();
+  for (const std::size_t i : rows) times.push_back(t[i]);
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    Json values = Json::array();
+    for (const std::size_t i : rows) values.push_back(number(columns[k][i]));
+    responses.push_back({{"name", names[k]}, {"y", std::move(values)}});
+  }
+  return {{"t", std::move(times)}, {"columns", std::move(responses)}};
+}
+
 Json colours_json() {
   Json states = Json::array();
   for (const std::string& name : state_names()) states.push_back({name, state_colour(name)});
@@ -382,6 +412,8 @@ Json run_data(const Scene& scene, const fs::path& directory) {
           {"loads", loads_json(scene, places, directory)},
           {"contacts", contacts_json(scene, places, directory)},
           {"curve", std::move(curve)},
+          {"curve_names", all.names},
+          {"responses", responses_json(directory)},
           {"events", events_json(scene, directory)},
           {"states", colours_json()}};
 }

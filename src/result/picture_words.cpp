@@ -54,6 +54,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"beams", "Balken", "балки"},
     std::array<std::string_view, 3>{"contact force", "Kontaktkraft", "сила контакта"},
     std::array<std::string_view, 3>{"first {} of {}", "die ersten {} von {}", "первые {} из {}"},
+    std::array<std::string_view, 3>{"the {} of {} that move most", "die {} von {}, die sich am meisten bewegen", "{} из {} с наибольшим движением"},
     std::array<std::string_view, 3>{"no friction", "ohne Reibung", "без трения"},
     std::array<std::string_view, 3>{"friction {}", "Reibung {}", "трение {}"},
     std::array<std::string_view, 3>{"friction {} static, {} kinetic", "Reibung {} (Haften), {} (Gleiten)", "трение {} (покоя), {} (скольжения)"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "base/number.hpp"
@@ -34,11 +35,33 @@ struct PlottedLine {
   TableColumn curve;
 };
 
+/// Of a panel with more than eight curves, the six that move most.
+constexpr std::size_t most_displacements = 8, chosen_displacements = 6;
+
 struct PanelOfLines {
   std::string key, label;  ///< key: what its lines have in common
   std::vector<PlottedLine> lines;
-  std::string axis = "";  ///< where gnuplot would not find a good one
+  std::string axis = "";      ///< where gnuplot would not find a good one
+  std::size_t chosen_of = 0;  ///< above 0: the lines are those of so many that move most
 };
+
+/// Twenty curves are a tangle; those that move most, in the order of the nodes.
+void choose_lines(const PlottedRun& run, PanelOfLines& p) {
+  if (p.lines.size() <= most_displacements) return;
+  const auto size_of = [&](const PlottedLine& line) {
+    const auto found = run.moves.find(line.title + p.key);
+    return found == run.moves.end() ? 0.0 : found->second.size();
+  };
+  std::vector<double> sizes;
+  for (const PlottedLine& line : p.lines) sizes.push_back(size_of(line));
+  std::nth_element(sizes.begin(), sizes.begin() + (chosen_displacements - 1), sizes.end(), std::greater<>());
+  const double least = sizes[chosen_displacements - 1];
+  p.chosen_of = p.lines.size();
+  std::vector<PlottedLine> chosen;
+  for (const PlottedLine& line : p.lines)
+    if (size_of(line) >= least && chosen.size() < chosen_displacements) chosen.push_back(line);
+  p.lines = std::move(chosen);
+}
 
 std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
   const std::string& length = run.facts.units.length;
@@ -63,6 +86,7 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
         all.take(found->second);
     p.axis = steady(all, p.key == ".rz" ? turn : greatest);
   }
+  for (PanelOfLines& p : panels) choose_lines(run, p);
   panels.erase(
       std::remove_if(panels.begin(), panels.end(), [](const PanelOfLines& p) { return p.lines.empty(); }),
       panels.end());
@@ -99,6 +123,9 @@ Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canva
   if (shown < p.lines.size())
     panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
                             "(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"});
+  if (p.chosen_of > 0)
+    panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
+                            "(" + say(run, "the {} of {} that move most", shown, p.chosen_of) + ")"});
   return panel;
 }
 

@@ -11,6 +11,7 @@
 #include "contact/law.hpp"
 #include "engine/tolerance.hpp"
 #include "model/modes/rounding_floor.hpp"
+#include "model/statics/static_reaction.hpp"
 #include "result/certificate_json.hpp"
 #include "result/hangers_json.hpp"
 #include "result/reduction_json.hpp"
@@ -102,6 +103,14 @@ Json model_json(const Model& model) {
   return json;
 }
 
+Json turn_json(const Turn& turn) { return {{"value", turn.value}, {"t", turn.t}}; }
+
+Json support_json(const SupportLoad& load) {
+  return {{"N", {{"least", turn_json(load.least_N)}, {"greatest", turn_json(load.greatest_N)}}},
+          {"T", {{"least", turn_json(load.least_T)}, {"greatest", turn_json(load.greatest_T)}}},
+          {"residual_slip", load.residual_slip()}};
+}
+
 /// `run`: null before its end.
 Json contact_json(const Model& model, std::size_t k, double capture_velocity, const CertifiedReport* run) {
   const Report* report = run != nullptr ? &run->report : nullptr;
@@ -126,10 +135,9 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     json["tangential_damping"] = contact.shear->damping;
   }
   if (contact.tangential_stiffness) json["tangential_stiffness"] = *contact.tangential_stiffness;
-  if (model.static_start && k < model.statics.reactions.size()) {
-    json["static_reaction"] = model.statics.reactions[k];
-  }
+  if (const auto reaction = static_reaction(model, k)) json["static_reaction"] = *reaction;
   if (report == nullptr) return json;
+  if (k < report->supports.size()) json["load"] = support_json(report->supports[k]);
   if (k < report->audit.friction_work.size()) json["friction_work"] = report->audit.friction_work[k];
   if (k < report->peaks.size()) {
     const Peak& peak = report->peaks[k];

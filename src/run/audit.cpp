@@ -47,6 +47,7 @@ Auditor::Auditor(const Model& model, const Structure& structure)
       structure_(structure),
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
+      supports_(model.contacts.size()),
       landings_(model),
       massless_(moves_at_once(model)) {}
 
@@ -65,12 +66,35 @@ void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& 
   for (std::size_t k = 0; k < peaks_.size(); ++k)
     at_start_.push_back({model_.contacts[k].normal.dot(point.u),
                          slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
+  for (std::size_t k = 0; k < supports_.size(); ++k) {
+    const ContactMotion m = motion(k, forcing, decision.jet.t, point);
+    SupportLoad& load = supports_[k];
+    load.least_N = load.greatest_N = {m.N, decision.jet.t};
+    load.least_T = load.greatest_T = {m.T, decision.jet.t};
+    load.slip_at_start = load.slip_at_end = slip(k, decision.mode[k], m);
+  }
   landings_.begin(decision.jet.t, first);
   landings_.instant(decision.jet.t, decision, first);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   audit_.initial = energy(decision.jet.t, decision.mode, point);
   begun_ = true;
+}
+
+void Auditor::bears(std::size_t contact, double t, double N, double T) {
+  Peak& peak = peaks_[contact];
+  peak.N = std::max(peak.N, std::abs(N));
+  peak.T = std::max(peak.T, std::abs(T));
+  SupportLoad& load = supports_[contact];
+  if (N < load.least_N.value) load.least_N = {N, t};
+  if (N > load.greatest_N.value) load.greatest_N = {N, t};
+  if (T < load.least_T.value) load.least_T = {T, t};
+  if (T > load.greatest_T.value) load.greatest_T = {T, t};
+}
+
+double Auditor::slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const {
+  const bool anchored = state.state == State::stick && model_.contacts[contact].tangential_stiffness;
+  return anchored ? state.anchor : slip_of(model_.contacts[contact], m);
 }
 
 void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const Point& point) {
@@ -82,8 +106,8 @@ void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const 
     const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
     peak.tangential = std::max(peak.tangential, std::abs(ut - at_start_[k].ut));
     peak.normal = std::max(peak.normal, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
-    peak.N = std::max(peak.N, std::abs(m.N));
-    peak.T = std::max(peak.T, std::abs(m.T));
+    bears(k, t, m.N, m.T);
+    supports_[k].slip_at_end = slip(k, mode[k], m);
     landings_.observe(k, m.N);
 
     const Violations off = violations(contact, mode[k].state, m);
@@ -114,8 +138,7 @@ void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, 
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {
     const ContactMotion &b = decision.before[k], &a = decision.after[k];
-    peaks_[k].N = std::max(peaks_[k].N, std::abs(b.N));
-    peaks_[k].T = std::max(peaks_[k].T, std::abs(b.T));
+    bears(k, t, b.N, b.T);
     const Contact& contact = model_.contacts[k];
     if (!decision.jumped[k] && !(massless_ && load_jumps)) continue;
     double loss = 0.0;
@@ -202,8 +225,7 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   s.vt = slide.vt;
   s.N = m.N;
   s.T = m.T;
-  const bool anchored = state.state == State::stick && model_.contacts[k].tangential_stiffness;
-  s.slip = anchored ? state.anchor : slip_of(model_.contacts[k], m);
+  s.slip = slip(k, state, m);
   if (model_.contacts[k].own) s.memory = state.anchor;
   return s;
 }
@@ -219,6 +241,7 @@ void Auditor::finish(Report& report, const Energy& last, double t, const Mode& m
   if (report.audit.energy_scale <= 0.0)
     report.audit.energy_scale = model_.scales.force * model_.scales.displacement;
   report.peaks = peaks_;
+  report.supports = supports_;
 }
 
 }  // namespace signorini

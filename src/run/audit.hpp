@@ -49,6 +49,11 @@ class Auditor {
     return motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
+  /// Force on a contact at t.
+  void bears(std::size_t contact, double t, double N, double T);
+  /// p, that of a rigid stick its anchor.
+  [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
+
   /// Audits the balance of these.
   Energy audited(double t, const Energy& e);
   /// Kinetic, elastic and contact energy.
@@ -64,6 +69,7 @@ class Auditor {
   };
   std::vector<Place> at_start_;
   std::vector<Peak> peaks_;
+  std::vector<SupportLoad> supports_;
   Landings landings_;
   bool massless_;  // there are degrees of freedom that move at once
   bool begun_ = false;

@@ -75,6 +75,7 @@ double join(const Model& whole, const std::vector<PartModel>& parts, const std::
   report.audit.energy_scale = 0.0;
   report.audit.friction_work.resize(whole.contacts.size());
   report.peaks.resize(whole.contacts.size());
+  report.supports.resize(whole.contacts.size());
   report.landings.resize(whole.contacts.size());
   report.warnings.insert(report.warnings.begin(), whole.warnings.begin(), whole.warnings.end());
   std::set<std::string> said;
@@ -91,6 +92,7 @@ double join(const Model& whole, const std::vector<PartModel>& parts, const std::
     join(part, own.witness, report.witness);
     for (std::size_t k = 0; k < part.contacts.size(); ++k) {
       report.peaks[part.contacts[k]] = own.peaks[k];
+      report.supports[part.contacts[k]] = own.supports[k];
       report.landings[part.contacts[k]] = own.landings[k];
     }
     report.undecided += own.undecided;

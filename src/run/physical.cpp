@@ -99,6 +99,13 @@ Report physical(Report report, const Factors& of) {
     convert(unit::length, {&peak.tangential, &peak.normal});
     convert(unit::force, {&peak.N, &peak.T});
   }
+  for (SupportLoad& load : report.supports) {
+    for (Turn* turn : {&load.least_N, &load.greatest_N, &load.least_T, &load.greatest_T}) {
+      convert(unit::force, {&turn->value});
+      convert(unit::time, {&turn->t});
+    }
+    convert(unit::length, {&load.slip_at_start, &load.slip_at_end});
+  }
   for (std::vector<Landing>& list : report.landings)
     for (Landing& landing : list) {
       convert(unit::time, {&landing.start, &landing.end});

@@ -82,11 +82,13 @@ void check_name(const std::string& name, const SourcePlace& place, const std::st
     refuse(place, path, "found a name with a line break or another control character, expected a plain name");
   }
   for (const char c : name) {
-    if (std::string_view(" .,;*\"'=[]{}#").find(c) != std::string_view::npos) {
-      refuse(place, path,
-             "found a name with blanks or one of . , ; * \" ' = [ ] { } #, expected a plain name");
-    }
+    if (std::string_view(".,;*\"'=[]{}#").find(c) != std::string_view::npos)
+      refuse(place, path, "found a name with one of . , ; * \" ' = [ ] { } #, expected a plain name");
   }
+  if (name.front() == ' ' || name.back() == ' ' || name.find("  ") != std::string::npos)
+    refuse(place, path,
+           fmt::format("found \"{}\", expected a name without a blank at an end and without two in a row",
+                       name));
 }
 
 bool Names::add(const std::string& name) {

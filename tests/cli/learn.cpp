@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -27,6 +29,70 @@ TEST_CASE("cli new: each scene is written, checked and run, and something happen
   const std::string portal = shell.read("my-portal.toml");
   CHECK(has(portal, "\n#? frames = "));
   CHECK(has(shell.read("out/run.toml"), "Matrices of another program"));
+}
+
+TEST_CASE(
+    "cli new: scenes of earthquakes come with their accelerograms, which `quake` makes again to the byte") {
+  const Shell shell;
+  for (const std::string from : {"rack", "isolator", "rocking", "building"}) {
+    CAPTURE(from);
+    const std::string name = "my-" + from;
+    const Ending ending = shell.run({"new", name, "--from", from});
+    CAPTURE(ending.err);
+    REQUIRE(ending.code == 0);
+    CHECK(ending.out == name + ".toml\n" + name + ".AT2\n" + name + ".csv\n");
+    const std::string text = shell.read(name + ".toml");
+    CHECK_FALSE(has(text, "@NAME@"));
+    const Ending check = shell.run({"check", name + ".toml"});
+    CAPTURE(check.err);
+    CHECK(check.code == 0);
+    const Ending run = shell.run(
+        {"run", name + ".toml", "-o", "out", "--force", "--no-plots", "--quiet", "--set", "run.t_end=3"});
+    CAPTURE(run.err);
+    CHECK(run.code == 0);
+    CHECK(has(shell.read("out/events.csv"), ",slip,stick,"));
+    // The command in its comments.
+    const std::size_t at = text.find("signorini quake ");
+    std::istringstream line(text.substr(at, text.find('\n', at) - at));
+    std::vector<std::string> words;
+    for (std::string word; line >> word;) words.push_back(word);
+    words.erase(words.begin());
+    words[1] = "again";
+    words.insert(words.end(), {"--force", "--quiet"});
+    REQUIRE(shell.run(words).code == 0);
+    CHECK(shell.read("again.AT2") == shell.read(name + ".AT2"));
+    CHECK(shell.read("again.csv") == shell.read(name + ".csv"));
+    // A scene that is there, or an accelerogram, stays.
+    std::filesystem::remove(shell / (name + ".toml"));
+    CHECK(shell.run({"new", name, "--from", from}).code == 6);
+    CHECK_FALSE(exists(shell, name + ".toml"));
+  }
+}
+
+TEST_CASE("cli quake: what is wrong is told, with exit code 2 or 6, and nothing is written") {
+  const Shell shell;
+  const std::pair<std::vector<std::string>, const char*> wrong[] = {
+      {{"quake", "q", "--pga", "0"}, "--pga: found 0, expected"},
+      {{"quake", "q", "--duration", "10.003"}, "a whole number"},
+      {{"quake", "q", "--seed", "-1"}, "--seed: found -1"},
+      {{"quake", "q", "--spectrum", "ec8-F"}, "expected ec8-A to ec8-E"},
+      {{"quake", "q", "--spectrum", "ec8-A", "--dt", "0.02"}, "at most 0.0125"},
+      {{"quake", "folder/"}, "expected a file's name"},
+  };
+  for (const auto& [words, message] : wrong) {
+    CAPTURE(message);
+    const Ending ending = shell.run(words);
+    CHECK(ending.code == 2);
+    CHECK(has(ending.err, message));
+  }
+  CHECK(shell.run({"quake", "q", "--spectrum", "none.csv"}).code == 6);
+  CHECK(shell.list().empty());
+  shell.write("target.csv", "T,PSA\n0.1,0.5\n0.5,0.5\n2,0.1\n");
+  const Ending own = shell.run({"quake", "q", "--spectrum", "target.csv", "--duration", "12"});
+  CHECK(own.code == 0);
+  CHECK(has(own.out, "of the target"));
+  CHECK(has(shell.read("q.AT2"), "NPTS= 1201, DT= 0.01 SEC"));
+  CHECK(has(shell.read("q.csv"), "\n12,"));
 }
 
 TEST_CASE("cli new: the keys that its comments offer are keys") {
@@ -73,6 +139,20 @@ TEST_CASE("cli keys: words choose lines, whatever their case; none is an error")
   CHECK(has(friction.out, "  contacts[].friction.static "));
   CHECK_FALSE(has(friction.out, "contacts[].gap"));
   CHECK_FALSE(has(friction.out, "run.relaxation"));  // speaks of friction, not of static
+  // What somebody looks for who does not know the scene's words.
+  const std::pair<const char*, const char*> synonyms[] = {{"earthquake", "  base_motion.acceleration "},
+                                                          {"hanger", "  springs[].preload "},
+                                                          {"bearing", "  pendulums[].radius "},
+                                                          {"bearings", "  pendulums[].radius "},
+                                                          {"Stress", "  output[].sif "},
+                                                          {"temperature", "  members[].thermal_expansion "}};
+  for (const auto& [word, key] : synonyms) {
+    CAPTURE(word);
+    const Ending found = shell.run({"keys", word});
+    CHECK(found.code == 0);
+    CHECK(has(found.out, key));
+    CHECK_FALSE(has(found.out, "run.rtol"));
+  }
   const Ending none = shell.run({"keys", "frictoin"});
   CHECK(none.code == 2);
   CHECK(has(none.err, "'frictoin'"));

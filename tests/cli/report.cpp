@@ -43,6 +43,29 @@ TEST_CASE("cli report: -o, an interrupted run's tables, and what is no directory
   CHECK(shell.run({"report", "out", "-o", "no/such/page.html"}).code == 6);
 }
 
+TEST_CASE("cli report: a page opens with support loads; several runs stand side by side, as page and CSV") {
+  const Shell shell;
+  shell.write("belt.toml", belt(10.0));
+  CHECK(shell.run({"run", "belt.toml", "-o", "one", "--no-plots"}).code == 0);
+  CHECK(shell.run({"run", "belt.toml", "-o", "two", "--no-plots", "--set", "contacts.belt.friction=0.2"})
+            .code == 0);
+  CHECK(shell.run({"report", "one"}).code == 0);
+  const std::string page = shell.read("one/report.html");
+  const std::size_t loads = page.find("<h2>Support loads</h2>"), events = page.find("<h2>Events</h2>");
+  REQUIRE(loads != std::string::npos);
+  CHECK(loads < page.find("<h2>Summary</h2>"));
+  CHECK(page.find("<h2>Charts</h2>") < events);
+  CHECK_FALSE(has(page, "<th>guard_rate"));
+  const Ending ending = shell.run({"report", "one", "two", "-o", "both.html"});
+  CHECK(ending.code == 0);
+  CHECK(ending.out == "both.html\nboth.csv\n");
+  CHECK(has(shell.read("both.html"), "<title>Load cases: one, two</title>"));
+  CHECK(has(shell.read("both.csv"), "item,quantity,unit,one,one t,two,two t,governing\n"));
+  CHECK(has(shell.read("both.csv"), "\nbelt,N least,N,-"));
+  CHECK(shell.run({"report", "one", "two", "-o", "both.csv"}).code == 2);
+  CHECK(shell.run({"report", "one", "three"}).code == 6);
+}
+
 TEST_CASE("cli report: a comparison and a sweep have their tables") {
   const Shell shell;
   shell.write("belt.toml", belt(3.0));

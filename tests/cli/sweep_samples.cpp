@@ -80,6 +80,40 @@ TEST_CASE("cli sweep: answers are columns; keys vary in step") {
   CHECK(has(other.err, "--response was residual:floor max:x"));
 }
 
+TEST_CASE("cli sweep: keys of one --sample share its draws; --engine is that of all runs") {
+  const Shell shell;
+  shell.write("block.toml", sliding_block);
+  const auto sweep = [&](const std::string& directory, const std::string& keys, const std::string& engine) {
+    const Ending ending = shell.run({"sweep",      "block.toml",
+                                     "--sample",   keys + "=uniform(1,3)",
+                                     "--sample",   "contacts.floor.friction=normal(0.5,0.05)",
+                                     "--samples",  "20",
+                                     "--seed",     "5",
+                                     "--sequence", "sobol",
+                                     "--response", "residual:floor",
+                                     "--engine",   engine,
+                                     "--quiet",    "--no-plots",
+                                     "-o",         directory});
+    CAPTURE(ending.err);
+    REQUIRE(ending.code == 0);
+  };
+  sweep("both", "run.initial.block.vx, masses.1.mass", "exact");
+  sweep("one", "run.initial.block.vx", "exact");
+  const json both = rows(shell, "both"), one = rows(shell, "one");
+  REQUIRE(both.size() == 20);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const json& values = both[i]["values"];
+    CHECK(values[0] == values[1]);
+    CHECK(values[0] == one[i]["values"][0]);  // a key more moves no other draw
+    CHECK(values[2] == one[i]["values"][1]);
+    const double v = std::stod(values[0].get<std::string>()), f = std::stod(values[2].get<std::string>());
+    // The slider is pressed by 10: m v^2 / 2 = 10 f s, with m = v.
+    CHECK(both[i]["responses"][0].get<double>() == doctest::Approx(v * v * v / (20.0 * f)).epsilon(1e-11));
+  }
+  CHECK(has(shell.read("both/sweep.json"), "run.engine=exact"));
+  CHECK(shell.run({"sweep", "block.toml", "--sample", "a,,b=uniform(1,3)", "--response", "max:x"}).code == 2);
+}
+
 TEST_CASE("cli sweep: quantiles of samples, against the closed form, whoever computes them") {
   const Shell shell;
   shell.write("block.toml", sliding_block);

@@ -119,6 +119,7 @@ def pipeline(browser):
     browser.run("document.querySelectorAll('#events tbody tr:not([hidden])')[1].click()")
     chosen = [float(line.split(",")[0]) for line in lines if ",second,separation," in line][1]
     check("a click on a row goes to its event", same(time_shown(browser), chosen))
+    charts(browser)
     looks(browser)
     check("pictures are there", browser.run("return [...document.images].every(i => i.complete || i.loading === 'lazy')"))
     noise = browser.run("""return [...document.querySelectorAll('#events td.n')].filter((cell, k) =>
@@ -134,6 +135,43 @@ def pipeline(browser):
     clean(browser, "pipeline, used")
 
 
+def charts(browser):
+    first = browser.run("return document.querySelector('main section').id")
+    check(f"the page opens with support loads ({first})", first == "loads")
+    order = browser.run("return [...document.querySelectorAll('main section')].map(s => s.id)")
+    check(f"events come after charts and motion {order}", order.index("chartSection") < order.index("motion") < order.index("events"))
+    check("charts of N, T and displacements", browser.run("return document.querySelectorAll('.chart canvas').length") >= 3)
+    point = """const c = document.querySelector('.chart canvas'), box = c.getBoundingClientRect(), left = charts.list[0].left, right = 10;
+        const at = (part) => box.left + left + part * (box.width - left - right);
+        const send = (type, part) => c.dispatchEvent(new PointerEvent(type, { clientX: at(part), clientY: box.top + 20, button: 0,
+            pointerId: 1, pointerType: 'mouse', bubbles: true }));
+        c.setPointerCapture = () => {};"""
+    browser.run("document.getElementById('chartSection').scrollIntoView(); player.stop(0)")
+    browser.run(point + "send('pointermove', 0.5)")
+    check("the pointer over a chart is the cursor of the motion", abs(time_shown(browser) - 0.6) < 0.01)
+    read = browser.run("return [...document.querySelectorAll('.chart')].slice(0, 2).map(c => +c.querySelector('.names output').textContent)")
+    exact = browser.run("const m = data.contacts[0].motion; return [valueAt(m.t, m.N, player.t), valueAt(m.t, m.T, player.t)]")
+    check(f"and reads N and T {read}", all(abs(a - b) <= 1e-4 * max(1, abs(b)) for a, b in zip(read, exact)))
+    browser.run("player.stop(0.3)")
+    where = browser.run("return [...document.querySelectorAll('.cursor')].map(c => c.style.transform)")
+    check(f"an event or the slider moves the cursor of all charts {where[:2]}", len(set(where[:2])) == 1 and "translateX" in where[0])
+    browser.run(point + "send('pointerdown', 0.25); send('pointermove', 0.5); send('pointerup', 0.5)")
+    shown = browser.run("return [charts.from, charts.to]")
+    check(f"a drag chooses times {shown}", abs(shown[0] - 0.3) < 0.01 and abs(shown[1] - 0.6) < 0.01)
+    browser.click("#closer")
+    closer = browser.run("return charts.to - charts.from")
+    check("closer is closer", abs(closer - (shown[1] - shown[0]) / 2) < 1e-6)
+    browser.run("document.querySelector('.chart canvas').dispatchEvent(new MouseEvent('dblclick'))")
+    check("a double click shows all", browser.run("return [charts.from, charts.to]") == [0, 1.2])
+    browser.run("document.querySelector('td[data-t]').click()")
+    check("a time of a table goes there", browser.run("return player.t === Number(document.querySelector('td[data-t]').dataset.t)"))
+    overlaps = browser.run("""const boxes = [...document.querySelectorAll('#plan text')].map(t => t.getBoundingClientRect());
+        let n = 0; boxes.forEach((a, i) => boxes.slice(0, i).forEach(b => {
+          n += Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 4; }));
+        return n;""")
+    check(f"labels of the drawing do not overlap ({overlaps})", overlaps == 0)
+
+
 def looks(browser):
     browser.run("player.stop(0.06); document.getElementById('motion').scrollIntoView()")
     for scheme in ("light", "dark"):
@@ -147,7 +185,7 @@ def looks(browser):
                   const box = label.getBoundingClientRect();
                   return box.left >= plan.left && box.right <= plan.right;
                 });"""))
-            for part in ("summary", "motion", "events", "pictures"):
+            for part in ("loads", "summary", "chartSection", "motion", "events", "pictures"):
                 browser.run("document.getElementById(arguments[0]).scrollIntoView()", part)
                 browser.wait_for("setTimeout(arguments[0], 150)")
                 browser.screenshot(pictures / f"{scheme}-{name}-{part}.png")
@@ -195,6 +233,15 @@ def others(browser):
         count = browser.run("return document.querySelectorAll('table').length")
         check(f"{name}: {count} tables", count >= tables)
         browser.screenshot(pictures / f"{name}.png")
+    signorini("run", models / "pipeline.toml", "-o", "soft", "--quiet", "--no-plots", "--set", "contacts.*.friction=0.1")
+    signorini("report", "pipeline", "soft", "-o", "cases.html")
+    for width in (1200, 390):
+        browser.look("light", width)
+        browser.open(work / "cases.html")
+        clean(browser, f"load cases, {width} wide")
+        check("load cases: support loads of both", browser.run("return document.querySelectorAll('#loads tbody tr').length") == 14)
+        browser.screenshot(pictures / f"cases-{width}.png")
+    browser.look()
     for name in sorted(p.name for p in models.glob("*.toml")):
         if name in ("pipeline.toml", "matrices.toml"):
             continue

@@ -42,8 +42,20 @@ const filterEvents = (player) => {
   player.show(0);
 };
 
+// Times of tables go there.
+const linkTimes = (player) => {
+  for (const cell of document.querySelectorAll("td[data-t]")) {
+    cell.tabIndex = 0;
+    const go = () => { player.stop(Number(cell.dataset.t)); byId("now").scrollIntoView({ block: "center" }); };
+    cell.addEventListener("click", go);
+    cell.addEventListener("keydown", (event) => { if (event.key === "Enter") go(); });
+  }
+};
+
 if (data) {
   plan();
   window.player = new Player();
+  window.charts = new Charts(window.player);
+  linkTimes(window.player);
   filterEvents(window.player);
 }

@@ -176,6 +176,7 @@ class Player {
     });
     byId("needle").style.transform = `translateX(${(this.last > 0 ? this.wide * this.t / this.last : 0).toFixed(1)}px)`;
     if (tells) this.told();
+    if (window.charts) window.charts.read(this.t, tells);
   }
   stateOf({ motion: { t, state } }) {
     return t.length ? data.states[state[Math.max(0, rowAt(t, this.t))]]?.[0] : "open";

@@ -155,32 +155,78 @@ class Stage {
   }
 }
 
+// Puts each label at the first place around its point where it covers no other label, node or member: eight directions, then
+// farther off. Where there is none it stands where it covers least, and a contact, named elsewhere too, has none.
+const placeLabels = (stage, g, labels) => {
+  const taken = [], still = data.nodes.map(() => [0, 0, 0]);
+  for (const node of data.nodes) {
+    const [x, y] = stage.at(node.x, node.y);
+    taken.push([x - 5, y - 5, x + 5, y + 5]);
+  }
+  for (const piece of data.pieces) {  // small boxes along members
+    const [x, y] = stage.place(piece.a, still, 0), [X, Y] = stage.place(piece.b, still, 0);
+    const count = Math.ceil(Math.hypot(X - x, Y - y) / 6);
+    for (let i = 0; i <= count; ++i) {
+      const px = x + (X - x) * i / count, py = y + (Y - y) * i / count;
+      taken.push([px - 2, py - 2, px + 2, py + 2]);
+    }
+  }
+  for (const contact of data.contacts) {  // and along grounds
+    if (contact.node < 0 || contact.against.length) continue;
+    const [x, y] = stage.place(contact.node, still, 0), nx = contact.nx, ny = -contact.ny;
+    for (let s = -stage.mark; s <= stage.mark; s += 6) {
+      const px = x - 13 * nx - s * ny, py = y - 13 * ny + s * nx;
+      taken.push([px - 4, py - 4, px + 4, py + 4]);
+    }
+  }
+  const covered = (box) => taken.reduce((sum, other) => sum + Math.max(0, Math.min(box[2], other[2]) - Math.max(box[0], other[0])) *
+    Math.max(0, Math.min(box[3], other[3]) - Math.max(box[1], other[1])), 0);
+  const around = [[1, -1], [-1, -1], [1, 1], [-1, 1], [0, -1.3], [0, 1.3], [1.2, 0], [-1.2, 0]];
+  for (const { text, x, y, far, pale } of labels) {
+    const label = drawn("text", pale ? { class: "pale" } : {}, g, text), size = label.getBBox();
+    let best = null;
+    for (const distance of [far, 2 * far, 3.5 * far, 5 * far, 7 * far, 10 * far]) {
+      for (const [dx, dy] of around) {
+        const wide = size.width, high = 14, cx = x + dx * distance + Math.sign(dx) * wide / 2, cy = y + dy * distance;
+        const left = Math.min(stage.wide - wide - 2, Math.max(2, cx - wide / 2));
+        const box = [left - 1, cy - high / 2, left + wide + 1, cy + high / 2];
+        const outside = box[1] < 0 || box[3] > stage.high ? 1e6 : 0, cost = covered(box) + outside;
+        if (!best || cost < best.cost - 1e-9) best = { cost, box, left, base: cy + 4.5, distance };
+      }
+      if (best.cost < 1) break;
+    }
+    if (pale && best.cost > 30) { label.remove(); continue; }  // contacts are named at the bars of states, too
+    label.setAttribute("x", best.left.toFixed(1));
+    label.setAttribute("y", best.base.toFixed(1));
+    taken.push(best.box);
+    if (best.distance > 2 * far) {  // a line says whose it is
+      const bx = Math.min(best.box[2], Math.max(best.box[0], x)), by = Math.min(best.box[3], Math.max(best.box[1], y));
+      drawn("path", { class: "leader", d: `M${x.toFixed(1)} ${y.toFixed(1)}L${bx.toFixed(1)} ${by.toFixed(1)}` }, g);
+    }
+  }
+};
+
 const plan = () => {
   const stage = new Stage(byId("plan")), still = data.nodes.map(() => [0, 0, 0]), g = drawn("g", {}, stage.svg);
   stage.fixed(g, 0);
   for (const spring of data.springs) drawn("path", { class: "spring", d: stage.spring(spring, still, 0) }, g);
   for (const piece of data.pieces) drawn("path", { class: piece.bar ? "member bar" : "member", d: stage.piece(piece, still, 0) }, g);
-  const few = data.nodes.length <= 40;
+  const few = data.nodes.length <= 40, labels = [];
   data.nodes.forEach((node, k) => {
     const [x, y] = stage.at(node.x, node.y);
     drawn("circle", { class: "node", cx: x, cy: y, r: few ? 4 : 2 }, g);
-    if (few) drawn("text", { x: x + 8, y: y - 9 }, g, node.name);
+    if (few) labels.push({ text: node.name, x, y, far: 12 });
   });
   for (const load of data.loads) {
-    const place = stage.place(load.node, still, 0);
-    drawn("path", { class: "load", d: stage.arrow(place, 60 * load.dx, 60 * load.dy, false) }, g);
-    drawn("text", { x: place[0] - 66 * load.dx, y: place[1] + 66 * load.dy + (load.dy < -0.3 ? -6 : 16), "text-anchor": "middle" },
-      g, load.name);
+    const [x, y] = stage.place(load.node, still, 0);
+    drawn("path", { class: "load", d: stage.arrow([x, y], 60 * load.dx, 60 * load.dy, false) }, g);
+    labels.push({ text: load.name, x: x - 66 * load.dx, y: y + 66 * load.dy, far: 8 });
   }
   data.contacts.forEach((contact) => {
     if (contact.node < 0) return;
     if (contact.against.length) drawn("path", { class: "spring", d: stage.touched(contact, still, 0) }, g);
     const [x, y] = stage.place(contact.node, still, 0);
-    if (few) drawn("text", { x: x - 30 * contact.nx, y: y + 30 * contact.ny + 5, "text-anchor": "middle" }, g, contact.name);
+    if (few) labels.push({ text: contact.name, x: x - 22 * contact.nx, y: y + 22 * contact.ny, far: 10, pale: true });
   });
-  for (const label of g.querySelectorAll("text")) {  // none ends outside
-    const box = label.getBBox(), right = box.x + box.width - (stage.wide - 2);
-    const shift = box.x < 2 ? 2 - box.x : right > 0 ? -right : 0;
-    if (shift !== 0) label.setAttribute("x", Number(label.getAttribute("x")) + shift);
-  }
+  placeLabels(stage, g, labels);
 };

@@ -38,8 +38,16 @@ struct Bar {
   double length = 0.0;
 };
 
-/// Longest on top; gnuplot's axis goes upwards.
+/// Beside the longest one it has no length in a picture: a thousandth of a pixel of a thousand.
+constexpr double no_length = 1e-6;
+
+/// Longest on top; gnuplot's axis goes upwards. Those without length are left out.
 void sort_bars(std::vector<Bar>& bars) {
+  double longest = 0.0;
+  for (const Bar& bar : bars) longest = std::max(longest, std::abs(bar.length));
+  bars.erase(std::remove_if(bars.begin(), bars.end(),
+                            [&](const Bar& bar) { return !(std::abs(bar.length) > no_length * longest); }),
+             bars.end());
   std::stable_sort(bars.begin(), bars.end(),
                    [](const Bar& a, const Bar& b) { return std::abs(a.length) > std::abs(b.length); });
   if (bars.size() > most_bars) bars.resize(most_bars);
@@ -90,6 +98,9 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   }
   std::stable_sort(sizes.begin(), sizes.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
+  constexpr double rounding_of_derivatives = 1e-9;  // chosen: their errors are 1e-10 and less of the greatest
+  while (!sizes.empty() && sizes.back().first < rounding_of_derivatives * sizes.front().first)
+    sizes.pop_back();
   std::vector<const Response*> list;
   for (std::size_t i = 0; i < std::min(sizes.size(), most_figures); ++i) list.push_back(sizes[i].second);
   return list;

@@ -90,6 +90,20 @@ Inverse parse_distribution(const std::string& text, const std::string& option) {
   throw UsageError(fmt::format("{}: unknown distribution \"{}\", expected one of {}", option, name, known));
 }
 
+/// "a,b" as two keys; the text of the second says that its draw is the first's.
+void add_keys(const std::string& paths, const std::string& distribution, const std::string& option,
+              std::vector<Vary>& varied) {
+  std::string first;
+  std::string left = paths + ",";
+  for (std::size_t comma; (comma = left.find(',')) != std::string::npos; left.erase(0, comma + 1)) {
+    const std::string path = trimmed(left.substr(0, comma));
+    if (path.empty()) throw UsageError(option + ": found an empty key between commas");
+    varied.push_back(
+        {path, first.empty() ? distribution : distribution + " as " + first, {}, sample_group, true});
+    if (first.empty()) first = path;
+  }
+}
+
 using Generator = std::unique_ptr<gsl_rng, void (*)(gsl_rng*)>;
 using Sobol = std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)>;
 
@@ -101,6 +115,7 @@ double inner(double u) { return std::min(std::max(u, 0x1p-54), 1.0 - 0x1p-53); }
 std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec) {
   std::vector<Vary> varied;
   std::vector<Inverse> inverses;
+  std::vector<std::size_t> draw_of;  // of a key: keys of one text share their draw
   for (const std::string& text : texts) {
     const std::string option = "--sample " + text;
     if (!is_plain_text(text))
@@ -108,36 +123,41 @@ std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const Samp
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw UsageError(option + ": expected PATH=DISTRIBUTION, such as contacts.*.friction=normal(0.4,0.05)");
-    varied.push_back({text.substr(0, equals), text.substr(equals + 1), {}, sample_group, true});
-    inverses.push_back(parse_distribution(varied.back().text, option));
+    const std::string distribution = text.substr(equals + 1);
+    inverses.push_back(parse_distribution(distribution, option));
+    add_keys(text.substr(0, equals), distribution, option, varied);
+    draw_of.resize(varied.size(), inverses.size() - 1);
   }
   if (varied.empty()) return varied;
   if (spec.count < 1 || spec.count > most_samples)
     throw UsageError(fmt::format("--samples {}: expected 1 to {}", spec.count, most_samples));
-  if (spec.sequence == Sequence::sobol && varied.size() > most_sobol_keys)
-    throw UsageError(fmt::format("--sequence sobol: found {} sampled keys, expected at most {}",
-                                 varied.size(), most_sobol_keys));
+  if (spec.sequence == Sequence::sobol && inverses.size() > most_sobol_keys)
+    throw UsageError(fmt::format("--sequence sobol: found {} sampled values, expected at most {}",
+                                 inverses.size(), most_sobol_keys));
   const Generator random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
   gsl_rng_set(random.get(), spec.seed);
-  const std::size_t keys = varied.size();
-  std::vector<double> shift(keys), point(keys);
+  const std::size_t draws = inverses.size();
+  std::vector<double> shift(draws), point(draws);
   const Sobol sobol(spec.sequence == Sequence::sobol
-                        ? gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(keys))
+                        ? gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(draws))
                         : nullptr,
                     gsl_qrng_free);
   if (sobol)
     for (double& s : shift) s = gsl_rng_uniform(random.get());
   for (std::size_t i = 0; i < spec.count; ++i) {
     if (sobol) (void)gsl_qrng_get(sobol.get(), point.data());
-    for (std::size_t j = 0; j < keys; ++j) {
-      const double u = sobol ? std::fmod(point[j] + shift[j], 1.0) : gsl_rng_uniform(random.get());
+    for (std::size_t j = 0; j < draws; ++j)
+      if (!sobol) point[j] = gsl_rng_uniform(random.get());
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+      const std::size_t j = draw_of[k];
+      const double u = sobol ? std::fmod(point[j] + shift[j], 1.0) : point[j];
       const double value = inverses[j](inner(u));
       if (!std::isfinite(value))
         throw UsageError(
             fmt::format("--sample {}={}: draw {} is no finite number, expected a distribution "
                         "within the range of numbers",
-                        varied[j].path, varied[j].text, i + 1));
-      varied[j].values.push_back(shortest(value));
+                        varied[k].path, varied[k].text, i + 1));
+      varied[k].values.push_back(shortest(value));
     }
   }
   return varied;

@@ -6,11 +6,11 @@
 //   uniform(0.3, 0.5)        from, to
 //   triangular(0.3, 0.35, 0.5)   least, most likely, greatest
 //
-//   x_ij = F_j^-1(u_ij)      row i, key j
-//   random   u from the Mersenne twister of the seed, key by key, row by row
+//   x_ij = F_j^-1(u_ij)      row i, draw j, which one key or several have
+//   random   u from the Mersenne twister of the seed, draw by draw, row by row
 //   sobol    point i of Sobol's sequence, shifted by one vector of such draws, modulo 1
 //
-// Row i depends on the seed, i and the number of keys alone: more samples leave the earlier ones as they are,
+// Row i depends on the seed, i and the number of draws a row alone: more samples leave the earlier ones as they are,
 // and shares, resumed sweeps and other machines draw the same. Source of both sequences: GSL.
 #pragma once
 
@@ -26,7 +26,8 @@ struct SampleSpec {
   Sequence sequence = Sequence::random;
 };
 
-/// One a text PATH=DISTRIBUTION, with `count` values each, all in one group. Errors: UsageError.
+/// One a key of texts PATH,PATH,...=DISTRIBUTION, with `count` values each, all in one group; keys of one text have the
+/// same values. Errors: UsageError.
 [[nodiscard]] std::vector<Vary> draw_samples(const std::vector<std::string>& texts, const SampleSpec& spec);
 
 }  // namespace signorini

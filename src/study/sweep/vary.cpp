@@ -85,6 +85,33 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   return values;
 }
 
+/// A round step that leads from one number to the other in about four: 1, 2 or 5 times a power of ten.
+double round_step(double from, double to) {
+  const double quarter = 0.25 * std::abs(to - from);
+  if (!(quarter > 0.0)) return 1.0;
+  const double ten = std::pow(10.0, std::floor(std::log10(quarter) + 1e-9));
+  const double digit = quarter / ten;
+  const double step = (digit < 1.5 ? 1.0 : digit < 3.5 ? 2.0 : digit < 7.5 ? 5.0 : 10.0) * ten;
+  return to < from ? -step : step;
+}
+
+/// "0.1:0.5:0.1" of the ends 0.1 and 0.5.
+std::string example_of(const std::string& from, const std::string& to) {
+  return fmt::format("{}:{}:{:.3g}", from, to, round_step(*parse_number(from), *parse_number(to)));
+}
+
+/// Refuses 0.1-0.5 and 0.1..0.5: in no key is that a value, and it is how ranges are often written.
+void refuse_other_ranges(const std::string& option, const std::string& value) {
+  for (const char* between : {"..", "-", " to "}) {
+    for (std::size_t at = value.find(between, 1); at != std::string::npos; at = value.find(between, at + 1)) {
+      const std::string from = value.substr(0, at), to = value.substr(at + std::string_view(between).size());
+      if (parse_number(from) && parse_number(to))
+        throw UsageError(fmt::format("{}: found \"{}\", expected start:stop:step, such as {}", option, value,
+                                     example_of(from, to)));
+    }
+  }
+}
+
 }  // namespace
 
 Vary parse_vary(const std::string& text) {
@@ -101,13 +128,14 @@ Vary parse_vary(const std::string& text) {
   }
   if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(),
                                       [](const std::string& p) { return parse_number(p).has_value(); }))
-    throw UsageError(
-        fmt::format("{}: found {} numbers between colons, expected start:stop:step", option, parts.size()));
+    throw UsageError(fmt::format("{}: found {} numbers between colons, expected start:stop:step, such as {}",
+                                 option, parts.size(), example_of(parts[0], parts[1])));
   vary.values = split(vary.text, ',');
   for (std::string& value : vary.values) {
     const std::size_t first = value.find_first_not_of(' ');
     if (first == std::string::npos) throw UsageError(option + ": found an empty value between commas");
     value = value.substr(first, value.find_last_not_of(' ') - first + 1);
+    refuse_other_ranges(option, value);
   }
   return vary;
 }

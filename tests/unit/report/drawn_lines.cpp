@@ -21,7 +21,8 @@ TEST_SUITE("unit/report/drawn_lines") {
 
   TEST_CASE("drawn lines: a beam of the page is the beam of the pictures") {
     const Frame::Element beam{"beam", {1.0, 2.0, 0.03, -0.04, 0.11}, {4.0, -1.0, 0.01, 0.05, -0.07}};
-    for (const Json& row : shapes_json()[1]) {
+    const Json shapes = shapes_json();  // a name: what is looped over must outlive the loop
+    for (const Json& row : shapes[1]) {
       const double s = row[0].get<double>();
       const FrameEnd expected = between(beam, s), p = between(beam.a, beam.b, s, across_of(row));
       CHECK(p.ux == expected.ux);

@@ -75,14 +75,14 @@ TEST_SUITE("unit/report/paraview") {
     CHECK(numbers(vtu_frame(data, 0.999), "state")[4] == 0);
   }
 
-  TEST_CASE("paraview: times at equal distances, and those of events as long as they are few") {
+  TEST_CASE("paraview: as many times as asked for, at equal distances; those of events where asked for") {
     const Json data = two_nodes();
-    CHECK(frame_times(data, 2, 10) == std::vector<double>{0.0, 1.0, 2.0});
-    CHECK(frame_times(data, 3, 10) == std::vector<double>{0.0, 1.0, 2.0});
-    CHECK(frame_times(data, 2, 2) == std::vector<double>{0.0, 2.0});
-    CHECK(frame_times(data, 1, 1) == std::vector<double>{0.0});
-    CHECK(
-        frame_times(parse_json(std::string(R"({"curve": {"times": [], "columns": []}, "events": []})")), 5, 9)
-            .empty());
+    CHECK(frame_times(data, 2, false) == std::vector<double>{0.0, 2.0});
+    CHECK(frame_times(data, 2, true) == std::vector<double>{0.0, 1.0, 2.0});
+    CHECK(frame_times(data, 3, true) == std::vector<double>{0.0, 1.0, 2.0});
+    CHECK(frame_times(data, 1, false) == std::vector<double>{0.0});
+    CHECK(frame_times(parse_json(std::string(R"({"curve": {"times": [], "columns": []}, "events": []})")), 5,
+                      true)
+              .empty());
   }
 }

@@ -48,7 +48,10 @@ struct GmshContent {
 
   [[nodiscard]] std::string name(int dimension, long tag) const {
     const auto known = names.find({dimension, tag});
-    return known != names.end() ? known->second : std::to_string(tag);
+    if (known != names.end()) return known->second;
+    constexpr std::array kinds = {"point", "curve", "surface", "volume"};
+    return kinds[static_cast<std::size_t>(dimension)] +
+           std::to_string(tag);  // a number alone is that of a node
   }
 };
 
@@ -96,7 +99,11 @@ class GmshReader {
     for (long n = words_.count("the number of names"); n > 0; --n) {
       const auto dimension = static_cast<int>(words_.integer("a dimension"));
       const long tag = words_.integer("a physical tag");
-      content_.names[{dimension, tag}] = words_.quoted("the name of a physical group");
+      std::string name = words_.quoted("the name of a physical group");
+      if (dimension < 2 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
+        words_.fail(fmt::format(
+            "found a physical group named \"{}\", expected more than digits: numbers are nodes", name));
+      content_.names[{dimension, tag}] = std::move(name);
     }
   }
 
@@ -225,6 +232,7 @@ class BodyBuilder {
     find_edges();
     for (const RawElement& raw : content_.elements)
       if (raw.type->dimension < 2) add_to_groups(raw);
+    check_boundaries();
     return std::move(mesh_);
   }
 
@@ -285,7 +293,8 @@ class BodyBuilder {
     for (const PlaneMesh::Element& element : mesh_.elements)
       for (std::size_t i = 0; i < corner_count(element.shape); ++i) {
         std::vector<int> nodes = edge_nodes(element, i);
-        edges_.emplace(std::minmax(nodes[0], nodes[1]), std::move(nodes));
+        const auto ends = std::minmax(nodes[0], nodes[1]);
+        ++edges_.try_emplace(ends, SharedEdge{std::move(nodes), 0}).first->second.elements;
       }
   }
 
@@ -302,27 +311,48 @@ class BodyBuilder {
       if (own < 0) return;  // of another body
       nodes.push_back(own);
     }
-    const PlaneMesh::Edge* edge = nullptr;
-    PlaneMesh::Edge oriented;
+    const SharedEdge* edge = nullptr;
     if (raw.type->dimension == 1) {
       const auto found = edges_.find(std::minmax(nodes[0], nodes[1]));
       if (found == edges_.end()) return;
-      oriented.nodes = found->second;
-      edge = &oriented;
+      edge = &found->second;
     }
     for (const long tag : raw.physical) {
-      PlaneMesh::Group& g = group(content_.name(raw.type->dimension, tag));
-      if (edge) g.edges.push_back(*edge);
+      const std::string name = content_.name(raw.type->dimension, tag);
+      PlaneMesh::Group& g = group(name);
+      if (edge && edge->elements > 1)
+        inside_.try_emplace(name, &raw);
+      else if (edge && taken_.insert({name, edge}).second)  // version 2 repeats the lines of two groups
+        g.edges.push_back({edge->nodes});
       for (const int n : edge ? edge->nodes : nodes)
-        if (std::find(g.nodes.begin(), g.nodes.end(), n) == g.nodes.end()) g.nodes.push_back(n);
+        if (in_group_.insert({name, n}).second) g.nodes.push_back(n);
     }
+  }
+
+  /// A curve in the inside of a body is a set of nodes: it has the body on both sides.
+  void check_boundaries() const {
+    for (const PlaneMesh::Group& g : mesh_.groups)
+      if (const auto inside = inside_.find(g.name); !g.edges.empty() && inside != inside_.end())
+        throw SceneError(
+            inside->second->place, key_,
+            fmt::format("line {} of the physical curve \"{}\" has elements on both sides, other lines "
+                        "of it bound the body: give the two parts groups of their own",
+                        inside->second->number, g.name));
   }
 
   const GmshContent& content_;
   const std::string &file_, &key_;
   std::vector<int> index_;
   PlaneMesh mesh_;
-  std::map<std::pair<int, int>, std::vector<int>> edges_;
+  /// By its ends: the nodes, with an element to their left, and how many elements have it.
+  struct SharedEdge {
+    std::vector<int> nodes;
+    int elements = 0;
+  };
+  std::map<std::pair<int, int>, SharedEdge> edges_;
+  std::set<std::pair<std::string, const SharedEdge*>> taken_;
+  std::set<std::pair<std::string, int>> in_group_;
+  std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside of the body
 };
 
 /// The least determinant at nodes and points of integration, and the greatest.

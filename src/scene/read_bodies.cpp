@@ -144,6 +144,8 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
       points.fail(entry.name, fmt::format("no node is at this place, the nearest is {} at [{:.9g}, {:.9g}]: "
                                           "expected the place of a node",
                                           nearest.name, nearest.x, nearest.y));
+    if (!nearest.of_mesh)
+      points.fail(entry.name, fmt::format("the node at this place is called \"{}\" already", nearest.name));
     if (!names.add(entry.name))
       points.fail(entry.name, fmt::format("node \"{}\" is there already", entry.name));
     nearest.name = entry.name;

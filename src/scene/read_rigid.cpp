@@ -49,6 +49,9 @@ void read_rigid(Table& top, Scene& scene, RecordedScene& record) {
     RigidBody body;
     body.name = table.text("name");
     if (!bodies.add(body.name)) table.fail("name", fmt::format("found \"{}\" twice", body.name));
+    for (const BodySpec& other : scene.bodies)
+      if (other.name == body.name)
+        table.fail("name", fmt::format("found \"{}\", which one of [[bodies]] is called", body.name));
     table.require("nodes", "");
     body.place = table.place("nodes");
     body.nodes = read_node_names(table, "nodes", space);

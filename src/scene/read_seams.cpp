@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/listed.hpp"
 #include "base/number.hpp"
@@ -75,6 +76,20 @@ std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& 
   return names;
 }
 
+/// A node of both boundaries, the tip of a crack, never opens and is no contact.
+void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) {
+  std::set<int> master;
+  for (const MortarNode& k : seam.nodes)
+    for (const auto& [node, weight] : k.master) master.insert(node);
+  const std::string first = scene.nodes[static_cast<std::size_t>(seam.nodes.front().node)].name;
+  std::erase_if(seam.nodes, [&](const MortarNode& k) { return master.contains(k.node); });
+  if (seam.nodes.empty())
+    table.fail("master",
+               fmt::format("node {} and all others belong to both boundaries: expected meshes that share no "
+                           "nodes there, but for the tip of a crack",
+                           first));
+}
+
 /// The mortar of a table, checked.
 MortarSeam read_mortar(Table& table, const BoundaryRef& slave, const Scene& scene) {
   const PlaceOf place = [&](int n) {
@@ -109,17 +124,8 @@ MortarSeam read_mortar(Table& table, const BoundaryRef& slave, const Scene& scen
                            "seam of its own",
                            listed(mesh_names(seam.corners, scene), 3)));
   if (seam.nodes.empty()) table.fail("master", "it faces no part of the slave boundary");
+  leave_out_shared(table, scene, seam);
   return seam;
-}
-
-void check_own_nodes(const Table& table, const MortarSeam& mortar, const Scene& scene) {
-  for (const MortarNode& k : mortar.nodes)
-    for (const auto& [node, weight] : k.master)
-      if (node == k.node)
-        table.fail(
-            "master",
-            fmt::format("node {} belongs to both boundaries: expected meshes that share no nodes there",
-                        scene.nodes[static_cast<std::size_t>(node)].name));
 }
 
 ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness, const Scene& scene) {
@@ -154,7 +160,6 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
                  fmt::format("found \"{}\" twice, expected each seam to have its own name", seam.name));
     const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
     const MortarSeam mortar = read_mortar(table, slave, scene);
-    check_own_nodes(table, mortar, scene);
     const SeamLaw law = read_seam_law(table, scene);
     BodySpec& body = scene.bodies[slave.body];
     seam.thickness = body.thickness;

@@ -41,6 +41,7 @@ inline void shift(Scene& scene, double t) {
     earlier(member.temperature);
     earlier(member.initial_strain);
   }
+  for (BodySpec& body : scene.bodies) earlier(body.temperature);
   for (Support& support : scene.supports)
     if (support.motion) earlier(*support.motion);
   for (ContactSpec& contact : scene.contacts) {

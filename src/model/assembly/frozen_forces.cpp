@@ -107,14 +107,21 @@ class Gathering {
     }
   }
 
+  [[nodiscard]] std::string element_owner(int member) const {
+    const auto i = static_cast<std::size_t>(member);
+    return i < scene_.members.size()
+               ? fmt::format("members.{}", i + 1)
+               : fmt::format("body '{}'", scene_.bodies[i - scene_.members.size()].name);
+  }
+
   FrozenForces::Element element(std::size_t i) {
     const FiniteElement& e = map_.mesh.element(i);
     if (!e.has_geometric())
       throw SceneError(
           scene_.run.geometric_place, "run.geometric",
-          fmt::format("the elements of members.{} have no stiffness of static forces: expected a "
-                      "structure of beams and bars",
-                      e.member() + 1));
+          fmt::format(
+              "the elements of {} have no stiffness of static forces: expected a structure of beams and bars",
+              element_owner(e.member())));
     const PlaneVector& load = uniform_[i];
     add_to_nodes(e, e.spread({load[0] + e.density() * pull_[0], load[1] + e.density() * pull_[1]}));
     FrozenForces::Element result{map_.mesh.node(e.nodes().front()).name,

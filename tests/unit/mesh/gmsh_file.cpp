@@ -139,6 +139,41 @@ TEST_CASE("versions 4.1 and 2.2: nodes, elements, groups by name, edges with the
   }
 }
 
+TEST_CASE("groups without a name are called by kind and tag, so that nodes keep their numbers") {
+  const std::string unnamed = changed(old_file, "\n4\n0 9 \"tip\"\n1 3 \"foot\"", "\n2");
+  const PlaneMesh mesh = read_text(unnamed);
+  REQUIRE(mesh.groups.size() == 2);
+  CHECK(mesh.groups[0].name == "point9");
+  CHECK(mesh.groups[1].name == "curve3");
+  check_refused(changed(old_file, "\"foot\"", "\"13\""),
+                "m.msh:7: bodies.b.mesh: found a physical group named \"13\"");
+}
+
+TEST_CASE("a line that stands twice counts once, one inside of the body has nodes and no edges") {
+  const std::string twice = changed(changed(old_file, "$Elements\n6", "$Elements\n7"), "2 1 2 3 1 11 10\n",
+                                    "2 1 2 3 1 11 10\n9 1 2 3 1 10 11\n");
+  const PlaneMesh once = read_text(twice);
+  for (const auto& g : once.groups)
+    if (g.name == "foot") CHECK(g.edges.size() == 2);
+  // 11 to 12 lies between the square and a triangle.
+  const std::string inside = changed(changed(old_file, "$Elements\n6", "$Elements\n7"), "2 1 2 3 1 11 10\n",
+                                     "2 1 2 3 1 11 10\n9 1 2 4 1 12 11\n");
+  const PlaneMesh mesh = read_text(inside);
+  bool found = false;
+  for (const auto& g : mesh.groups) {
+    if (g.name != "curve4") continue;
+    found = true;
+    CHECK(g.edges.empty());
+    CHECK(g.nodes.size() == 2);
+  }
+  CHECK(found);
+  check_refused(changed(inside, "9 1 2 4 1 12 11", "9 1 2 3 1 12 11"),
+                "m.msh:24: bodies.b.mesh: line 9 of the physical curve \"foot\" has elements on both sides");
+  // Of the square alone it is a boundary.
+  for (const auto& g : read_text(inside, {"steel"}).groups)
+    if (g.name == "curve4") CHECK(g.edges.size() == 1);
+}
+
 TEST_CASE("a body of one surface has its nodes and its part of the groups alone") {
   const PlaneMesh mesh = read_text(new_file, {"steel"});
   CHECK(mesh.nodes.size() == 4);

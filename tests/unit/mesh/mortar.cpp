@@ -122,6 +122,31 @@ TEST_CASE("a partly covered edge: its rows carry the covered length alone") {
 }
 
 TEST_CASE(
+    "an edge that is covered by rounding alone carries nothing; nodes that nearly meet keep all of their "
+    "length") {
+  Line line;
+  line.add_side({0.0, 1.0, 2.0}, true, false);
+  line.add_side({-1.0, 1.000001}, false, false);
+  const MortarSeam ended = line.seam();
+  REQUIRE(ended.nodes.size() == 2);
+  CHECK(ended.nodes[1].length == doctest::Approx(0.5).epsilon(1e-14));
+  Line near;
+  near.add_side({0.0, 1.0, 2.0}, true, false);  // 0, 1, 2
+  near.add_side({0.0, 1.0000001, 2.0}, false, false);
+  const MortarSeam seam = near.seam();
+  REQUIRE(seam.nodes.size() == 3);
+  double total = 0.0;
+  std::vector<double> force(near.at.size(), 0.0);
+  for (const MortarNode& k : seam.nodes) {
+    total += k.length;
+    for (const auto& [l, w] : k.master) force[static_cast<std::size_t>(l)] += w * k.length;
+  }
+  CHECK(total == doctest::Approx(2.0).epsilon(1e-14));
+  CHECK(force[3] == doctest::Approx(0.50000005).epsilon(1e-12));
+  CHECK(force[4] == doctest::Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE(
     "arcs that do not match: gaps shrink with the square of the elements, of quadratic ones by the fourth "
     "power") {
   const auto worst_gap = [](PlaneShape shape, int n) {

@@ -11,6 +11,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/modes/growth.hpp"
 #include "model/reduce/kept_modes.hpp"
+#include "model/reduce/rayleigh.hpp"
 #include "model/reduce/static_shapes.hpp"
 #include "model/statics/null_motions.hpp"
 
@@ -368,7 +369,13 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   } catch (const NotReducible& e) {
     refuse(scene, e.what());
   }
-  Basis b = basis_of(modes, shapes, dampers, model.alpha, model.beta);
+  SparseMatrix single = dampers;
+  if (const auto of_all = rayleigh_factors(dampers, model.mass, model.stiffness); scene.matrices && of_all) {
+    model.alpha = of_all->alpha;
+    model.beta = of_all->beta;
+    single.setZero();
+  }
+  Basis b = basis_of(modes, shapes, single, model.alpha, model.beta);
   if (b.heavy == 0) refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise it");
   scale(model, b);
 

@@ -9,6 +9,7 @@
 #include "cli/table.hpp"
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
+#include "mesh/mesh_quality.hpp"
 #include "model/outputs/hangers.hpp"
 #include "run/expected.hpp"
 
@@ -79,6 +80,28 @@ std::string body_lines(const Scene& scene) {
       text += fmt::format(", mass {} {}, inertia {} {} {}^2", number(mass->mass), scene.units.mass,
                           number(mass->inertia), scene.units.mass, scene.units.length);
     text += "\n";
+  }
+  return text;
+}
+
+/// Two lines a mesh.
+std::string mesh_lines(const Scene& scene) {
+  std::string text;
+  const PlaceOf place = [&](int n) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(n)];
+    return PlanePoint{node.x, node.y};
+  };
+  for (const BodySpec& body : scene.bodies) {
+    const MeshQuality q = quality_of(body.mesh.elements, place);
+    text += fmt::format("body '{}': {}, {}, plane {}\n", body.name,
+                        count(static_cast<long>(body.node_count), "node", "nodes"),
+                        count(static_cast<long>(body.mesh.elements.size()), "element", "elements"),
+                        body.strain ? "strain" : "stress");
+    text += fmt::format(
+        "      angles from {:.3g} degrees (element {}) to {:.3g} (element {}), edges of one element up to "
+        "1 : {:.3g} (element {})\n",
+        q.least_angle.value, q.least_angle.element, q.greatest_angle.value, q.greatest_angle.element,
+        q.aspect.value, q.aspect.element);
   }
   return text;
 }
@@ -317,10 +340,11 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
 }  // namespace
 
 std::string check_text(const Scene& scene, const Model& model, const CheckReport& report) {
-  return head(scene, model, report) + body_lines(scene) + "\n" + contact_rows(model, report) +
-         hanger_rows(model) + warning_lines(report) + free_motion_lines(report) +
-         frequency_rows(model, report) + load_factor_lines(report) + stiffness_rows(model, report) +
-         load_rows(model, report) + reduction_lines(model) + cost_lines(scene, model, report);
+  return head(scene, model, report) + body_lines(scene) + mesh_lines(scene) + "\n" +
+         contact_rows(model, report) + hanger_rows(model) + warning_lines(report) +
+         free_motion_lines(report) + frequency_rows(model, report) + load_factor_lines(report) +
+         stiffness_rows(model, report) + load_rows(model, report) + reduction_lines(model) +
+         cost_lines(scene, model, report);
 }
 
 std::string column_text(const Model& model) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/thinned.hpp"
+#include "mesh/plane_shapes.hpp"
 #include "model/element/element_kinds.hpp"
 #include "report/drawn_lines.hpp"
 #include "result/csv_read.hpp"
@@ -155,6 +156,7 @@ class Places {
     }
     for (const Node& node : scene.nodes)
       add(node.name, {{"name", node.name},
+                      {"mesh", node.of_mesh},
                       {"x", number(node.x)},
                       {"y", number(node.y)},
                       {"u",
@@ -194,6 +196,30 @@ Json pieces_json(const Scene& scene, const Places& places) {
       pieces.push_back(
           {{"a", places.of(from)}, {"b", places.of(to)}, {"bar", true}, {"rigid", true}, {"shape", 0}});
   return pieces;
+}
+
+/// Edges of the elements of bodies as pairs of nodes; of large meshes the boundaries alone.
+Json mesh_json(const Scene& scene) {
+  constexpr std::size_t most_edges = 6000;
+  struct Drawn {
+    std::vector<int> nodes;
+    int elements = 0;
+  };
+  std::map<std::pair<int, int>, Drawn> edges;
+  for (const BodySpec& body : scene.bodies)
+    for (const PlaneMesh::Element& e : body.mesh.elements)
+      for (std::size_t i = 0; i < corner_count(e.shape); ++i) {
+        std::vector<int> nodes = edge_nodes(e, i);
+        ++edges.try_emplace(std::minmax(nodes[0], nodes[1]), Drawn{nodes, 0}).first->second.elements;
+      }
+  Json mesh = Json::array();
+  for (const auto& [ends, edge] : edges) {
+    if (edges.size() > most_edges && edge.elements > 1) continue;
+    const bool middle = edge.nodes.size() == 3;
+    mesh.push_back({edge.nodes[0], edge.nodes[middle ? 2 : 1]});
+    if (middle) mesh.push_back({edge.nodes[2], edge.nodes[1]});
+  }
+  return mesh;
 }
 
 Json springs_json(const Scene& scene, const Places& places) {
@@ -405,6 +431,7 @@ Json run_data(const Scene& scene, const fs::path& directory) {
           {"matrices", scene.matrices.has_value()},
           {"nodes", places.json()},
           {"pieces", pieces_json(scene, places)},
+          {"mesh", mesh_json(scene)},
           {"shapes", shapes_json()},
           {"magnification", magnification},
           {"springs", springs_json(scene, places)},

@@ -2,6 +2,7 @@
 //
 //   nodes   name, x, y, columns of ux, uy, rz in `curve` (-1: held, or not recorded)
 //   pieces  a, b (indices of nodes), bar, shape (index); springs, supports, loads, contacts with their directions
+//   mesh    edges of bodies, pairs of nodes; nodes[k].mesh: of a body's mesh, without a name of its own and without columns
 //   shapes, magnification: how pieces bend, how far motions are magnified (drawn_lines.hpp)
 //   curve   times: lists;   columns: t (index of its list), u;   contacts[k].motion: t, state, N, T, gap
 //   events  t, contact (index, -1 without), event, from, to

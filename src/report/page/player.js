@@ -38,6 +38,7 @@ class Player {
     const svg = this.stage.svg, still = data.nodes.map(() => [0, 0, 0]);
     const ghost = drawn("g", { class: "ghost" }, svg), g = drawn("g", {}, svg);
     this.stage.fixed(g, this.magnification);
+    if (data.mesh.length) drawn("path", { class: "mesh", d: this.stage.mesh() }, ghost);
     for (const piece of data.pieces) drawn("path", { class: "member bar", d: this.stage.piece(piece, still, 0) }, ghost);
     this.springShapes = data.springs.map(() => drawn("path", { class: "spring" }, g));
     this.touchShapes = data.contacts.map((c) => c.against.length && c.node >= 0 ? drawn("path", { class: "spring" }, g) : null);
@@ -156,6 +157,7 @@ class Player {
     put(this.bars, "d", bars);
     let dots = "";
     data.nodes.forEach((node, k) => {
+      if (node.mesh) return;
       const [x, y] = stage.place(k, u, m);
       dots += `M${x.toFixed(1)} ${y.toFixed(1)}h0`;
     });

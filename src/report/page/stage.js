@@ -147,6 +147,12 @@ class Stage {
     const node = data.nodes[spring.a], [x, y] = this.at(node.x, node.y);
     return this.zigzag(end, [x - 70 * spring.dx, y + 70 * spring.dy]);
   }
+  mesh() {  // of bodies, at rest
+    return data.mesh.map(([a, b]) => {
+      const [x, y] = this.at(data.nodes[a].x, data.nodes[a].y), [X, Y] = this.at(data.nodes[b].x, data.nodes[b].y);
+      return `M${x.toFixed(1)} ${y.toFixed(1)}L${X.toFixed(1)} ${Y.toFixed(1)}`;
+    }).join("");
+  }
   touched(contact, u, m) {
     const places = contact.against.map((k) => this.place(k, u, m));
     const [x, y] = this.place(contact.node, u, m);
@@ -160,6 +166,7 @@ class Stage {
 const placeLabels = (stage, g, labels) => {
   const taken = [], still = data.nodes.map(() => [0, 0, 0]);
   for (const node of data.nodes) {
+    if (node.mesh) continue;
     const [x, y] = stage.at(node.x, node.y);
     taken.push([x - 5, y - 5, x + 5, y + 5]);
   }
@@ -216,10 +223,12 @@ const placeLabels = (stage, g, labels) => {
 const plan = () => {
   const stage = new Stage(byId("plan")), still = data.nodes.map(() => [0, 0, 0]), g = drawn("g", {}, stage.svg);
   stage.fixed(g, 0);
+  if (data.mesh.length) drawn("path", { class: "mesh", d: stage.mesh() }, g);
   for (const spring of data.springs) drawn("path", { class: "spring", d: stage.spring(spring, still, 0) }, g);
   for (const piece of data.pieces) drawn("path", { class: piece.bar ? "member bar" : "member", d: stage.piece(piece, still, 0) }, g);
-  const few = data.nodes.length <= 40, labels = [];
+  const few = data.nodes.filter((node) => !node.mesh).length <= 40, labels = [];
   data.nodes.forEach((node, k) => {
+    if (node.mesh) return;
     const [x, y] = stage.at(node.x, node.y);
     drawn("circle", { class: "node", cx: x, cy: y, r: few ? 4 : 2 }, g);
     if (few) labels.push({ text: node.name, x, y, far: 12 });

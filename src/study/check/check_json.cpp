@@ -2,6 +2,7 @@
 
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
+#include "mesh/mesh_quality.hpp"
 #include "result/hangers_json.hpp"
 #include "result/reduction_json.hpp"
 #include "result/units_json.hpp"
@@ -27,6 +28,22 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
   json["T"] = sample.T;
   json["limit"] = -static_friction(contact) * sample.N;
   return json;
+}
+
+Json body_json(const Scene& scene, const BodySpec& body) {
+  const MeshQuality q = quality_of(body.mesh.elements, [&](int n) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(n)];
+    return PlanePoint{node.x, node.y};
+  });
+  const auto worst = [](const MeshQuality::Worst& w) {
+    return Json{{"value", w.value}, {"element", w.element}};
+  };
+  return {{"name", body.name},
+          {"nodes", body.node_count},
+          {"elements", body.mesh.elements.size()},
+          {"least_angle", worst(q.least_angle)},
+          {"greatest_angle", worst(q.greatest_angle)},
+          {"aspect", worst(q.aspect)}};
 }
 
 Json run_json(const Scene& scene, const CheckReport& report) {
@@ -69,6 +86,7 @@ std::string check_json(const Scene& scene, const Model& model, const CheckReport
                     {"weight", {m.total * scene.gravity[0], m.total * scene.gravity[1]}},
                     {"moving", {m.moving_x, m.moving_y}}};
   }
+  for (const BodySpec& body : scene.bodies) json["bodies"].push_back(body_json(scene, body));
   json["contacts"] = Json::array();
   for (std::size_t k = 0; k < report.contacts.size(); ++k)
     json["contacts"].push_back(contact_json(model.contacts[k], report.contacts[k]));

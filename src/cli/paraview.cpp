@@ -10,6 +10,7 @@
 #include "cli/plot_any.hpp"
 #include "cli/terminal.hpp"
 #include "report/page.hpp"
+#include "report/paraview_bodies.hpp"
 #include "report/run_data.hpp"
 
 namespace signorini::cli {
@@ -31,10 +32,13 @@ ExitCode write_frames(const FrameOptions& options) {
   const fs::path directory = options.directory;
   if (kind_of_results(directory) != "run") throw FileError(directory.string(), "holds no run");
   if (!complete_pictures(directory)) return ExitCode::interrupted;
-  const Json data = run_data(read_scene((directory / "run.toml").string()), directory);
+  const Scene scene = read_scene((directory / "run.toml").string());
+  const Json data = run_data(scene, directory);
   const auto count = static_cast<std::size_t>(options.count);
   const std::vector<double> times = frame_times(data, count, options.events);
-  print(write_paraview(directory, data, times).string() + "\n");
+  std::string written = write_paraview(directory, data, times).string() + "\n";
+  if (const auto bodies = write_paraview_bodies(directory, scene)) written += bodies->string() + "\n";
+  print(written);
   return ExitCode::done;
 }
 

@@ -79,7 +79,9 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
   const std::string tables =
       stacked({support_table(model, report), response_table(model, report), start_table(model), events,
                contact_table(model, report), closing(scene.run, model, report)});
-  const std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
+  std::string frames = scene.run.frames.empty() ? "" : "frames.csv, frame_contacts.csv, ";
+  if (!frames.empty() && !scene.bodies.empty()) frames += "frame_bodies.csv, ";
+  if (!frames.empty() && !scene.seams.empty()) frames += "frame_seams.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
          reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/output_directory.hpp"
+#include "result/body_frames.hpp"
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
@@ -27,11 +28,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 19> run_files = {
-    "events.csv",   "history.csv", "errors.csv", "contacts.csv", "motion.csv",
-    "curves.csv",   "loads.csv",   "energy.csv", "frames.csv",   "frame_contacts.csv",
-    "summary.json", "run.toml",    "states.csv", "report.html",  "response.csv",
-    "instants.csv", "orbit.json",  "seams.csv",  frozen_file};
+constexpr std::array<std::string_view, 21> run_files = {
+    "events.csv",       "history.csv",     "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
+    "loads.csv",        "energy.csv",      "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
+    "states.csv",       "report.html",     "response.csv", "instants.csv",       "orbit.json",   "seams.csv",
+    "frame_bodies.csv", "frame_seams.csv", frozen_file};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -83,6 +84,7 @@ struct RunDirectory::Writers {
   std::optional<TableFile<ResponseRow>> response;
   std::optional<TableFile<SeamRow>> seams;
   std::unique_ptr<FrameWriter> frames;
+  std::unique_ptr<BodyFrameWriter> body_frames;
   std::unique_ptr<StateWriter> states;
   std::unique_ptr<PictureTables> pictures;
   std::unique_ptr<InstantWriter> instants;
@@ -146,6 +148,10 @@ void RunDirectory::frame(const Sample& sample) {
   Writers& w = writers();
   if (!w.frames) w.frames = std::make_unique<FrameWriter>(path_, model_);
   w.frames->write(sample);
+  if (!scene_.bodies.empty()) {
+    if (!w.body_frames) w.body_frames = std::make_unique<BodyFrameWriter>(path_, scene_, model_);
+    w.body_frames->write(sample);
+  }
   keep_state(sample);
 }
 

@@ -205,8 +205,7 @@ struct SupportMotion {
   bool turns = false;
   History s;
 };
-SupportMotion support_motion(const Scene& scene, const DofMap& map, std::size_t i) {
-  const Support& support = scene.supports[map.supports[i]];
+SupportMotion support_motion(const Scene& scene, const Support& support) {
   const PlaneComponent& component = plane_components[support.ux ? 0 : support.uy ? 1 : 2];
   SupportMotion moving{fmt::format("support {}.{}", support.node, component.displacement),
                        support.key + (support.motion_is_acceleration ? ".acceleration" : ".motion"),
@@ -235,7 +234,7 @@ void add_support_load(const SupportMotion& moving, const char* what, const Vecto
 
 void add_supports(const Scene& scene, const DofMap& map, const Assembly& assembly, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < map.supports.size(); ++i) {
-    const SupportMotion moving = support_motion(scene, map, i);
+    const SupportMotion moving = support_motion(scene, scene.supports[map.supports[i]]);
     add_support_load(moving, "", assembly.moving[i].stiffness, moving.s, 0, loads);
   }
 }
@@ -243,7 +242,11 @@ void add_supports(const Scene& scene, const DofMap& map, const Assembly& assembl
 }  // namespace
 
 History motion_of_support(const Scene& scene, const DofMap& map, int i) {
-  return support_motion(scene, map, static_cast<std::size_t>(i)).s;
+  return motion_of_support(scene, scene.supports[map.supports[static_cast<std::size_t>(i)]]);
+}
+
+History motion_of_support(const Scene& scene, const Support& support) {
+  return support_motion(scene, support).s;
 }
 
 std::vector<NodeForce> traction_forces(const Scene& scene, const Mesh& mesh, const LoadSpec& spec) {
@@ -322,7 +325,7 @@ void add_geometric_supports(const Scene& scene, const DofMap& map, const std::ve
                             std::vector<Load>& loads) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].isZero(0.0)) continue;
-    const SupportMotion moving = support_motion(scene, map, i);
+    const SupportMotion moving = support_motion(scene, scene.supports[map.supports[i]]);
     const auto known = std::find_if(loads.begin(), loads.end(), [&](const Load& load) {
       return load.kind == LoadKind::support && load.name == moving.name;
     });
@@ -339,7 +342,7 @@ void add_geometric_supports(const Scene& scene, const DofMap& map, const std::ve
 void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& assembly, double alpha,
                        double beta, std::vector<Load>& loads) {
   for (std::size_t i = 0; i < map.supports.size(); ++i) {
-    const SupportMotion moving = support_motion(scene, map, i);
+    const SupportMotion moving = support_motion(scene, scene.supports[map.supports[i]]);
     const SupportColumns& columns = assembly.moving[i];
     const Vector damping = columns.dampers + alpha * columns.mass + beta * columns.stiffness;
     const bool moves_mass = !columns.mass.isZero(0.0);

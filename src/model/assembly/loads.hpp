@@ -42,6 +42,8 @@ struct NodeForce {
 
 /// What support i of DofMap::supports follows, from where it was in a run that goes on.
 [[nodiscard]] History motion_of_support(const Scene& scene, const DofMap& map, int i);
+/// The same of one of Scene::supports that moves.
+[[nodiscard]] History motion_of_support(const Scene& scene, const Support& support);
 
 /// Appends what the velocities and accelerations of supports add, once the damping is known. Errors:
 /// SceneError for a motion that jumps or has a kink where dampers or masses would answer with an impulse.

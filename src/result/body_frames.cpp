@@ -1,0 +1,132 @@
+#include "result/body_frames.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "model/assembly/loads.hpp"
+#include "model/element/nodal_stress.hpp"
+#include "scene/history_from_spec.hpp"
+
+namespace signorini {
+
+const CsvTable<BodyFrameRow>& body_frame_table() {
+  using R = BodyFrameRow;
+  static const CsvTable<R> table = {
+      {"t", &R::t},
+      {"body", [](const R& r) { return std::string_view(r.body); }},
+      {"node", [](const R& r) { return std::string_view(r.node.name); }},
+      {"x", [](const R& r) { return r.node.x; }},
+      {"y", [](const R& r) { return r.node.y; }},
+      {"ux", [](const R& r) { return r.u[0]; }},
+      {"uy", [](const R& r) { return r.u[1]; }},
+      {"xx", [](const R& r) { return r.stress[0]; }},
+      {"yy", [](const R& r) { return r.stress[1]; }},
+      {"xy", [](const R& r) { return r.stress[2]; }},
+      {"mises", &R::mises},
+  };
+  return table;
+}
+
+const CsvTable<SeamFrameRow>& seam_frame_table() {
+  using R = SeamFrameRow;
+  static const CsvTable<R> table = {
+      {"t", &R::t},
+      {"seam", [](const R& r) { return std::string_view(r.seam); }},
+      {"contact", [](const R& r) { return std::string_view(r.contact); }},
+      {"node", [](const R& r) { return std::string_view(r.node.name); }},
+      {"s", &R::s},
+      {"x", [](const R& r) { return r.node.x; }},
+      {"y", [](const R& r) { return r.node.y; }},
+      {"pressure", [](const R& r) { return is_open(r.sample.state) ? 0.0 : -r.sample.N / r.area; }},
+      {"shear", [](const R& r) { return r.sample.T / r.area; }},
+      {"opening", [](const R& r) { return r.sample.gap; }},
+      {"slip", [](const R& r) { return r.sample.slip; }},
+      {"state", [](const R& r) { return to_string(r.sample.state); }},
+  };
+  return table;
+}
+
+std::vector<SeamFrameRow> seam_frame(const Scene& scene, const SeamSpec& seam, double t,
+                                     const std::vector<ContactSample>& contacts) {
+  std::vector<SeamFrameRow> rows;
+  double s = 0.0;
+  const Node* before = nullptr;
+  for (std::size_t i = 0; i < seam.nodes.size(); ++i) {
+    const SeamNode& k = seam.nodes[i];
+    const Node& node = scene.nodes[static_cast<std::size_t>(k.node)];
+    if (before) s += std::hypot(node.x - before->x, node.y - before->y);
+    before = &node;
+    const std::size_t contact = seam.first_contact + i;
+    rows.push_back(
+        {t, seam.name, scene.contacts[contact].name, node, s, k.length * seam.thickness, contacts[contact]});
+  }
+  return rows;
+}
+
+BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const Scene& scene,
+                                 const Model& model)
+    : scene_(scene),
+      beta_(model.beta),
+      movers_(scene.nodes.size()),
+      bodies_(directory / "frame_bodies.csv", body_frame_table()) {
+  if (!scene.seams.empty()) seams_.emplace(directory / "frame_seams.csv", seam_frame_table());
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // the first of the drawn nodes, in the same order
+    for (const std::size_t c : {0, 1}) movers_[n][c].dof = model.drawn_nodes[n].dofs[c];
+  for (const Support& support : scene.supports) {
+    if (!support.motion || support.rz) continue;
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
+      if (scene.nodes[n].name == support.node)
+        movers_[n][support.ux ? 0 : 1].given = motion_of_support(scene, support);
+  }
+  const Mesh mesh = make_mesh(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodySpec& body = scene.bodies[i];
+    stresses_.push_back(nodal_stresses(mesh, scene, i));
+    strains_.push_back(make_history(body.temperature, fmt::format("bodies.{}.temperature", body.name))
+                           .scaled(body.thermal_expansion));
+  }
+}
+
+/// Displacements (order 0) or velocities (1) of the nodes of a body.
+Vector BodyFrameWriter::of_body(const BodySpec& body, const Sample& sample, int order) const {
+  const Vector& all = order == 0 ? *sample.u : *sample.v;
+  Vector own(static_cast<Eigen::Index>(2 * body.node_count));
+  for (std::size_t k = 0; k < body.node_count; ++k)
+    for (const std::size_t c : {0, 1}) {
+      const Mover& mover = movers_[body.first_node + k][c];
+      double value = mover.dof >= 0 ? all[mover.dof] : 0.0;
+      if (mover.given) value = mover.given->piece(sample.t).value(sample.t, order);
+      own[static_cast<Eigen::Index>(2 * k + c)] = value;
+    }
+  return own;
+}
+
+void BodyFrameWriter::write(const Sample& sample) {
+  for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+    const BodySpec& body = scene_.bodies[i];
+    const Vector u = of_body(body, sample, 0);
+    Vector strained = u;
+    if (beta_ != 0.0) strained += beta_ * of_body(body, sample, 1);
+    const Vector stresses = stresses_[i] * strained;
+    const double strain = strains_[i].value(sample.t);
+    const Eigen::Vector3d heat = strain * stress_of_heat(body);
+    for (std::size_t k = 0; k < body.node_count; ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const Eigen::Vector3d stress = stresses.segment<3>(3 * at) + heat;
+      bodies_.add({sample.t,
+                   body.name,
+                   scene_.nodes[body.first_node + k],
+                   {u[2 * at], u[2 * at + 1]},
+                   stress,
+                   mises(body, stress, strain)});
+    }
+  }
+  bodies_.flush();
+  for (const SeamSpec& seam : scene_.seams)
+    for (const SeamFrameRow& row : seam_frame(scene_, seam, sample.t, sample.contacts)) seams_->add(row);
+  if (seams_) seams_->flush();
+}
+
+}  // namespace signorini

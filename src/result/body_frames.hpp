@@ -1,0 +1,70 @@
+// body_frames.hpp: stresses of bodies and tractions of seams at chosen times (docs/output.md).
+//
+//   frame_bodies.csv  t,body,node,x,y,ux,uy,xx,yy,xy,mises                          all nodes of all bodies
+//   frame_seams.csv   t,seam,contact,node,s,x,y,pressure,shear,opening,slip,state   along the arc of each seam
+//
+//   sigma = D (B (u + beta v) - alpha T e) at the nodes (model/element/nodal_stress.hpp)
+//   pressure = -N_k / (D_k t),   shear = T_k / (D_k t),   s_k = s_(k-1) + |x_k - x_(k-1)|
+//
+// Places are undeformed; stresses and pressures: force/length^2, tension and compression positive. D_k t: the area of a
+// seam's node. opening: the gap. Files are made with the first frame. Errors: FileError.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <filesystem>
+#include <optional>
+
+#include "result/table.hpp"
+#include "signorini/result.hpp"
+#include "signorini/scene.hpp"
+
+namespace signorini {
+
+struct BodyFrameRow {
+  double t = 0.0;
+  const std::string& body;
+  const Node& node;
+  std::array<double, 2> u{0.0, 0.0};
+  Eigen::Vector3d stress;
+  double mises = 0.0;
+};
+[[nodiscard]] const CsvTable<BodyFrameRow>& body_frame_table();
+
+struct SeamFrameRow {
+  double t = 0.0;
+  const std::string& seam;
+  const std::string& contact;
+  const Node& node;
+  double s = 0.0, area = 0.0;
+  const ContactSample& sample;
+};
+[[nodiscard]] const CsvTable<SeamFrameRow>& seam_frame_table();
+
+/// The nodes of a seam at an instant, in their order.
+[[nodiscard]] std::vector<SeamFrameRow> seam_frame(const Scene& scene, const SeamSpec& seam, double t,
+                                                   const std::vector<ContactSample>& contacts);
+
+class BodyFrameWriter {
+ public:
+  /// A scene with bodies. Both must outlive it.
+  BodyFrameWriter(const std::filesystem::path& directory, const Scene& scene, const Model& model);
+  void write(const Sample& sample);
+
+ private:
+  /// What moves a node along x or y: a degree of freedom, or a support.
+  struct Mover {
+    int dof = -1;
+    std::optional<History> given = {};
+  };
+  [[nodiscard]] Vector of_body(const BodySpec& body, const Sample& sample, int order) const;
+
+  const Scene& scene_;
+  double beta_;
+  std::vector<std::array<Mover, 2>> movers_;  ///< a node of the scene
+  std::vector<History> strains_;              ///< a body: alpha T
+  std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> stresses_;
+  TableFile<BodyFrameRow> bodies_;
+  std::optional<TableFile<SeamFrameRow>> seams_;
+};
+
+}  // namespace signorini

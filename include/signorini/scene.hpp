@@ -441,8 +441,12 @@ enum class OutputKind : unsigned char {
   contact,
   combination
 };
-/// Of a member N, V, M, stress; of a contact the others, and N.
-enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress };
+/// Of a member N, V, M, stress; of a body xx, yy, xy; of a contact the others, and N.
+enum class OutputQuantity : unsigned char { none, N, V, M, T, gap, slip, loss, stress, xx, yy, xy };
+/// A component of the stress at a node of a body.
+[[nodiscard]] constexpr bool is_of_body(OutputQuantity q) {
+  return q == OutputQuantity::xx || q == OutputQuantity::yy || q == OutputQuantity::xy;
+}
 /// Of a section: where y is greatest to the left of the course from node to node, to the right, or both.
 enum class Fibre : unsigned char { both, left, right };
 
@@ -461,7 +465,9 @@ inline constexpr std::array all_output_kinds = {
     OutputKindName{OutputKind::member_force, "member_force",
                    "N, V or M of the piece of a member between two nodes, at a station"},
     OutputKindName{OutputKind::stress, "stress",
-                   "N / area +- M / modulus of the piece of a member between two nodes, at a station"},
+                   "N / area +- M / modulus of the piece of a member between two nodes, at a station; or a "
+                   "component of the "
+                   "stress at a node of a body"},
     OutputKindName{OutputKind::envelope, "envelope",
                    "greatest magnitude of N, V, M or stress along pieces of members"},
     OutputKindName{OutputKind::reaction, "reaction",
@@ -484,8 +490,8 @@ struct OutputSpec {
   std::string name;
   OutputKind kind = OutputKind::displacement;
   std::vector<std::string> at;  ///< nodes, or a contact; envelope: from each node to the next a piece
-  Direction direction;          ///< unit vector, or degrees of freedom as given
-  bool rotation = false;        ///< instead of a direction
+  Direction direction;    ///< unit vector, or degrees of freedom as given; stress of a body: the axis x of xx
+  bool rotation = false;  ///< instead of a direction
   OutputQuantity quantity = OutputQuantity::none;
   double station = 0.0;           ///< member_force, stress: from at[0], 0, to at[1], 1
   std::size_t spring = 0;         ///< index into Scene::springs

@@ -120,6 +120,27 @@ std::span<const IntegrationPoint> points_of(PlaneShape shape) {
   return square_3;
 }
 
+std::span<const StressPoint> stress_points(PlaneShape shape) {
+  static constexpr std::array<StressPoint, 1> middle = {{{1.0 / 3.0, 1.0 / 3.0}}};
+  static constexpr std::array<StressPoint, 3> triangle = {
+      {{1.0 / 6.0, 1.0 / 6.0}, {2.0 / 3.0, 1.0 / 6.0}, {1.0 / 6.0, 2.0 / 3.0}}};
+  static constexpr std::array<StressPoint, 4> square = {{{-g2, -g2}, {g2, -g2}, {g2, g2}, {-g2, g2}}};
+  if (shape == PlaneShape::t3) return middle;
+  if (shape == PlaneShape::t6) return triangle;
+  return square;
+}
+
+double extension(PlaneShape shape, std::size_t point, std::size_t node) {
+  if (shape == PlaneShape::t3) return 1.0;
+  const auto [a, b] = node_point(shape, node);
+  if (shape == PlaneShape::t6) {
+    const std::array<double, 3> L{1.0 - a - b, a, b};
+    return 2.0 * L[point] - 1.0 / 3.0;
+  }
+  const StressPoint p = stress_points(shape)[point];
+  return 0.25 * (1.0 + a * p.a / (g2 * g2)) * (1.0 + b * p.b / (g2 * g2));
+}
+
 std::array<double, 2> node_point(PlaneShape shape, std::size_t node) {
   return corner_count(shape) == 3 ? triangle_points[node] : square_points[node];
 }

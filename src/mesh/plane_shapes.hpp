@@ -37,6 +37,14 @@ struct IntegrationPoint {
 /// Exact for the mass of elements with straight edges: 3 points (t3), 6 (t6), 2 x 2 (q4), 3 x 3 (q8).
 [[nodiscard]] std::span<const IntegrationPoint> points_of(PlaneShape shape);
 
+/// Points at which stresses of an element are most accurate: its middle (t3), 3 (t6), 2 x 2 (q4, q8).
+struct StressPoint {
+  double a = 0.0, b = 0.0;
+};
+[[nodiscard]] std::span<const StressPoint> stress_points(PlaneShape shape);
+/// Factor of the value at a stress point in the (bi)linear function through all of them, at a node.
+[[nodiscard]] double extension(PlaneShape shape, std::size_t point, std::size_t node);
+
 /// Points (a, b) of the nodes.
 [[nodiscard]] std::array<double, 2> node_point(PlaneShape shape, std::size_t node);
 

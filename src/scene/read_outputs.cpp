@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/body_of_node.hpp"
 #include "scene/quantities.hpp"
 #include "scene/readers.hpp"
 #include "scene/unit_of_output.hpp"
@@ -56,9 +57,10 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
   if (!table.has("quantity")) table.fail("quantity", fmt::format("missing, expected one of {}", known));
   const std::string word = table.text("quantity");
   constexpr std::pair<const char*, OutputQuantity> words[] = {
-      {"N", OutputQuantity::N},       {"V", OutputQuantity::V},          {"M", OutputQuantity::M},
-      {"T", OutputQuantity::T},       {"gap", OutputQuantity::gap},      {"slip", OutputQuantity::slip},
-      {"loss", OutputQuantity::loss}, {"stress", OutputQuantity::stress}};
+      {"N", OutputQuantity::N},       {"V", OutputQuantity::V},           {"M", OutputQuantity::M},
+      {"T", OutputQuantity::T},       {"gap", OutputQuantity::gap},       {"slip", OutputQuantity::slip},
+      {"loss", OutputQuantity::loss}, {"stress", OutputQuantity::stress}, {"xx", OutputQuantity::xx},
+      {"yy", OutputQuantity::yy},     {"xy", OutputQuantity::xy}};
   for (const auto& [name, quantity] : words)
     if (word == name) output.quantity = quantity;
   if (std::string_view(known).find(fmt::format("\"{}\"", word)) == std::string_view::npos)
@@ -69,7 +71,7 @@ void read_quantity(Table& table, OutputSpec& output, const char* known) {
 bool sum_of_motions(const OutputSpec& output) {
   return output.kind != OutputKind::envelope &&
          !(output.kind == OutputKind::stress && output.fibre == Fibre::both &&
-           output.quantity != OutputQuantity::N);
+           output.quantity != OutputQuantity::N && !is_of_body(output.quantity));
 }
 
 void read_contact_output(Table& table, OutputSpec& output, const Scene& scene) {
@@ -160,6 +162,21 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
   output.rotation = table.flag("rotation");
 }
 
+/// At a node of a body: a component in axes of which x goes along `direction`.
+void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const Space& space) {
+  output.at = read_places(table, 1, "the name of a node");
+  const std::size_t node =
+      check_known(output.at[0], space.names, "node", table.place("at"), table.path("at"));
+  if (!body_of_node(scene, node))
+    table.fail("at",
+               fmt::format("node \"{}\" belongs to no body: expected a node of one, or two nodes [A, B] of a "
+                           "member",
+                           output.at[0]));
+  read_quantity(table, output, "\"xx\", \"yy\", \"xy\"");
+  output.direction.vector = {1.0, 0.0};
+  if (table.has("direction")) output.direction = read_direction(table, "direction", space);
+}
+
 void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const Space& space) {
   switch (output.kind) {
     case OutputKind::displacement:
@@ -176,6 +193,9 @@ void read_by_kind(Table& table, OutputSpec& output, const Scene& scene, const Sp
       return read_motion(table, output, space);
     case OutputKind::member_force:
     case OutputKind::stress:
+      if (const toml::node* at = table.raw("at");
+          output.kind == OutputKind::stress && at && at->is_string() && !scene.bodies.empty())
+        return read_body_stress(table, output, scene, space);
       output.at = read_places(table, 2, "the names of two nodes");
       check_nodes(table, output.at, space);
       output.station = table.number("station");

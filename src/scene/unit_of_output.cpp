@@ -18,6 +18,9 @@ Unit unit_of(OutputQuantity quantity) {
     case OutputQuantity::slip:
       return unit::length;
     case OutputQuantity::stress:
+    case OutputQuantity::xx:
+    case OutputQuantity::yy:
+    case OutputQuantity::xy:
       return stress;
     case OutputQuantity::none:
     case OutputQuantity::N:

@@ -7,9 +7,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-
-#include "model/element/plane_element.hpp"
-
 namespace signorini {
 namespace {
 
@@ -100,9 +97,13 @@ MovedMass moved_mass(const std::vector<int>& nodes, MassMover& mover) {
 
 }  // namespace
 
+PlaneMaterial material_of(const BodySpec& body) {
+  return {body.E, body.nu, body.density, body.thickness, body.strain};
+}
+
 void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number) {
   const BodySpec& body = scene.bodies[number];
-  const PlaneMaterial material{body.E, body.nu, body.density, body.thickness, body.strain};
+  const PlaneMaterial material = material_of(body);
   const auto owner = static_cast<int>(scene.members.size() + number);
   const std::size_t first = mesh.elements.size();
   for (const PlaneMesh::Element& e : body.mesh.elements) {

@@ -9,8 +9,11 @@
 #pragma once
 
 #include "model/element/mesh.hpp"
+#include "model/element/plane_element.hpp"
 
 namespace signorini {
+
+[[nodiscard]] PlaneMaterial material_of(const BodySpec& body);
 
 /// Appends the elements of a body, an index into Scene::bodies. Errors: SceneError.
 void mesh_body(Mesh& mesh, const Scene& scene, std::size_t number);

@@ -12,6 +12,11 @@ AxialForces FiniteElement::axial_forces(const ElementVector& /*u*/, double /*str
   return {};
 }
 
+Cut FiniteElement::cut(OutputQuantity /*quantity*/, const PlaneVector& /*at*/,
+                       const AxialForces& /*forces*/) const {
+  return Cut(unknowns().size());
+}
+
 ElementVector FiniteElement::translation(const PlaneVector& by) const {
   const std::vector<ElementUnknown> all = unknowns();
   ElementVector motion = ElementVector::Zero(static_cast<Eigen::Index>(all.size()));

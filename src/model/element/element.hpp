@@ -86,9 +86,9 @@ class FiniteElement {
   /// Work of the forces that a strain of one (heat) puts on its unknowns.
   [[nodiscard]] virtual double strain_work(const ElementVector& motion) const = 0;
 
-  /// A section force at a part of its length (stress of a surface: at its coordinates). Of other quantities: nothing.
+  /// A section force at a part of its length. Elements without sections have none, and no member is made of them.
   [[nodiscard]] virtual Cut cut(OutputQuantity quantity, const PlaneVector& at,
-                                const AxialForces& forces) const = 0;
+                                const AxialForces& forces) const;
 
   /// Of what it is drawn.
   [[nodiscard]] virtual std::vector<ElementLine> lines() const = 0;

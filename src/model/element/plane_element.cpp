@@ -157,9 +157,23 @@ Eigen::MatrixXd PlaneElement::stress_rows(double a, double b) const {
   return material_.stresses() * rows;
 }
 
-Cut PlaneElement::cut(OutputQuantity /*quantity*/, const PlaneVector& /*at*/,
-                      const AxialForces& /*forces*/) const {
-  return Cut(2 * at_.size());
+Eigen::MatrixXd PlaneElement::nodal_stress_rows() const {
+  const auto n = static_cast<Eigen::Index>(at_.size());
+  const bool inner = shape_ == PlaneShape::q4;
+  const Eigen::MatrixXd modes = inner ? inner_motion() : Eigen::MatrixXd();
+  const Eigen::Matrix3d D = material_.stresses();
+  const std::span<const StressPoint> points = stress_points(shape_);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, 2 * n);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const auto [a, b] = points[p];
+    const Place place = at_point(a, b);
+    Eigen::MatrixXd rows = strain_rows(place);
+    if (inner) rows += inner_rows(a, b, place.det) * modes;
+    rows = D * rows;
+    for (Eigen::Index k = 0; k < n; ++k)
+      all.middleRows<3>(3 * k) += extension(shape_, p, static_cast<std::size_t>(k)) * rows;
+  }
+  return all;
 }
 
 std::vector<ElementLine> PlaneElement::lines() const {

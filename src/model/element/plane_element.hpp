@@ -9,7 +9,9 @@
 // Jacobian of the element's middle and det J_0 / det J, so that they do no work in a constant stress and distorted patches are
 // exact; they are eliminated in the element, as they have no mass.
 // A lumped mass: t3 and q4 by sums of rows; t6 and q8 by the diagonal, scaled to the whole mass, so that none is negative.
-// Source: Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct.
+// Stresses are taken at Barlow's points and extended to the nodes: there their error has the order of the displacements' next to
+// a node, not that of the strains.
+// Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct.
 // Dyn. 4 (1976) 245.
 #pragma once
 
@@ -40,14 +42,15 @@ class PlaneElement final : public FiniteElement {
   [[nodiscard]] ElementMatrix stiffness() const override;
   [[nodiscard]] ElementVector spread(const PlaneVector& load) const override;
   [[nodiscard]] double strain_work(const ElementVector& motion) const override;
-  [[nodiscard]] Cut cut(OutputQuantity quantity, const PlaneVector& at,
-                        const AxialForces& forces) const override;
   [[nodiscard]] std::vector<ElementLine> lines() const override;
 
   [[nodiscard]] PlaneShape shape() const { return shape_; }
   [[nodiscard]] const PlaneMaterial& material() const { return material_; }
   /// sigma_x, sigma_y, tau_xy at (a, b) by the unknowns, without heat: 3 x unknowns.
   [[nodiscard]] Eigen::MatrixXd stress_rows(double a, double b) const;
+  /// The same at its nodes, rows 3 k to 3 k + 2 at node k: through the points where stresses are most accurate, extended to
+  /// the nodes. t3: constant; t6: linear through 3 points; q4, q8: bilinear through 2 x 2.
+  [[nodiscard]] Eigen::MatrixXd nodal_stress_rows() const;
 
  private:
   struct Place {

@@ -9,6 +9,7 @@
 #include "model/outputs/body_reaction.hpp"
 #include "model/outputs/member_cuts.hpp"
 #include "model/outputs/structure_rows.hpp"
+#include "scene/body_of_node.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/quantities.hpp"
 #include "scene/unit_of_output.hpp"
@@ -48,7 +49,7 @@ class Maker {
     } else if (spec.kind == OutputKind::envelope) {
       envelope(spec, output);
     } else if (spec.kind == OutputKind::stress && spec.fibre == Fibre::both &&
-               spec.quantity != OutputQuantity::N) {
+               spec.quantity != OutputQuantity::N && !is_of_body(spec.quantity)) {
       section_extremes(spec, output);
     } else {
       PhysicalRow row(map_.size());
@@ -96,7 +97,7 @@ class Maker {
     switch (spec.kind) {
       case OutputKind::member_force:
       case OutputKind::stress:
-        return member_force(spec, row);
+        return is_of_body(spec.quantity) ? body_stress(spec, row) : member_force(spec, row);
       case OutputKind::reaction:
         return reaction(spec, row);
       case OutputKind::spring:
@@ -165,6 +166,16 @@ class Maker {
     const Wanted wanted = wanted_by(spec, spec.fibre);
     const Way along = way(spec, 0, "at");
     cut(spec, "at", along, MemberCuts::place_of(along, spec.station), wanted, row);
+  }
+
+  /// In axes turned by the angle of `direction`, (c, s): xx = d . sigma d, yy across, xy = d . sigma (-s, c).
+  void body_stress(const OutputSpec& spec, PhysicalRow& row) {
+    const int node = map_.mesh.by_name.at(spec.at[0]);
+    const auto [c, s] = spec.direction.vector;
+    Eigen::RowVector3d factors(c * c, s * s, 2.0 * c * s);
+    if (spec.quantity == OutputQuantity::yy) factors << s * s, c * c, -2.0 * c * s;
+    if (spec.quantity == OutputQuantity::xy) factors << -c * s, c * s, c * c - s * s;
+    rows_->add_stress(row, body_of_node(scene_, static_cast<std::size_t>(node)).value(), node, factors);
   }
 
   /// Of a stretch: the wanted quantity at one of its points.

@@ -7,6 +7,7 @@
 
 #include "base/rounding.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/element/nodal_stress.hpp"
 #include "scene/history_from_spec.hpp"
 
 namespace signorini {
@@ -131,6 +132,20 @@ void StructureRows::add_moved_mass(PhysicalRow& row, std::size_t i, int node, st
 
 void StructureRows::add_cut(PhysicalRow& row, std::size_t i, const Cut& cut) const {
   add_ends(row, i, cut, true);
+}
+
+void StructureRows::add_stress(PhysicalRow& row, std::size_t body, int node,
+                               const Eigen::RowVector3d& factors) const {
+  for (const StressTerm& term : stress_at_node(map_.mesh, scene_, body, node)) {
+    const Eigen::RowVector2d by_node = factors * term.rows;
+    const auto numbers = map_.numbers_at(term.node);
+    for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
+      const double cu = by_node[static_cast<Eigen::Index>(c)];
+      add_motion(row, numbers[c], cu, beta_ * cu, 0.0);
+    }
+  }
+  for (const History& strain : strains_[scene_.members.size() + body])
+    add_given(row, strain, factors.dot(stress_of_heat(scene_.bodies[body])));
 }
 
 std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {

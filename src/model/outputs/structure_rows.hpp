@@ -36,6 +36,9 @@ class StructureRows {
   void add_frame(PhysicalRow& row, double x, double y, bool gravity = true) const;
   /// The cut of an element.
   void add_cut(PhysicalRow& row, std::size_t element, const Cut& cut) const;
+  /// factors . (sigma_x, sigma_y, tau_xy) at a node of a body, an index into Scene::bodies (nodal_stress.hpp); with what
+  /// damping by stiffness adds: sigma = D (B (u + beta v) - alpha T e).
+  void add_stress(PhysicalRow& row, std::size_t body, int node, const Eigen::RowVector3d& factors) const;
   /// The force in a spring, its preload and its damper included, times a factor: positive where its node has moved along
   /// its direction.
   void add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const;

@@ -273,9 +273,10 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
           (answers.empty() ? "" : ", quantiles.csv, exceedance.csv") + (options.keep ? ", runs/)\n" : ")\n"));
   }
   const std::string drawn =
-      options.no_plots ? ""
-                       : draw_pictures(directory.path(), write_sweep_plots(directory.path(), directory.spec(),
-                                                                           directory.rows()));
+      options.no_plots
+          ? ""
+          : draw_pictures(directory.path(),
+                          sweep_pictures(directory.spec(), directory.rows()).write(directory.path()));
   if (options.tables() && style == TableStyle::plain) print(drawn);
   std::size_t failed = 0;
   for (const auto& [index, row] : directory.rows()) failed += row.outcome == "done" ? 0 : 1;

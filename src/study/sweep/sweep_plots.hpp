@@ -12,19 +12,17 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_files.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace signorini {
 
-/// Writes the scripts and returns them; none with fewer than two rows that ran. Errors: FileError.
-std::vector<std::filesystem::path> write_sweep_plots(const std::filesystem::path& directory,
-                                                     const SweepSpec& spec, const SweepRows& rows,
-                                                     const PictureLook& look = {});
+/// None with fewer than two rows that ran.
+[[nodiscard]] PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
+                                          const PictureLook& look = {});
 
-/// Removes what write_sweep_plots and its scripts put there. Errors: FileError.
+/// Removes what they and their scripts put into DIR/plots. Errors: FileError.
 void remove_sweep_plots(const std::filesystem::path& directory);
 
 }  // namespace signorini

@@ -290,6 +290,14 @@ struct SeamSpec {
   SourcePlace place = {};
 };
 
+/// A node that follows others, u = sum_l w_l u_l, along x and y: of a seam with law = "tied".
+struct TieSpec {
+  std::string seam = {};
+  int node = 0;                                     ///< index into Scene::nodes
+  std::vector<std::pair<int, double>> master = {};  ///< the same, and w_l
+  SourcePlace place = {};
+};
+
 struct PointMass {
   std::string node = {};
   double mass = 0.0;
@@ -529,7 +537,8 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Member> members;
   std::vector<BodySpec> bodies;
-  std::vector<SeamSpec> seams;
+  std::vector<SeamSpec> seams;  ///< but for tied ones
+  std::vector<TieSpec> ties;
   std::vector<PointMass> masses;
   std::vector<RigidBody> rigid;
   std::vector<Spring> springs;

@@ -91,7 +91,7 @@ class GmshReader {
       words_.fail(fmt::format("found version {:.6g}, expected 4.1 or 2.2 (gmsh -format msh41)", version));
     version_ = version == 4.1 ? 4 : 2;
     if (words_.integer("the file type") != 0)
-      words_.fail("found a binary mesh, expected ASCII (gmsh -bin 0)");
+      words_.fail("found a binary mesh, expected ASCII (Mesh.Binary = 0 in Gmsh)");
     static_cast<void>(words_.integer("the data size"));
   }
 

@@ -119,6 +119,8 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const DofMap
     throw SceneError(c.place, key, fmt::format("node '{}' has no such degree of freedom", c.node));
   if (number == DofMap::fixed && c.value != 0.0)
     throw SceneError(c.place, key, fmt::format("found {}, expected 0: a support fixes it", c.value));
+  if (map.is_tied(number) && map.body[static_cast<std::size_t>(node)] < 0)
+    return std::nullopt;  // of a tied seam
   if (map.is_tied(number))
     throw SceneError(
         c.place, key,

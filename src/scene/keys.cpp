@@ -194,7 +194,7 @@ constexpr Key table_of_keys[] = {
     {"seams[]", "slave", text, "", "required", "", "Boundary \"BODY.GROUP\" whose nodes are the contacts; the finer mesh, as a rule."},
     {"seams[]", "master", text, "", "", "", "Boundary \"BODY.GROUP\" that it touches, or \"ground\": what rests where the undeformed slave is; or line."},
     {"seams[]", "line", table, "", "", "", "A straight line at rest that the slave touches, instead of master."},
-    {"seams[]", "law", choice, "", "required", "compliant rigid", "As of contacts."},
+    {"seams[]", "law", choice, "", "required", "compliant rigid tied", "As of contacts; \"tied\": the slave boundary follows the master, without contacts."},
     {"seams[]", "normal_stiffness", positive, "force/length^3", "", "", "compliant: stiffness for each area; or layer."},
     {"seams[]", "tangential_stiffness", positive, "force/length^3", "", "", "compliant, with friction: stiffness along the seam for each area; or layer."},
     {"seams[]", "layer", table, "", "", "", "compliant: material between the surfaces, kn = E / thickness, kt = G / thickness for each area, instead of normal_stiffness and tangential_stiffness."},

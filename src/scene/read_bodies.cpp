@@ -75,7 +75,9 @@ PlaneMesh read_ring(Table& table) {
 }
 
 PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
-  const std::filesystem::path path = directory_of(scene) / table.text("mesh");
+  const toml::node* name = table.raw("mesh");  // recorded below, from anywhere
+  if (!name->is_string()) table.wrong("mesh", "the name of a file");
+  const std::filesystem::path path = directory_of(scene) / name->value_or(std::string());
   std::ifstream in = open_data_file(table, "mesh", path);
   const std::vector<std::string> surfaces = table.texts("surfaces");
   PlaneMesh mesh = read_gmsh(in, path.string(), table.path("mesh"), surfaces);

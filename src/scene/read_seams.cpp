@@ -146,6 +146,23 @@ ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness
   return contact;
 }
 
+/// law = "tied": nodes of the slave follow the master, at any gap.
+void read_tied(Table& table, const std::string& name, Scene& scene) {
+  const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
+  if (table.has("line") || table.text("master") == "ground")
+    table.fail("law",
+               "found \"tied\" to what rests: expected a boundary as master, or [[supports]] on the slave");
+  const MortarSeam mortar = read_mortar(table, slave, scene);
+  for (const MortarNode& k : mortar.nodes) {
+    TieSpec tie{name, k.node, k.master, table.place()};
+    for (const TieSpec& other : scene.ties)
+      if (other.node == k.node)
+        table.fail("slave", fmt::format("node {} is tied by seam \"{}\" already",
+                                        scene.nodes[static_cast<std::size_t>(k.node)].name, other.seam));
+    scene.ties.push_back(std::move(tie));
+  }
+}
+
 }  // namespace
 
 void read_seams(Table& top, Scene& scene, RecordedScene& record) {
@@ -158,6 +175,12 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
     if (!seams.add(seam.name))
       table.fail("name",
                  fmt::format("found \"{}\" twice, expected each seam to have its own name", seam.name));
+    if (table.choice("law") == "tied") {
+      read_tied(table, seam.name, scene);
+      table.finish("has no meaning for a seam of this law");
+      record.add("seams", "[[seams]]", table.record());
+      continue;
+    }
     const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
     const MortarSeam mortar = read_mortar(table, slave, scene);
     const SeamLaw law = read_seam_law(table, scene);

@@ -65,7 +65,7 @@ Stay stay_of(const Result& result, double begin, double end) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("slow/behaviour/bar_impacts");
+TEST_SUITE_BEGIN("behaviour/bar_impacts");
 
 TEST_CASE("a bar hits the ground: it stays 2 L / c and presses with rho c v, closer on finer meshes") {
   double before = 1.0;
@@ -75,8 +75,6 @@ TEST_CASE("a bar hits the ground: it stays 2 L / c and presses with rho c v, clo
     REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
     const Stay stay = stay_of(result, 0.0, 0.2);
     const double off = std::abs(stay.end / 0.2 - 1.0);
-    MESSAGE(n << " elements: stays " << stay.end / 0.2 << " of 2 L/c, force " << stay.force / 10.0
-              << " of rho c v, " << result.events.size() << " events");
     CHECK(off <= 0.01);
     const double force_off = std::abs(stay.force / 10.0 - 1.0);
     CHECK(force_off <= 0.01);
@@ -99,8 +97,8 @@ TEST_CASE(
   const Result result = simulate(model, scene.run);
   REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
   const Stay stay = stay_of(result, 1.0, 1.0 + 2.0 / 3.0);
-  CHECK(stay.begin == doctest::Approx(1.0).epsilon(1e-9));
-  CHECK(stay.end - 1.0 == doctest::Approx(2.0 / 3.0).epsilon(0.02));
+  CHECK(std::abs(stay.begin - 1.0) <= 1e-8);
+  CHECK(std::abs(1.5 * (stay.end - 1.0) - 1.0) <= 0.02);
   CHECK(stay.force == doctest::Approx(30.0 * (10.0 + 10.0 / 3.0)).epsilon(0.01));
   // v_cm = m^-1 r M v of what has mass.
   Vector along = Vector::Zero(model.size());

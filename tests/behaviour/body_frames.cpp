@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "report/paraview_bodies.hpp"
 #include "result/csv_read.hpp"
 #include "result/run_directory.hpp"
 #include "signorini/simulate.hpp"
+#include "unit/report/vtu_array.hpp"
 #include "unit/result/made_up.hpp"
 
 using namespace signorini;
@@ -72,17 +72,6 @@ motion = 0.02
                      degrees, c, s);
 }
 
-/// The numbers of an array of a file for ParaView.
-std::vector<double> array_of(const std::string& text, const std::string& name) {
-  const std::size_t at = text.find("Name=\"" + name + "\"");
-  REQUIRE(at != std::string::npos);
-  const std::size_t begin = text.find(">\n", at) + 2;
-  std::istringstream stream(text.substr(begin, text.find("</DataArray>", begin) - begin));
-  std::vector<double> values;
-  for (double value = 0.0; stream >> value;) values.push_back(value);
-  return values;
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("behaviour/body_frames");
@@ -138,8 +127,9 @@ TEST_CASE("frames for ParaView: cells, tractions on the slave, states of the sea
   CHECK(made_up::slurp(*list).find("timestep=\"0.07\" file=\"body-0002.vtu\"") != std::string::npos);
   const std::string text = made_up::slurp(folder / "run" / "paraview" / "body-0002.vtu");
   CHECK(text.find("NumberOfPoints=\"45\" NumberOfCells=\"23\"") != std::string::npos);  // 12 + 4 + 7
-  const std::vector<double> types = array_of(text, "types"), body = array_of(text, "body"),
-                            state = array_of(text, "state"), pressure = array_of(text, "pressure");
+  const std::vector<double> types = test::array_of(text, "types"), body = test::array_of(text, "body"),
+                            state = test::array_of(text, "state"),
+                            pressure = test::array_of(text, "pressure");
   REQUIRE(types.size() == 23);
   CHECK(types[0] == 22.0);
   CHECK(types[12] == 9.0);
@@ -149,8 +139,9 @@ TEST_CASE("frames for ParaView: cells, tractions on the slave, states of the sea
   CHECK(state[0] == -1.0);
   CHECK(state[22] == 0.0);
   CHECK(pressure[16] == doctest::Approx(7.0));
-  CHECK(array_of(text, "connectivity").size() == 12 * 6 + 4 * 4 + 7);
-  const std::vector<double> traction = array_of(text, "traction"), stress = array_of(text, "stress");
+  CHECK(test::array_of(text, "connectivity").size() == 12 * 6 + 4 * 4 + 7);
+  const std::vector<double> traction = test::array_of(text, "traction"),
+                            stress = test::array_of(text, "stress");
   REQUIRE(traction.size() == 3 * 45);
   REQUIRE(stress.size() == 3 * 45);
   double up = 0.0;

@@ -232,7 +232,7 @@ TEST_CASE("cantilever: M y / I, 3/2 V / A, and Timoshenko's deflection") {
     CHECK(at_start(model, "top") == doctest::Approx(P * 4.0 * 0.5 / I).epsilon(mesh.limit));
     CHECK(at_start(model, "bottom") == doctest::Approx(-P * 4.0 * 0.5 / I).epsilon(mesh.limit));
     CHECK(at_start(model, "middle") == doctest::Approx(-1.5 * P / A).epsilon(mesh.shear));
-    CHECK(at_start(model, "tip") == doctest::Approx(-tip).epsilon(0.005));
+    CHECK(std::abs(at_start(model, "tip") / -tip - 1.0) <= 0.01);
   }
 }
 
@@ -251,12 +251,12 @@ TEST_CASE(
             std::hypot(at_start(model, "inside_yy") - (A + B), at_start(model, "inside_xx") - (A - B)) /
             1000.0;
         const double outside = std::abs(at_start(model, "outside_yy") - (A + B / 4.0)) / 1000.0;
-        MESSAGE(shape << " " << n << ": " << error << ", outside " << outside);
+        CHECK(outside <= 0.05);
         CHECK(std::abs(at_start(model, "inside_xy")) <= 1e-3 * 1000.0);
-        if (n == 8) CHECK(error <= 0.5 * before);
+        if (n == 8) CHECK(error <= (std::string(shape) == "q8" ? 0.4 : 0.6) * before);
         before = error;
       }
-      CHECK(before <= (std::string(shape) == "q8" ? 0.01 : 0.1));
+      CHECK(before <= (std::string(shape) == "q8" ? 0.01 : 0.2));
     }
 }
 

@@ -125,10 +125,8 @@ contact_mass = "none"
     if (row.u.size() != static_cast<Eigen::Index>(model.reduction->dofs.size()))
       row.u = model.physical(row.u);
   const double f = 1.0 / mean_period(result, tip, 2.0), wanted = 2.0 * f1 * f2 / (f1 + f2);
-  MESSAGE("open " << f1 << " Hz, closed " << f2 << " Hz, breathing " << f << " Hz, closed form " << wanted
-                  << ", " << result.events.size() << " events");
   CHECK(f2 / f1 >= 1.03);
-  CHECK(f == doctest::Approx(wanted).epsilon(0.01));
+  CHECK(std::abs(f / wanted - 1.0) <= 0.01);
 }
 
 TEST_SUITE_END();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/seam_ties.hpp"
 #include "model/assembly/ties.hpp"
 #include "scene/components.hpp"
 
@@ -176,6 +177,7 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
   }
   check_moving(scene, map);
   const std::vector<BodyMotion> bodies = find_bodies(scene, map);
+  leave_to_master(scene, map);
   for (std::size_t node = 0; node < map.number.size(); ++node)
     for (std::size_t c = 0; c < 3; ++c) {
       if (map.number[node][c] != DofMap::needed) continue;
@@ -187,6 +189,7 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
     }
   add_own(map);
   tie(bodies, map);
+  tie_seams(scene, map);
   add_columns(map);
   return map;
 }

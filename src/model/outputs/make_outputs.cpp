@@ -262,6 +262,14 @@ class Maker {
       for (std::size_t c = 0; c < 3; ++c) held = held || (fixed[c] && d[c] != 0.0);
     }
     if (!held) refuse(spec, "at", fmt::format("no support holds node '{}' that way", spec.at[0]));
+    for (const TieSpec& tie : scene_.ties)
+      for (const auto& [l, weight] : tie.master)
+        if (l == node)
+          refuse(spec, "at",
+                 fmt::format(
+                     "tied seam '{}' brings forces of its slave to node '{}', which reactions do not have: "
+                     "expected another support, or the seam's boundaries exchanged",
+                     tie.seam, spec.at[0]));
     if (const int body = map_.body[static_cast<std::size_t>(node)]; body >= 0)
       add_body_reaction(scene_, map_, *rows_, {body, node, d, spec.place, "output." + spec.name + ".at"},
                         row);

@@ -43,9 +43,9 @@ struct Computed {
 
 TEST_SUITE("unit/model/claims") {
   TEST_CASE("every model has its claims below") {
-    const std::set<std::string> known = {"belt",     "chain",       "coulomb-pad", "den-hartog",
-                                         "lift-off", "matrices",    "oscillator",  "pipeline",
-                                         "piping",   "rigid-frame", "rocking"};
+    const std::set<std::string> known = {
+        "belt",     "chain",      "coulomb-pad", "cracked-block", "den-hartog", "dry-joint",   "lift-off",
+        "matrices", "oscillator", "pipe-shoe",   "pipeline",      "piping",     "rigid-frame", "rocking"};
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(SIGNORINI_MODELS))
       if (entry.path().extension() == ".toml") found.insert(entry.path().stem().string());
@@ -178,6 +178,46 @@ TEST_SUITE("unit/model/claims") {
     CHECK(floor.contains(EventType::stick));
     CHECK(floor.contains(EventType::slip));
     CHECK(stop == std::set<EventType>{EventType::contact, EventType::separation});
+  }
+
+  TEST_CASE("dry-joint: the upper block stays behind as Newmark's block; the joint stays pressed") {
+    const Computed run("dry-joint", {});
+    CHECK(std::abs(run.result.responses.back().values[0] / -0.0213 - 1.0) <= 0.02);
+    for (const Event& e : run.result.events) CHECK(e.type != EventType::separation);
+  }
+
+  TEST_CASE(
+      "pipe-shoe: slides by the heat less what friction takes; a sixth of the sole and more lifts off") {
+    const Computed run("pipe-shoe", {});
+    CHECK(std::abs(run.result.responses.back().values[0] / 0.01199 - 1.0) <= 2e-3);
+    const SeamSpec& sole = run.scene.seams.front();
+    bool found = false;
+    for (const auto& row : run.result.rows) {
+      if (std::abs(row.t - 0.6) > 1e-9) continue;
+      found = true;
+      double open = 0.0, most = 0.0;
+      for (std::size_t k = 0; k < sole.nodes.size(); ++k) {
+        if (is_open(row.contacts[k].state)) open += sole.nodes[k].length;
+        most = std::max(most, -row.contacts[k].N / (0.2 * sole.nodes[k].length));
+      }
+      CHECK(std::abs(open - 0.07) <= 0.025);  // an element
+      CHECK(most == doctest::Approx(121e3).epsilon(0.1));
+    }
+    CHECK(found);
+  }
+
+  TEST_CASE("cracked-block: half a period closed, half a period open") {
+    const Computed run("cracked-block", {});
+    // Upward zeros after the push.
+    std::vector<double> zeros;
+    for (std::size_t i = 1; i < run.result.responses.size(); ++i) {
+      const auto &a = run.result.responses[i - 1], &b = run.result.responses[i];
+      if (a.t > 0.06 && a.values[0] < 0.0 && b.values[0] >= 0.0) zeros.push_back(b.t);
+    }
+    REQUIRE(zeros.size() >= 4);
+    const double f = static_cast<double>(zeros.size() - 1) / (zeros.back() - zeros.front());
+    CHECK(f < 57.1);
+    CHECK(f > 0.8 * 57.1);
   }
 
   TEST_CASE("pipeline: the first support slips, lifts off and lands sliding") {

@@ -2,9 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <sstream>
-
 #include "report/drawn_lines.hpp"
+#include "unit/report/vtu_array.hpp"
 
 using namespace signorini;
 
@@ -26,17 +25,6 @@ Json two_nodes() {
   return data;
 }
 
-/// The numbers of an array of the file.
-std::vector<double> numbers(const std::string& text, const std::string& name) {
-  const std::size_t at = text.find("Name=\"" + name + "\"");
-  REQUIRE(at != std::string::npos);
-  const std::size_t begin = text.find(">\n", at) + 2;
-  std::istringstream stream(text.substr(begin, text.find("</DataArray>", begin) - begin));
-  std::vector<double> values;
-  for (double value = 0.0; stream >> value;) values.push_back(value);
-  return values;
-}
-
 }  // namespace
 
 TEST_SUITE("unit/report/paraview") {
@@ -44,17 +32,17 @@ TEST_SUITE("unit/report/paraview") {
     const std::string text = vtu_frame(two_nodes(), 0.5);
     // 11 of the beam, 2 of the spring between nodes, 2 nodes, a contact, a load
     CHECK(text.find("NumberOfPoints=\"17\" NumberOfCells=\"6\"") != std::string::npos);
-    CHECK(numbers(text, "points").size() == 3 * 17);
-    CHECK(numbers(text, "displacement").size() == 3 * 17);
-    CHECK(numbers(text, "connectivity").size() == 17);
-    CHECK(numbers(text, "offsets") == std::vector<double>{11, 13, 14, 15, 16, 17});
-    CHECK(numbers(text, "types") == std::vector<double>{4, 3, 1, 1, 1, 1});
-    CHECK(numbers(text, "kind") == std::vector<double>{0, 2, 3, 3, 4, 5});
-    CHECK(numbers(text, "item") == std::vector<double>{-1, -1, -1, -1, 0, 0});
+    CHECK(test::array_of(text, "points").size() == 3 * 17);
+    CHECK(test::array_of(text, "displacement").size() == 3 * 17);
+    CHECK(test::array_of(text, "connectivity").size() == 17);
+    CHECK(test::array_of(text, "offsets") == std::vector<double>{11, 13, 14, 15, 16, 17});
+    CHECK(test::array_of(text, "types") == std::vector<double>{4, 3, 1, 1, 1, 1});
+    CHECK(test::array_of(text, "kind") == std::vector<double>{0, 2, 3, 3, 4, 5});
+    CHECK(test::array_of(text, "item") == std::vector<double>{-1, -1, -1, -1, 0, 0});
   }
 
   TEST_CASE("paraview: displacements between rows and along the cubic of a beam") {
-    const std::vector<double> u = numbers(vtu_frame(two_nodes(), 1.5), "displacement");
+    const std::vector<double> u = test::array_of(vtu_frame(two_nodes(), 1.5), "displacement");
     CHECK(u[3 * 10 + 1] == doctest::Approx(1.5));  // its end
     CHECK(u[3 * 14 + 1] == doctest::Approx(1.5));  // node B
     // v(s) = v (3 s^2 - 2 s^3) + L r (s^3 - s^2) in the middle, r = 0.75 * 0.75
@@ -63,16 +51,16 @@ TEST_SUITE("unit/report/paraview") {
 
   TEST_CASE("paraview: forces on the structure are -N n - T t and f d, after a jump those after it") {
     const Json data = two_nodes();
-    const std::vector<double> before = numbers(vtu_frame(data, 0.5), "force");
+    const std::vector<double> before = test::array_of(vtu_frame(data, 0.5), "force");
     CHECK(before[3 * 15] == doctest::Approx(-2.0));     // t = [1, 0]
     CHECK(before[3 * 15 + 1] == doctest::Approx(6.0));  // -N n
     CHECK(before[3 * 16] == doctest::Approx(6.0));
     CHECK(before[3 * 16 + 1] == doctest::Approx(8.0));
     const std::string after = vtu_frame(data, 1.0);
-    CHECK(numbers(after, "force")[3 * 15 + 1] == 0.0);
-    CHECK(numbers(after, "force")[3 * 16] == 0.0);
-    CHECK(numbers(after, "state") == std::vector<double>{-1, -1, -1, -1, 4, -1});
-    CHECK(numbers(vtu_frame(data, 0.999), "state")[4] == 0);
+    CHECK(test::array_of(after, "force")[3 * 15 + 1] == 0.0);
+    CHECK(test::array_of(after, "force")[3 * 16] == 0.0);
+    CHECK(test::array_of(after, "state") == std::vector<double>{-1, -1, -1, -1, 4, -1});
+    CHECK(test::array_of(vtu_frame(data, 0.999), "state")[4] == 0);
   }
 
   TEST_CASE("paraview: as many times as asked for, at equal distances; those of events where asked for") {

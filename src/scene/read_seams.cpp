@@ -146,10 +146,16 @@ ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness
   return contact;
 }
 
+/// Not recorded: whoever reads the key does that.
+bool is_word(Table& table, const char* key, std::string_view word) {
+  return table.has(key) && table.raw(key)->value_or(std::string()) == word;
+}
+
 /// law = "tied": nodes of the slave follow the master, at any gap.
 void read_tied(Table& table, const std::string& name, Scene& scene) {
+  static_cast<void>(table.choice("law"));
   const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
-  if (table.has("line") || table.text("master") == "ground")
+  if (table.has("line") || is_word(table, "master", "ground"))
     table.fail("law",
                "found \"tied\" to what rests: expected a boundary as master, or [[supports]] on the slave");
   const MortarSeam mortar = read_mortar(table, slave, scene);
@@ -175,7 +181,7 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
     if (!seams.add(seam.name))
       table.fail("name",
                  fmt::format("found \"{}\" twice, expected each seam to have its own name", seam.name));
-    if (table.choice("law") == "tied") {
+    if (is_word(table, "law", "tied")) {
       read_tied(table, seam.name, scene);
       table.finish("has no meaning for a seam of this law");
       record.add("seams", "[[seams]]", table.record());

@@ -78,7 +78,8 @@ TEST_CASE("a constant stress passes a tied seam whose meshes do not match") {
               "[{3:.17g}, {4:.17g}]\n",
               number, q, node, c, s);
       }
-      const Model model = build_model(parse_scene(text, "tied.toml"));
+      const Scene scene = parse_scene(text, "tied.toml");
+      const Model model = build_model(parse_scene(scene.resolved, "run.toml"));
       for (const Output& output : model.outputs) {
         CAPTURE(output.name);
         const double value = output.u.dot(model.u0) + output.constant;

@@ -113,7 +113,7 @@ void Finder::captures() {
       limit += bench_.limits.step * bench_.swing(record_, k) + record_.before.driven[k].drift;
     // What stops within a step of an engine that finds no instants swings on by up to the speed that it had. The limit
     // of an engine with steps takes the accelerations of both ends and the first terms of errors in h: what is left of
-    // the series is given as much again.
+    // the series is given twice as much.
     const bool grave = record_.located && speed > (bench_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
   }

@@ -56,9 +56,6 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
-/// A run in modes gives back displacements to this part of their size (src/engine/exact/modal): gaps that it holds, too.
-constexpr double of_sums = 1e-12;
-
 /// Sum of the magnitudes that the gap is a difference of. Displacements of a run that goes on are known relative to
 /// the greatest that it had, however small those at the contact are: solves do not tell one from the other.
 double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
@@ -71,15 +68,6 @@ double terms_of_gap(const Scene& scene, const Model& model, const Contact& conta
   return std::abs(contact.gap) + sum * greatest;
 }
 
-/// The run that is gone on from has left it closed.
-bool was_left_closed(const Scene& scene, const Contact& contact) {
-  if (!scene.initial.saved) return false;
-  const std::vector<SavedState::Left>& left = scene.initial.saved->left;
-  return std::any_of(left.begin(), left.end(), [&](const SavedState::Left& l) {
-    return l.contact == contact.name && !l.state.empty() && l.state != to_string(State::open);
-  });
-}
-
 /// True: it touches, and its gap is zero now.
 bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
@@ -88,8 +76,7 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   // Displacements that are nothing but rounding tell no more of a gap than those of the scene's size.
   const bool rounded = gap < 0.0 && -gap <= rounding::of_few * model.scales.displacement;
-  const double closed = was_left_closed(scene, contact) ? of_sums : rounding::of_many;
-  if (carries || rounded || std::abs(gap) <= closed * terms) {
+  if (carries || rounded || std::abs(gap) <= rounding::of_many * terms) {
     double square = 0.0;
     for (const auto& term : contact.normal.terms) square += term.second * term.second;
     for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;

@@ -23,6 +23,8 @@ namespace {
 
 constexpr double shortest_step = 1e-5;  // of the range
 constexpr int most_corrections = 10, quick = 4;
+constexpr double longest_correction = 0.1;  // in the norm; steps are shorter. Chosen.
+constexpr double slow = 0.02;  // of the residual: more is left where dG/ds is that of another point
 constexpr double corrected_to = 1e-11,
                  corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
 constexpr double singular = 1e-9;           // as in shooting.cpp
@@ -38,6 +40,7 @@ struct Corrected {
   OrbitPass pass;
   double residual = 0.0;
   int iterations = 0;
+  Vector by_s;  // B^T dG/ds at this point; empty: not asked for yet
 };
 
 class BranchWalk {
@@ -49,9 +52,14 @@ class BranchWalk {
 
  private:
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
-  [[nodiscard]] Corrected correct(BranchState guess, const Vector& t) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass) const;
-  [[nodiscard]] Vector direction(const Corrected& at, const Vector& before) const;
+  [[nodiscard]] Corrected correct(BranchState guess, const Vector& t, const Vector& by_s) const;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass,
+                                         const Vector& by_s) const;
+  [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const {
+    return OrbitSection(map_.model(), pass.begin).basis().transpose() * map_.by_parameter(state, pass);
+  }
+  [[nodiscard]] Vector direction(Corrected& at, const Vector& before) const;
+  void measure(const OrbitPass& pass);
   [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
   [[nodiscard]] Eigen::Index size(const OrbitPass& pass) const {
     return OrbitSection(map_.model(), pass.begin).size() + (map_.autonomous() ? 2 : 1);
@@ -80,19 +88,20 @@ BranchState BranchWalk::moved(const BranchState& from, const OrbitPass& pass, co
   const OrbitSection section(map_.model(), pass.begin);
   BranchState to = from;
   to.state = section.moved(orbit_state(pass.begin), amplitude_ * dy.head(section.size()));
-  to.s += dy[dy.size() - 1];
+  to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // outside, the key may mean nothing
   to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
   return to;
 }
 
 /// dG/dy, columns in the norm: x by the amplitude, T by itself. With the phase condition where T is unknown.
-Eigen::MatrixXd BranchWalk::jacobian(const BranchState& state, const OrbitPass& pass) const {
+Eigen::MatrixXd BranchWalk::jacobian(const BranchState& state, const OrbitPass& pass,
+                                     const Vector& by_s) const {
   const OrbitSection section(map_.model(), pass.begin);
   const Eigen::MatrixXd& B = section.basis();
   const Eigen::Index n = section.size(), extra = map_.autonomous() ? 1 : 0;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + extra, n + extra + 1);
   J.topLeftCorner(n, n) = B.transpose() * pass.end_rates - Eigen::MatrixXd::Identity(n, n);
-  J.block(0, n + extra, n, 1) = B.transpose() * map_.by_parameter(state, pass) / amplitude_;
+  J.block(0, n + extra, n, 1) = by_s / amplitude_;
   if (extra == 1) {
     J.block(0, n, n, 1) = B.transpose() * section.rates(pass.end) * state.duration / amplitude_;
     Vector along = B.transpose() * section.rates(pass.begin);
@@ -108,9 +117,11 @@ std::string BranchWalk::refusal(const OrbitPass& pass, Eigen::Index unknowns) co
   return size(pass) != unknowns ? "the contact state at the section changes" : "";
 }
 
-Corrected BranchWalk::correct(BranchState guess, const Vector& t) const {
+/// by_s: of the point before, which serves as long as Newton's method converges; empty: none.
+Corrected BranchWalk::correct(BranchState guess, const Vector& t, const Vector& by_s) const {
   Corrected c;
   c.state = std::move(guess);
+  Vector slope = by_s;
   double before = 0.0;
   for (c.iterations = 0; c.iterations <= most_corrections; ++c.iterations) {
     c.pass = map_.pass(c.state);
@@ -122,16 +133,18 @@ Corrected BranchWalk::correct(BranchState guess, const Vector& t) const {
       c.done = true;
       return c;
     }
+    const bool stale = c.iterations > 0 && c.residual > slow * before;
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
+    if (slope.size() != section.size() || stale) slope = by_parameter(c.state, c.pass);
     Eigen::MatrixXd A(t.size(), t.size());
-    A << jacobian(c.state, c.pass), t.transpose();
+    A << jacobian(c.state, c.pass, slope), t.transpose();
     Vector b = Vector::Zero(t.size());
     b.head(section.size()) = -section.basis().transpose() *
                              (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)) /
                              amplitude_;
     const Vector dy = shortest_solution(A, b, singular);
-    if (!(dy.cwiseAbs().maxCoeff() < 1.0)) {
+    if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
       return c;
     }
@@ -143,9 +156,10 @@ Corrected BranchWalk::correct(BranchState guess, const Vector& t) const {
 }
 
 /// Along the branch, towards where `before` pointed.
-Vector BranchWalk::direction(const Corrected& at, const Vector& before) const {
+Vector BranchWalk::direction(Corrected& at, const Vector& before) const {
+  if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
   Eigen::MatrixXd A(before.size(), before.size());
-  A << jacobian(at.state, at.pass), before.transpose();
+  A << jacobian(at.state, at.pass, at.by_s), before.transpose();
   Vector b = Vector::Zero(before.size());
   b[b.size() - 1] = 1.0;
   const Vector t = shortest_solution(A, b, singular);
@@ -157,15 +171,16 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0 || map_.autonomous()) return false;
   next.duration = map_.period(next.s);
-  const PeriodMap at = map_.at(next.s);
-  const OrbitPass transient = at.pass({next.state, restart_periods * next.duration, false});
+  const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
+  const OrbitPass transient = at->pass({next.state, restart_periods * next.duration, false});
   if (!transient.done()) return false;
   next.state = orbit_state(transient.end);
-  const Shot shot = shoot(at, {next.state, next.duration, false, 0.0}, corrected_to);
+  const Shot shot = shoot(*at, {next.state, next.duration, false, 0.0}, corrected_to);
   if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
   here.state = {shot.state, next.duration, next.s};
   here.pass = shot.pass;
   here.residual = shot.residual;
+  here.by_s = {};
   return true;
 }
 
@@ -175,13 +190,14 @@ void BranchWalk::cut_anew(Corrected& here) {
   const double T = here.state.duration;
   const double later = section_away_from(here.pass.instants, T);
   if (later == 0.0) return;
-  const OrbitPass to = map_.at(here.state.s).pass({here.state.state, later, false});
+  const OrbitPass to = map_.at(here.state.s)->pass({here.state.state, later, false});
   if (!to.done()) return;
   const double before = map_.section();
   map_.move_section(std::fmod(before + later / T, 1.0));
   Corrected moved = here;
   moved.state.state = orbit_state(to.end);
   moved.pass = map_.pass(moved.state);
+  moved.by_s = {};
   if (moved.pass.done() && moved.pass.end_rates.size() > 0)
     here = std::move(moved);
   else
@@ -210,10 +226,12 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   const Model& model = map_.model();
   Orbit orbit;
   const Eigen::MatrixXd phi = monodromy(model, here.pass);
-  const OrbitPass next = map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s});
+  const OrbitPass next =
+      map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
   const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
-  set_multipliers(phi, known ? monodromy(model, next) : Eigen::MatrixXd(),
-                  std::max<std::size_t>(count_ones(phi), map_.autonomous() ? 1 : 0), orbit);
+  const Multipliers all = multipliers_of(phi);
+  set_multipliers(all, phi, known ? monodromy(model, next) : Eigen::MatrixXd(),
+                  std::max<std::size_t>(count_ones(all), map_.autonomous() ? 1 : 0), orbit);
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;
@@ -225,12 +243,10 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   point.residual = here.residual;
   point.events = static_cast<long>(here.pass.events.size());
   point.sequence = number_of_sequence(here.pass);
-  if (!model.outputs.empty())
-    for (const OutputExtremes& x :
-         map_.at(here.state.s, true).rows(here.state.state, here.state.duration).report.response) {
-      point.minima.push_back(x.minimum);
-      point.maxima.push_back(x.maximum);
-    }
+  for (const OutputExtremes& x : next.response) {
+    point.minima.push_back(x.minimum);
+    point.maxima.push_back(x.maximum);
+  }
   std::vector<std::string> what;
   if (!special.empty()) what.push_back(special);
   if (!branch_.points.empty()) {
@@ -245,25 +261,34 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   return !branch_.interrupted;
 }
 
+/// What counts as 1 in the norm: so many amplitudes of everything, each of its kind.
+void BranchWalk::measure(const OrbitPass& pass) {
+  const OrbitSection section(map_.model(), pass.begin);
+  const auto u = static_cast<double>(section.displacements()), v = static_cast<double>(section.velocities());
+  const double T = static_cast<double>(section.basis().rows()) - u - v;
+  const double square = u * pass.u_amplitude * pass.u_amplitude + v * pass.v_amplitude * pass.v_amplitude +
+                        T * pass.T_amplitude * pass.T_amplitude;
+  amplitude_ = amplitudes_a_range * (square > 0.0 ? std::sqrt(square) : 1.0);
+}
+
 /// The first point. False: the branch ends there.
 bool BranchWalk::begin(Corrected& here) {
   here.state = map_.start();
   here.pass = map_.pass(here.state);
   cut_anew(here);
-  amplitude_ = amplitudes_a_range * std::sqrt(static_cast<double>(size(here.pass))) *
-               (here.pass.u_amplitude > 0.0 ? here.pass.u_amplitude : 1.0);
-  here = correct(here.state, upwards(here.pass, 1.0));
+  measure(here.pass);
+  here = correct(here.state, upwards(here.pass, 1.0), {});
   if (!here.done) branch_.end = "the first orbit could not be followed: " + here.reason;
   return here.done && add(here, "");
 }
 
 /// To the next point, or to the end of the range where it is nearer.
 Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bool last) const {
-  if (!last) return correct(moved(here.state, here.pass, ds * t), t);
+  if (!last) return correct(moved(here.state, here.pass, ds * t), t, here.by_s);
   BranchState end = moved(here.state, here.pass, ds * t);
   end.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
   if (!map_.autonomous()) end.duration = map_.period(end.s);
-  return correct(std::move(end), upwards(here.pass, 1.0));
+  return correct(std::move(end), upwards(here.pass, 1.0), here.by_s);
 }
 
 Branch BranchWalk::follow() {
@@ -304,6 +329,10 @@ Branch BranchWalk::follow() {
     here = std::move(next);
     cut_anew(here);
     if (!add(here, special)) break;
+    const Eigen::Index states = t.size() - (map_.autonomous() ? 2 : 1);
+    t.head(states) *= amplitude_;  // the norm is that of the new point
+    measure(here.pass);
+    t.head(states) /= amplitude_;
     branch_.complete = last && special != "restart";
     if (!branch_.complete) continue;
     branch_.end = fmt::format("reached {} = {:.9g}", options_.path, map_.parameter(here.state.s));

@@ -248,6 +248,80 @@ TEST_CASE("a disturbed run leaves or returns by its multipliers") {
   CHECK(std::abs(phi.determinant() - product(orbit)) <= 1e-7);
 }
 
+TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes against differences of runs") {
+  // Damping alpha M, alpha 0.1; so many unknowns that stretches are crossed in closed form.
+  const auto text = [](const char* amplitude) {
+    std::string mass, stiffness, damping;
+    for (int i = 0; i < 8; ++i) {
+      std::string m, k, c;
+      for (int j = 0; j < 8; ++j) {
+        m += fmt::format("{}{}", j > 0 ? ", " : "", i == j ? 1.0 + 0.1 * i : 0.0);
+        c += fmt::format("{}{:.17g}", j > 0 ? ", " : "", i == j ? 0.1 * (1.0 + 0.1 * i) : 0.0);
+        k += fmt::format("{}{}", j > 0 ? ", " : "",
+                         i == j                 ? (i == 7 ? 13.0 : 17.0 + i)
+                         : std::abs(i - j) == 1 ? -(8.0 + 0.5 * (i + j))
+                                                : 0.0);
+      }
+      mass += (i > 0 ? ", [" : "[") + m + "]";
+      stiffness += (i > 0 ? ", [" : "[") + k + "]";
+      damping += (i > 0 ? ", [" : "[") + c + "]";
+    }
+    return matrix_scene(
+        "t_end = 40.0", "mass = [" + mass + "]\nstiffness = [" + stiffness + "]\ndamping = [" + damping + "]",
+        "law = \"compliant\"\nnormal = { d7 = -1.0 }\ntangent = { d6 = 1.0 }\ngap = 0.05\n"
+        "normal_stiffness = 40.0\ntangential_stiffness = 30.0\nfriction = 0.3\n"
+        "[[contacts]]\nname = \"j\"\nlaw = \"slider\"\ntangent = { d2 = 0.8, d3 = 0.6 }\nnormal_force = 1.0\n"
+        "friction = 0.4\ntangential_stiffness = 20.0",
+        std::string("[[loads]]\ndirection = { d7 = 1.0, d1 = 0.5 }\namplitude = ") + amplitude +
+            "\nhistory = { type = \"harmonic\", omega = 0.9 }\n");
+  };
+  {  // nothing slips or closes: multipliers are exp of what the linear chain with the element's spring has
+    const Orbit still = orbit_of(text("0.02"));
+    CAPTURE(still.reason);
+    REQUIRE(still.found);
+    REQUIRE(still.families.size() == 1);
+    CHECK(std::abs(product(still) - std::exp(-0.8 * still.period)) <= 1e-11 * std::exp(-0.8 * still.period));
+  }
+  const std::string scene = text("2.5");
+  const Orbit orbit = orbit_of(scene);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  REQUIRE(orbit.sequence.size() >= 4);
+  const SavedState start = orbit_scene(reader_of_text(scene), orbit).initial.saved.value();
+  std::vector<std::size_t> shears;  // of contacts that stick at the section: states that a run begins with
+  for (std::size_t c = 0; c < start.shears.size(); ++c)
+    if (start.shears[c].second != 0.0 && start.slips[c].second == 0) shears.push_back(c);
+  const std::size_t size = 16 + shears.size();
+  REQUIRE(orbit.multipliers.size() == size);
+  const double h = 1e-6;
+  Eigen::MatrixXd phi(size, size);
+  for (std::size_t j = 0; j < size; ++j) {
+    Eigen::VectorXd ends[2];
+    for (int side = 0; side < 2; ++side) {
+      Scene moved = orbit_scene(reader_of_text(scene), orbit);
+      SavedState& saved = *moved.initial.saved;
+      const double step = side == 0 ? -h : h;
+      if (j >= 16) saved.shears[shears[j - 16]].second += step;
+      const std::string name = fmt::format("d{}.{}", j % 8, j < 8 ? "u" : "v");
+      for (auto& [of, value] : saved.motions)
+        if (j < 16 && of == name) value += step;
+      const Result run = simulate(moved);
+      ends[side].resize(static_cast<Eigen::Index>(size));
+      ends[side].head(16) << run.rows.back().u, run.rows.back().v;
+      for (std::size_t c = 0; c < shears.size(); ++c)
+        ends[side][static_cast<Eigen::Index>(16 + c)] = run.rows.back().contacts[shears[c]].T;
+    }
+    phi.col(static_cast<Eigen::Index>(j)) = (ends[1] - ends[0]) / (2.0 * h);
+  }
+  std::complex<double> sum = 0.0, squares = 0.0;
+  for (const auto& mu : orbit.multipliers) {
+    sum += mu;
+    squares += mu * mu;
+  }
+  CHECK(std::abs(phi.trace() - sum.real()) <= 1e-7);
+  CHECK(std::abs((phi * phi).trace() - squares.real()) <= 1e-7);
+}
+
 TEST_CASE("scenes without an orbit say why") {
   const auto text = [](const std::string& loads, const std::string& run = "") {
     return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",

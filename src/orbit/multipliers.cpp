@@ -24,15 +24,6 @@ double apart(const Multipliers& a, const Multipliers& b) {
   return greatest;
 }
 
-/// Without the `count` that are nearest to 1.
-Multipliers without_ones(Multipliers all, std::size_t count) {
-  for (; count > 0 && !all.empty(); --count)
-    all.erase(std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-      return std::abs(a - 1.0) < std::abs(b - 1.0);
-    }));
-  return all;
-}
-
 OrbitLoss loss_of(std::complex<double> mu, double error) {
   if (std::abs(mu.imag()) > error) return OrbitLoss::neimark_sacker;
   return mu.real() > 0.0 ? OrbitLoss::fold : OrbitLoss::flip;
@@ -62,6 +53,14 @@ Multipliers multipliers_of(const Eigen::MatrixXd& phi) {
     if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
     return a.imag() > b.imag();
   });
+  return all;
+}
+
+Multipliers without_ones(Multipliers all, std::size_t count) {
+  for (; count > 0 && !all.empty(); --count)
+    all.erase(std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return std::abs(a - 1.0) < std::abs(b - 1.0);
+    }));
   return all;
 }
 

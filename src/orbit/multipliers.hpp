@@ -21,6 +21,9 @@ using Multipliers = std::vector<std::complex<double>>;
 /// Multipliers that are 1 within the rounding of Phi.
 [[nodiscard]] std::size_t count_ones(const Multipliers& all);
 
+/// Without the `count` that are nearest to 1.
+[[nodiscard]] Multipliers without_ones(Multipliers all, std::size_t count);
+
 /// Puts multipliers, their error, stability and loss into the orbit. all: those of phi; again: Phi from the image of the
 /// state, or empty; ones: how many multipliers are 1 for reasons of their own.
 void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again,

@@ -378,6 +378,27 @@ TEST_CASE("a branch over the frequency passes both folds of a one-sided spring's
   CHECK(branch.points.back().parameter == 0.4);
 }
 
+TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {
+  BranchOptions options;
+  options.path = "loads.1.history.phase";
+  options.from = 0.5;
+  options.to = 1.0;
+  const Branch shifted = follow(reader_of_text(jenkins()), options);
+  CHECK(!shifted.complete);
+  CHECK(shifted.points.size() == 1);
+  CHECK(shifted.end.find("only shifts the motion in time") != std::string::npos);
+  options.path = "contacts.1.friction";
+  options.from = 0.9;
+  options.to = -0.1;
+  options.step = 0.1;
+  const Branch refused = follow(reader_of_text(jenkins()), options);
+  CAPTURE(refused.end);
+  CHECK(!refused.complete);
+  CHECK(refused.points.size() > 3);
+  CHECK(refused.end.find("the scene is refused") != std::string::npos);
+  CHECK(refused.points.back().parameter < 0.3);
+}
+
 TEST_SUITE_END();
 
 TEST_SUITE_BEGIN("slow/orbits");
@@ -391,13 +412,17 @@ TEST_CASE("the resonance of a one-sided spring bends over, its middle part is un
   const Branch branch = follow(reader_of_text(chain("0.62")), options);
   CAPTURE(branch.end);
   CHECK(branch.complete);
-  long folds = 0, unstable = 0;
+  long folds = 0, flips = 0, unstable = 0;
   for (const BranchPoint& p : branch.points) {
-    folds += p.special.find("fold") != std::string::npos ? 1 : 0;
+    flips += p.special == "flip" ? 1 : 0;
+    if (p.special == "fold" || p.special == "flip" || p.special == "neimark-sacker")
+      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-5);  // that of time and those of families aside
+    folds += p.special == "fold" ? 1 : 0;
     unstable += p.stable.value_or(true) ? 0 : 1;
     CHECK(p.residual <= 1e-9);
   }
   CHECK(folds == 2);
+  CHECK(flips == 2);
   CHECK(unstable > 0);
 }
 

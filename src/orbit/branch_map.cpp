@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/eigen_dense.hpp"
 #include "base/number.hpp"
 #include "model/rescale.hpp"
 #include "run/choose_engine.hpp"
@@ -114,6 +115,34 @@ const BranchMap::Kept& BranchMap::kept(double s) const {
 
 std::shared_ptr<const PeriodMap> BranchMap::at(double s) const { return kept(s).map; }
 
+OrbitState BranchMap::fitted(OrbitState state, const Mode& mode, double s) const {
+  const Model& model = at(s)->model();
+  const auto fit = [&](Vector& x, const std::vector<std::pair<const Combination*, double>>& rows) {
+    if (rows.empty()) return;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), x.size());
+    Vector b(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index k = 0; k < b.size(); ++k) {
+      const auto& [form, value] = rows[static_cast<std::size_t>(k)];
+      for (const auto& [dof, factor] : form->terms) A(k, dof) += factor;
+      b[k] = value - form->dot(x);
+    }
+    x += least_squares(A, b);
+  };
+  std::vector<std::pair<const Combination*, double>> places, rates;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (contact.takes_impulses() && !mode[c].is_open()) {
+      places.emplace_back(&contact.normal, -contact.gap);
+      rates.emplace_back(&contact.normal, 0.0);
+    }
+    if (contact.sticks_rigidly() && mode[c].state == State::stick)
+      rates.emplace_back(&contact.tangent, contact.surface_motion.piece(0.0).value(0.0, 1));
+  }
+  fit(state.u, places);
+  fit(state.v, rates);
+  return state;
+}
+
 OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs) const {
   return at(state.s)->pass({state.state, state.duration, tangents, outputs});
 }
@@ -121,7 +150,8 @@ OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs)
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
   const auto gap = [&](double s) -> std::optional<Vector> {
-    const OrbitPass other = this->pass({state.state, autonomous_ ? state.duration : period(s), s}, false);
+    const OrbitPass other = this->pass(
+        {fitted(state.state, pass.begin.mode, s), autonomous_ ? state.duration : period(s), s}, false);
     if (!other.done()) return std::nullopt;
     return section.coordinates(other.end) - section.coordinates(other.begin);
   };

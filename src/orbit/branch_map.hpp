@@ -38,6 +38,9 @@ class BranchMap {
 
   /// Those of the last values of s are kept.
   [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
+  /// The state at s that holds what this mode holds rigidly: n . u = -g0 and n . v = 0 of closed contacts, t . v that of the
+  /// surface of those that stick. A key may move all three.
+  [[nodiscard]] OrbitState fitted(OrbitState state, const Mode& mode, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
   /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T. A matrix of Newton's method and a
   /// direction: neither needs more digits.

@@ -28,6 +28,7 @@ BranchState BranchNewton::moved(const BranchState& from, const OrbitPass& pass, 
   BranchState to = from;
   to.state = section.moved(orbit_state(pass.begin), amplitude_ * dy.head(section.size()));
   to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // outside, the key may mean nothing
+  to.state = map_.fitted(std::move(to.state), pass.begin.mode, to.s);
   to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
   return to;
 }

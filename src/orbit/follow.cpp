@@ -234,6 +234,7 @@ Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bo
   if (!last) return newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, here.by_s);
   BranchState end = newton_.moved(here.state, here.pass, ds * t);
   end.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
+  end.state = map_.fitted(std::move(end.state), here.pass.begin.mode, end.s);
   if (!map_.autonomous()) end.duration = map_.period(end.s);
   return newton_.correct(std::move(end), newton_.upwards(here.pass, 1.0), here.by_s);
 }

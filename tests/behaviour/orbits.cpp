@@ -378,6 +378,69 @@ TEST_CASE("a branch over the frequency passes both folds of a one-sided spring's
   CHECK(branch.points.back().parameter == 0.4);
 }
 
+TEST_CASE("a branch locates the flip of an impact oscillator where the closed form has it") {
+  // m = k = 1 at a wall where the spring is slack, one hit a cycle of cos(w t): Phi from hit to hit has
+  //   det = e^2,   tr = -2 e C + (1 + e)^2 (1 + C) (1 - w^2)/2,   C = cos(2 pi/w);   flip: 1 + tr + det = 0
+  const double e = 0.8;
+  const auto flips = [&](double w) {
+    const double C = std::cos(2.0 * pi / w);
+    return 1.0 + e * e - 2.0 * e * C + 0.5 * (1.0 + e) * (1.0 + e) * (1.0 + C) * (1.0 - w * w);
+  };
+  double below = 2.6, above = 2.7;
+  REQUIRE(flips(below) * flips(above) < 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (below + above);
+    ((flips(middle) < 0.0) == (flips(below) < 0.0) ? below : above) = middle;
+  }
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 2.6;
+  options.to = 2.7;
+  options.step = 0.1;
+  const Branch branch = follow(
+      reader_of_text(matrix_scene("t_end = 100.0\nengine = \"exact\"",
+                                  "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
+                                  "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
+                                  "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
+                                  "\"harmonic\", omega = 2.6, phase = 1.5707963267948966 }\n")),
+      options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  long found = 0;
+  for (const BranchPoint& p : branch.points) {
+    if (p.special == "flip") {
+      ++found;
+      CHECK(std::abs(p.parameter - below) <= 1e-10);
+      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-9);
+    } else if (std::abs(p.parameter - below) > 1e-6) {
+      CHECK(p.stable == (p.parameter < below));
+    }
+  }
+  CHECK(found == 1);
+}
+
+TEST_CASE(
+    "a branch of stick-slip orbits over the belt's speed v: period pi + 2 atan 2 v + 1/v at each point") {
+  BranchOptions options;
+  options.path = "contacts.1.surface_velocity";
+  options.from = 0.2;
+  options.to = 0.5;
+  options.step = 0.2;
+  const Branch branch = follow(
+      reader_of_text(matrix_scene("t_end = 60.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                                  "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
+                                  "friction = { static = 1.0, kinetic = 0.5 }\nsurface_velocity = 0.2")),
+      options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  REQUIRE(branch.points.size() >= 4);
+  for (const BranchPoint& p : branch.points) {
+    const double v = p.parameter;
+    CHECK(std::abs(p.period - (pi + 2.0 * std::atan(2.0 * v) + 1.0 / v)) <= 1e-9);
+    CHECK(p.stable.value_or(false));
+  }
+}
+
 TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {
   BranchOptions options;
   options.path = "loads.1.history.phase";

@@ -258,7 +258,7 @@ TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes again
         m += fmt::format("{}{}", j > 0 ? ", " : "", i == j ? 1.0 + 0.1 * i : 0.0);
         c += fmt::format("{}{:.17g}", j > 0 ? ", " : "", i == j ? 0.1 * (1.0 + 0.1 * i) : 0.0);
         k += fmt::format("{}{}", j > 0 ? ", " : "",
-                         i == j                 ? (i == 7 ? 13.0 : 17.0 + i)
+                         i == j                 ? (i == 7 ? 15.5 : 17.0 + 2.0 * i)
                          : std::abs(i - j) == 1 ? -(8.0 + 0.5 * (i + j))
                                                 : 0.0);
       }

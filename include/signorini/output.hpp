@@ -1,6 +1,7 @@
 // output.hpp: a response quantity as a linear functional of the motion, or the greatest of many.
 //
 //   r(t) = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant + loss of a contact
+//          + sum_k c_k ( |N| - N_0 ) t.u                 of pendulums whose force varies
 //
 // Envelopes and extremes of stresses are the greatest |r| along stretches of members, at points of which r is known.
 //
@@ -27,6 +28,13 @@ struct Output {
     double N = 0.0, T = 0.0;  ///< factors of both forces
   };
   std::vector<ContactForces> forces = {};
+  /// factor (|N| - said) slip . u: what the surface of a pendulum adds to the spring of a force that was said.
+  struct Restoring {
+    std::size_t contact = 0;
+    Combination slip = {};
+    double factor = 0.0, said = 0.0;  ///< factor: unit of the output over force and length; said: force
+  };
+  std::vector<Restoring> restoring = {};
   struct Given {
     History history;        ///< in the unit of the output
     std::string load = {};  ///< Model::loads, by name; empty: of no load

@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> sweep_scripts(const fs::path& directory, const PictureLook& look) {
+PictureFiles pictures_of_sweep(const fs::path& directory, const PictureLook& look) {
   const SweepDirectory swept(directory, read_sweep_spec(directory), false);
-  return write_sweep_plots(directory, swept.spec(), swept.rows(), look);
+  return sweep_pictures(swept.spec(), swept.rows(), look);
 }
 
-std::vector<fs::path> sensitivity_scripts(const fs::path& directory, const PictureLook& look) {
+PictureFiles pictures_of_sensitivities(const fs::path& directory, const PictureLook& look) {
   Sigmas sigmas;
   const Sensitivities s = read_sensitivities(directory, sigmas);
-  return write_sensitivity_plots(directory, s, sigmas, look);
+  return sensitivity_pictures(s, sigmas, look);
 }
 
 /// The runs of a comparison: in a folder of the engine's name, else where they were.
@@ -72,12 +72,12 @@ bool complete_pictures(const fs::path& directory) {
 std::vector<fs::path> write_any_plots(const fs::path& directory, const PlotWindow& window,
                                       const PictureLook& look) {
   const std::string kind = kind_of_results(directory);
-  if (kind == "run") return write_plots(directory, window, look);
+  if (kind == "run") return run_pictures(directory, window, look).write(directory);
   if (window.from || window.to)
     throw UsageError(fmt::format("{}: {} is a {}, whose pictures have no part of a time to show",
                                  window.from ? "--from" : "--to", directory.string(), kind));
-  if (kind == "sweep") return sweep_scripts(directory, look);
-  if (kind == "sensitivity") return sensitivity_scripts(directory, look);
+  if (kind == "sweep") return pictures_of_sweep(directory, look).write(directory);
+  if (kind == "sensitivity") return pictures_of_sensitivities(directory, look).write(directory);
   if (kind == "comparison") return comparison_scripts(directory, look);
   throw FileError(
       directory.string(),

@@ -205,7 +205,7 @@ ExitCode run(const SensitivityOptions& options) {
   const std::string json = sensitivity_json(s, sigmas);
   write_file(path / "sensitivity.json", json);
   const std::string drawn =
-      options.no_plots ? "" : draw_pictures(path, write_sensitivity_plots(path, s, sigmas));
+      options.no_plots ? "" : draw_pictures(path, sensitivity_pictures(s, sigmas).write(path));
   if (options.json) print(json);
   if (options.tables()) {
     if (!s.title.empty()) print(s.title + "\n\n");

@@ -476,6 +476,19 @@ void Decider::finish(Course& course) const {
       d.guards.push_back(std::move(start));
     }
   }
+  note_left(course, d);
+}
+
+/// Enumeration may find what release() would: a contact at its limit of friction opens, and its force drops to zero.
+void Decider::note_left(const Course& course, Decision& d) const {
+  const Instant& now = course.instant;
+  if (now.jump || now.start || !d.released.empty()) return;
+  for (const Fired& f : now.fired) {
+    const bool limit = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    if (limit && !now.mode[f.contact].is_open() && d.mode[f.contact].is_open() && d.jumped[f.contact] &&
+        carries_massless(model_, model_.contacts[f.contact]))
+      d.released.push_back(f.contact);
+  }
 }
 
 /// What slips at a rate that is zero with all its derivatives is at rest. Where others that stick hold it there

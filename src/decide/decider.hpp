@@ -65,6 +65,7 @@ class Decider {
   [[nodiscard]] Refusal go(const Forcing& before, Course& course);
   [[nodiscard]] static bool rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard);
   void finish(Course& course) const;
+  void note_left(const Course& course, Decision& decision) const;
   [[nodiscard]] Refusal held_at_rest(const Course& course) const;
   [[nodiscard]] std::vector<BodySlide> slides(const Forcing& forcing, const Decision& decision) const;
 

@@ -5,7 +5,6 @@
 #include "motion/hold.hpp"
 
 namespace signorini {
-namespace {
 
 bool carries_massless(const Model& model, const Contact& contact) {
   const auto massless = [&](const Combination& form) {
@@ -15,8 +14,6 @@ bool carries_massless(const Model& model, const Contact& contact) {
   };
   return massless(contact.normal) || massless(contact.tangent);
 }
-
-}  // namespace
 
 std::optional<Vector> released(ModeSystems& systems, JetMaker& jets, const Forcing& forcing,
                                const Instant& instant, Mode mode, std::size_t c) {

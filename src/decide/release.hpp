@@ -17,6 +17,9 @@
 
 namespace signorini {
 
+/// Some part that the contact acts on has no mass.
+[[nodiscard]] bool carries_massless(const Model& model, const Contact& contact);
+
 /// Displacements once contact c has let go and parts without mass have followed. `mode`: states of all others.
 /// Nothing: it carries no part without mass, or its gap would not open.
 [[nodiscard]] std::optional<Vector> released(ModeSystems& systems, JetMaker& jets, const Forcing& forcing,

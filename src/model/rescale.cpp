@@ -72,6 +72,11 @@ class Rescaling {
     value_of(o.a, {of.force, of.length, of.time + 2});
     for (Output::ContactForces& f : o.forces)
       for (double* x : {&f.N, &f.T}) (*this)(*x, {of.force - 1, of.length, of.time});
+    for (Output::Restoring& r : o.restoring) {
+      (*this)(r.slip);
+      (*this)(r.factor, {of.force - 1, of.length - 1, of.time});
+      (*this)(r.said, unit::force);
+    }
     for (Output::Given& given : o.given) {
       (*this)(given.history, of);
       given.factor *= factor_of(of, factors_) / factor_of(given.of_load, factors_);

@@ -23,21 +23,28 @@ CsvReader::CsvReader(const std::filesystem::path& path) : path_(path) {
 
 std::size_t CsvReader::column(const std::string& name) const {
   const auto found = std::find(header_.begin(), header_.end(), name);
-  if (found == header_.end()) throw FileError(path_.string(), "has no column '" + name + "'");
+  if (found == header_.end()) refuse("has no column '" + name + "'");
   return static_cast<std::size_t>(found - header_.begin());
 }
 
 bool CsvReader::next() {
   if (!read_csv_row(file_, cells_)) return false;
-  if (cells_.size() != header_.size()) throw FileError(path_.string(), "has a row of another length");
+  if (cells_.size() != header_.size()) refuse("has a row of another length");
   return true;
 }
 
 double CsvReader::number(std::size_t index) const {
   const std::string& text = cells_[index];
   const std::optional<double> value = parse_number(text);
-  if (!value) throw FileError(path_.string(), "has '" + text + "' where a number is expected");
+  if (!value) refuse("has '" + text + "' where a number is expected");
   return *value;
+}
+
+void CsvReader::refuse(const std::string& why) const { throw FileError(path_.string(), why); }
+
+bool TableFolder::has(const char* table) const {
+  std::error_code error;
+  return std::filesystem::is_regular_file(directory_ / table, error);
 }
 
 }  // namespace signorini

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace signorini {
@@ -35,11 +36,26 @@ class CsvReader {
   [[nodiscard]] const std::string& cell(std::size_t index) const { return cells_[index]; }
   [[nodiscard]] double number(std::size_t index) const;
 
+  /// Throws the FileError that names this table.
+  [[noreturn]] void refuse(const std::string& why) const;
+
  private:
   std::filesystem::path path_;
   std::ifstream file_;
   std::vector<std::string> header_, cells_;
   std::optional<std::size_t> time_;
+};
+
+/// The tables of a directory of results.
+class TableFolder {
+ public:
+  explicit TableFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}
+  [[nodiscard]] bool has(const char* table) const;
+  /// Errors: FileError.
+  [[nodiscard]] CsvReader open(const char* table) const { return CsvReader(directory_ / table); }
+
+ private:
+  std::filesystem::path directory_;
 };
 
 }  // namespace signorini

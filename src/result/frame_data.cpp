@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
-
-#include "result/csv_read.hpp"
 
 namespace signorini {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Where a row of frames.csv has a node, and how that has moved.
 class EndColumns {
@@ -29,8 +24,8 @@ class EndColumns {
   std::size_t x_, y_, ux_, uy_, rz_;
 };
 
-void read_shapes(const fs::path& directory, double from, double to, std::vector<Frame>& frames) {
-  CsvReader rows(directory / "frames.csv");
+void read_shapes(const TableFolder& tables, double from, double to, std::vector<Frame>& frames) {
+  CsvReader rows = tables.open("frames.csv");
   const std::size_t kind = rows.column("kind"), node = rows.column("node");
   const EndColumns ends(rows);
   bool half = false;
@@ -55,8 +50,8 @@ void read_shapes(const fs::path& directory, double from, double to, std::vector<
   }
 }
 
-void read_forces(const fs::path& directory, std::vector<Frame>& frames) {
-  CsvReader rows(directory / "frame_contacts.csv");
+void read_forces(const TableFolder& tables, std::vector<Frame>& frames) {
+  CsvReader rows = tables.open("frame_contacts.csv");
   const auto number = [&](const char* name) { return rows.number(rows.column(name)); };
   std::size_t i = 0;
   while (rows.next()) {
@@ -92,12 +87,11 @@ double round_down(double x) {
 
 }  // namespace
 
-std::vector<Frame> read_frames(const fs::path& directory, double from, double to) {
+std::vector<Frame> read_frames(const TableFolder& tables, double from, double to) {
   std::vector<Frame> frames;
-  std::error_code error;
-  if (!fs::exists(directory / "frames.csv", error)) return frames;
-  read_shapes(directory, from, to, frames);
-  read_forces(directory, frames);
+  if (!tables.has("frames.csv")) return frames;
+  read_shapes(tables, from, to, frames);
+  read_forces(tables, frames);
   return frames;
 }
 

@@ -8,11 +8,11 @@
 // force of the run.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "model/element/line_element.hpp"
+#include "result/csv_read.hpp"
 
 namespace signorini {
 
@@ -51,7 +51,7 @@ struct FrameScales {
 };
 
 /// Frames between the two times; none where frames.csv is missing. Errors: FileError.
-[[nodiscard]] std::vector<Frame> read_frames(const std::filesystem::path& directory, double from, double to);
+[[nodiscard]] std::vector<Frame> read_frames(const TableFolder& tables, double from, double to);
 /// A structure that slides far shows nothing of its deformation: where the shapes differ from a translation
 /// by less than half of their greatest displacement, each frame's mean translation is drawn in true scale.
 void take_out_slides(std::vector<Frame>& frames);

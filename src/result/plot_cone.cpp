@@ -49,44 +49,44 @@ std::string colour_functions() {
   return s + "0x999999\n";
 }
 
-std::string panel_of(const PlottedRun& run, std::size_t k, bool small) {
+std::vector<Curve> curves_of(const PlottedRun& run, std::size_t k, bool small) {
   const RunFacts::Contact& contact = run.facts.contacts[k];
   const std::string data = contact_rows(run, k);
   const CsvTable<ContactRow>& rows = contact_table();
   const std::string inside = fmt::format("({0} >= from && {0} <= to ? -{1} : NaN):{2}", rows.value("t"),
                                          rows.value("N"), rows.number("T"));
   const CsvTable<Mark>& marks = mark_table();
-  std::vector<std::string> elements;
-  const std::string red = " with lines linecolor '#c0182b' linewidth 1.2";
+  std::vector<Curve> curves;
   const auto cone = [&](double f, const std::string& dash) {
-    elements.push_back(fmt::format("{}*x{}{} notitle", f, red, dash));
-    elements.push_back(fmt::format("-{}*x{}{} notitle", f, red, dash));
+    for (const char* sign : {"", "-"})
+      curves.push_back(
+          {fmt::format("{}{}*x", sign, f), "", "with lines linecolor '#c0182b' linewidth 1.2" + dash});
   };
-  elements.push_back(
-      fmt::format("'+' using 1:({0}*$1):(-{0}*$1) with filledcurves fillstyle solid 0.5 noborder "
-                  "linecolor '#fbe9e7' notitle",
-                  contact.static_friction));
+  curves.push_back({"'+'", fmt::format("1:({0}*$1):(-{0}*$1)", contact.static_friction),
+                    "with filledcurves fillstyle solid 0.5 noborder linecolor '#fbe9e7'"});
   cone(contact.static_friction, "");
   if (contact.kinetic_friction != contact.static_friction) cone(contact.kinetic_friction, " dashtype 2");
   // Output times may lie far apart: the thin line only says in which order the points come.
-  elements.push_back(data + " using " + inside + " with lines linewidth 0.4 linecolor '#b8b8b8' notitle");
-  elements.push_back(data + " using " + inside + ":(state_colour(" + rows.word("state") +
-                     ")) with points pointtype 7 pointsize " + (small ? "0.2" : "0.35") +
-                     " linecolor rgb variable notitle");
-  elements.push_back(fmt::format(
-      "'marks.csv' skip 1 using ({} == {} ? -{} : NaN):{}:(event_colour({})) "
-      "with points pointtype 6 pointsize {} linecolor rgb variable notitle",
-      marks.value("row"), k, marks.value("N"), marks.number("T"), marks.word("event"), small ? 0.4 : 0.7));
-  return plot_command(elements);
+  curves.push_back({data, inside, "with lines linewidth 0.4 linecolor '#b8b8b8'"});
+  curves.push_back({data, inside + ":(state_colour(" + rows.word("state") + "))",
+                    std::string("with points pointtype 7 pointsize ") + (small ? "0.2" : "0.35") +
+                        " linecolor rgb variable"});
+  curves.push_back(
+      {"'marks.csv' skip 1",
+       fmt::format("({} == {} ? -{} : NaN):{}:(event_colour({}))", marks.value("row"), k, marks.value("N"),
+                   marks.number("T"), marks.word("event")),
+       fmt::format("with points pointtype 6 pointsize {} linecolor rgb variable", small ? 0.4 : 0.7)});
+  return curves;
 }
 
 bool rubs(const PlottedRun& run, std::size_t k) { return run.facts.contacts[k].static_friction != 0.0; }
 
 /// The legend in a panel of its own without axes.
-std::string legend(const PlottedRun& run, const Canvas& canvas, double top) {
+Panel legend(const PlottedRun& run, const Canvas& canvas, double top) {
   const double left = canvas.right() + 10.0 / canvas.width;
-  std::string s =
-      fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen 0.99\n", std::min(left, 0.95));
+  Panel panel;
+  std::string& s = panel.margins;
+  s = fmt::format("\nset lmargin at screen {:.4f}\nset rmargin at screen 0.99\n", std::min(left, 0.95));
   s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n", 0.5 * top, top);
   s += "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset label\nunset grid\n";
   s += "set xrange [0:1]\nset yrange [0:1]\n";
@@ -94,31 +94,31 @@ std::string legend(const PlottedRun& run, const Canvas& canvas, double top) {
       "set key at screen {:.4f},{:.4f} left top vertical maxrows 30 Left reverse samplen 1.6 "
       "spacing 1.15 font ',{:.4g}' noautotitle noenhanced\n",
       left, top, canvas.font(11.0));
-  std::vector<std::string> elements = {"2 notitle",  // entries of a legend alone are no plot to gnuplot
-                                       "keyentry with lines linecolor '#c0182b' linewidth 1.2 title '±f|N|'"};
-  for (const auto& contact : run.facts.contacts) {
-    if (contact.kinetic_friction == contact.static_friction) continue;
-    elements.push_back("keyentry with lines linecolor '#c0182b' linewidth 1.2 dashtype 2 title " +
-                       quoted(say(run, "kinetic limit") + " ±f|N|"));
-    break;
-  }
+  std::vector<Curve>& curves = panel.curves;
+  const auto entry = [&](const std::string& look, const std::string& name) {
+    curves.push_back({"keyentry", "", "with " + look, name});
+  };
+  curves.push_back({"2", "", ""});  // entries of a legend alone are no plot to gnuplot
+  entry("lines linecolor '#c0182b' linewidth 1.2", "±f|N|");
+  const auto two = [](const auto& c) { return c.kinetic_friction != c.static_friction; };
+  if (std::any_of(run.facts.contacts.begin(), run.facts.contacts.end(), two))
+    entry("lines linecolor '#c0182b' linewidth 1.2 dashtype 2", say(run, "kinetic limit") + " ±f|N|");
   for (const std::string& state : state_names()) {
     bool occurs = false;
     for (std::size_t k = 0; k < run.bands.size(); ++k)
       occurs = occurs || (rubs(run, k) && std::any_of(run.bands[k].begin(), run.bands[k].end(),
                                                       [&](const auto& b) { return b.state == state; }));
     if (occurs && state != "open" && state != "closed")
-      elements.push_back("keyentry with points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) +
-                         "' title " + quoted(say(run, state)));
+      entry("points pointtype 7 pointsize 0.7 linecolor '" + state_colour(state) + "'", say(run, state));
   }
   for (const EventLook& look : event_looks) {
     const auto drawn = [&](const auto& e) { return e.second == to_string(look.type) && rubs(run, e.first); };
-    const std::string event = to_string(look.type);
     if (std::any_of(run.occurring.begin(), run.occurring.end(), drawn))
-      elements.push_back(fmt::format("keyentry with points pointtype 6 pointsize 0.9 linecolor '{}' title {}",
-                                     look.colour, quoted(say(run, "event") + ": " + say(run, event))));
+      entry(fmt::format("points pointtype 6 pointsize 0.9 linecolor '{}'", look.colour),
+            say(run, "event") + ": " + say(run, to_string(look.type)));
   }
-  return s + plot_command(elements);
+  panel.after = "set border 3\nset tics\nset grid\n";
+  return panel;
 }
 
 /// Name and coefficients above a panel, and what it shows.
@@ -140,14 +140,14 @@ std::string heading_and_ranges(const PlottedRun& run, std::size_t k, const Canva
 
 }  // namespace
 
-std::string cone_script(const PlottedRun& run) {
+Picture cone_picture(const PlottedRun& run) {
   std::vector<std::size_t> shown;
   std::size_t rubbing = 0;
   for (std::size_t k = 0; k < run.facts.contacts.size(); ++k) {
     if (!rubs(run, k)) continue;
     if (++rubbing <= most_panels) shown.push_back(k);
   }
-  if (shown.empty()) return "";
+  if (shown.empty()) return {};
   Canvas canvas = canvas_of(run.look, 0.0, false);
   const double room = canvas.width * (canvas.right() - canvas.left());
   const Grid grid =
@@ -162,20 +162,22 @@ std::string cone_script(const PlottedRun& run) {
   canvas.height = std::round(above - 2.0 + static_cast<double>(grid.rows) * (panel_height + between));
   const std::string part =
       rubbing > shown.size() ? " (" + say(run, "first {} of {}", shown.size(), rubbing) + ")" : "";
-  std::string s = begin_script(run, {"cone",
-                                     say(run, "Contact forces and friction cones") + part + ": " +
-                                         say(run, "inside sticks, on its edge slips"),
-                                     canvas});
-  s += colour_functions() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
-  if (small) s += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
+  Picture picture{"cone",
+                  say(run, "Contact forces and friction cones") + part + ": " +
+                      say(run, "inside sticks, on its edge slips"),
+                  canvas};
+  picture.setup = colour_functions() + "set samples 2\nset grid back\nset offsets 0,0,0,0\n";
+  if (small) picture.setup += fmt::format("set tics font ',{:.4g}'\n", canvas.font(10.0));
   const double line = 1.0 / canvas.height, left = canvas.left(), right = canvas.right();
   const double width = (right - left) / static_cast<double>(grid.columns);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const std::size_t column = i % grid.columns, row = i / grid.columns;
     const double top = 1.0 - line * (above + static_cast<double>(row) * (panel_height + between));
     const double from = left + width * static_cast<double>(column);
-    s += fmt::format("\nset lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", from,
-                     from + width - (grid.columns > 1 ? 60.0 / canvas.width : 0.0));
+    Panel panel{"", curves_of(run, shown[i], small)};
+    std::string& s = panel.margins;
+    s = fmt::format("\nset lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", from,
+                    from + width - (grid.columns > 1 ? 60.0 / canvas.width : 0.0));
     s += fmt::format("set bmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n",
                      top - panel_height * line, top);
     s += heading_and_ranges(run, shown[i], canvas, small);
@@ -190,11 +192,10 @@ std::string cone_script(const PlottedRun& run) {
     s += column == 0 ? "set ylabel " + quoted(say(run, "shear") + " T [" + run.facts.units.force + "]") +
                            " offset character 0.5,0\n"
                      : "unset ylabel\n";
-    s += panel_of(run, shown[i], small);
+    picture.panels.push_back(panel);
   }
-  s += "\n" + legend(run, canvas, 1.0 - above * line);
-  s += "set border 3\nset tics\nset grid\n";
-  return s + end_script();
+  picture.panels.push_back(legend(run, canvas, 1.0 - above * line));
+  return picture;
 }
 
 }  // namespace signorini

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "base/number.hpp"
 #include "result/frame_data.hpp"
@@ -13,8 +12,6 @@
 namespace signorini {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t most_pictures = 40;  // evenly chosen of more
 constexpr std::size_t most_labelled = 6;   // contacts with their forces in figures; more only by name
@@ -146,93 +143,79 @@ std::string subtitle(const Frame& frame, const FrameScales& scales, const Plotte
 }
 
 /// Elements, nodes and supports, undeformed and deformed.
-std::vector<std::string> shape_elements(const Frame& frame, const std::string& name, const PlottedRun& run) {
-  const std::string shape = quoted(name + "-shape.csv") + " skip 1 using ";
+std::vector<Curve> shape_curves(const Frame& frame, const std::string& name, const PlottedRun& run) {
+  const std::string shape = quoted(name + "-shape.csv") + " skip 1";
   const auto has = [&](const std::string& kind) {
     return std::any_of(frame.elements.begin(), frame.elements.end(),
                        [&](const auto& e) { return e.kind == kind; });
   };
-  const auto only = [](const std::string& kind, const char* x, const char* y) {
+  std::vector<Curve> curves;
+  const auto add = [&](const char* kind, const char* x, const char* y, const std::string& look,
+                       const std::optional<std::string>& title = std::nullopt) {
     const CsvTable<ShapePoint>& table = shape_table();
-    return fmt::format("({} eq '{}' ? {} : NaN):{}", table.word("kind"), kind, table.value(x),
-                       table.number(y));
+    curves.push_back(
+        {shape,
+         fmt::format("({} eq '{}' ? {} : NaN):{}", table.word("kind"), kind, table.value(x), table.number(y)),
+         "with " + look, title});
   };
-  std::vector<std::string> elements;
+  const std::string thin = "lines linewidth 0.8 linecolor '#b0b0b0'";
   const auto line = [&](const char* kind, const char* look, const char* title) {
     if (!has(kind)) return;
-    elements.push_back(shape + only(kind, "x", "y") +
-                       " with lines linewidth 0.8 linecolor '#b0b0b0' notitle");
-    elements.push_back(shape + only(kind, "X", "Y") + " with lines " + look + " title " +
-                       quoted(say(run, title)));
+    add(kind, "x", "y", thin);
+    add(kind, "X", "Y", std::string("lines ") + look, say(run, title));
   };
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
   line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
   line("rigid", "linewidth 1.6 linecolor '#8a5a2b'", "rigid bodies");
   line("beam", "linewidth 2.2 linecolor '#1a1a1a'", "beams");
-  if (has("beam") || has("bar") || has("spring") || has("rigid"))
-    elements.push_back("keyentry with lines linewidth 0.8 linecolor '#b0b0b0' title " +
-                       quoted(say(run, "undeformed")));
-  elements.push_back(shape + only("node", "x", "y") +
-                     " with points pointtype 6 pointsize 0.5 linecolor '#b0b0b0' notitle");
-  elements.push_back(shape + only("node", "X", "Y") +
-                     " with points pointtype 7 pointsize 0.6 linecolor '#1a1a1a' title " +
-                     quoted(say(run, "nodes")));
-  const bool held =
-      std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; });
-  if (held)
-    elements.push_back(shape + only("support", "X", "Y") +
-                       " with points pointtype 5 pointsize 1 linecolor '#555555' title " +
-                       quoted(say(run, "supports")));
-  return elements;
+  if (!curves.empty()) curves.push_back({"keyentry", "", "with " + thin, say(run, "undeformed")});
+  add("node", "x", "y", "points pointtype 6 pointsize 0.5 linecolor '#b0b0b0'");
+  add("node", "X", "Y", "points pointtype 7 pointsize 0.6 linecolor '#1a1a1a'", say(run, "nodes"));
+  if (std::any_of(frame.points.begin(), frame.points.end(), [](const auto& p) { return p.support; }))
+    add("support", "X", "Y", "points pointtype 5 pointsize 1 linecolor '#555555'", say(run, "supports"));
+  return curves;
 }
 
 /// Arrows, and points in the colours of the states.
-std::vector<std::string> force_elements(const Frame& frame, const std::string& name, const PlottedRun& run) {
-  std::vector<std::string> elements;
-  if (frame.forces.empty()) return elements;
-  const std::string forces = quoted(name + "-forces.csv") + " skip 1 using ";
+void add_forces(const Frame& frame, const std::string& name, const PlottedRun& run,
+                std::vector<Curve>& curves) {
+  if (frame.forces.empty()) return;
+  const std::string forces = quoted(name + "-forces.csv") + " skip 1";
   const CsvTable<Frame::Force> table = force_table({});
-  elements.push_back(
-      forces +
-      fmt::format("({}-{}):({}-{}):{}:{} with vectors head filled size screen 0.009,18 linewidth 1.8 "
-                  "linecolor '#c0182b' title ",
-                  table.value("x"), table.value("dx"), table.value("y"), table.value("dy"),
-                  table.number("dx"), table.number("dy")) +
-      quoted(say(run, "contact force")));
+  curves.push_back({forces,
+                    fmt::format("({}-{}):({}-{}):{}:{}", table.value("x"), table.value("dx"),
+                                table.value("y"), table.value("dy"), table.number("dx"), table.number("dy")),
+                    "with vectors head filled size screen 0.009,18 linewidth 1.8 linecolor '#c0182b'",
+                    say(run, "contact force")});
   for (const std::string& state : state_names()) {
     const bool occurs = std::any_of(frame.forces.begin(), frame.forces.end(),
                                     [&](const auto& f) { return f.state == state; });
-    if (!occurs) continue;
-    elements.push_back(forces + "(" + table.word("state") + " eq " + quoted(state) +
-                       fmt::format(" ? {} : NaN):{}", table.value("x"), table.number("y")) +
-                       " with points pointtype 7 pointsize 1.1 linecolor '" + state_colour(state) +
-                       "' title " + quoted(say(run, state)));
+    if (occurs)
+      curves.push_back({forces,
+                        "(" + table.word("state") + " eq " + quoted(state) +
+                            fmt::format(" ? {} : NaN):{}", table.value("x"), table.number("y")),
+                        "with points pointtype 7 pointsize 1.1 linecolor '" + state_colour(state) + "'",
+                        say(run, state)});
   }
-  return elements;
 }
 
-std::string script_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
-                      const std::string& name) {
+Picture picture_of(const Frame& frame, const FrameScales& scales, const PlottedRun& run,
+                   const std::string& name) {
   const Layout l = layout_of(scales, run);
   const Units& units = run.facts.units;
-  std::string s = begin_script(run, {name, subtitle(frame, scales, run), l.canvas, false});
-  s += panel(run, l.canvas, stacked(0, 1, l.canvas), "y [" + units.length + "]", true);
-  s += "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n";
-  s += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", shortest(l.x0), shortest(l.x1), shortest(l.y0),
-                   shortest(l.y1));
-  s += labels(frame, scales, l, run);
-
-  std::vector<std::string> elements = shape_elements(frame, name, run);
-  for (std::string& element : force_elements(frame, name, run)) elements.push_back(std::move(element));
-  return s + plot_command(elements) + "unset label\n" + end_script();
+  Panel panel{"y [" + units.length + "]", shape_curves(frame, name, run)};
+  add_forces(frame, name, run, panel.curves);
+  panel.axes = "set xlabel " + quoted("x [" + units.length + "]") + "\nset offsets 0,0,0,0\nset grid back\n" +
+               range_of('x', l.x0, l.x1) + range_of('y', l.y0, l.y1) + labels(frame, scales, l, run);
+  panel.after = "unset label\n";
+  return {name, subtitle(frame, scales, run), l.canvas, false, {panel}};
 }
 
 }  // namespace
 
-std::vector<FramePicture> frame_pictures(const fs::path& directory, const PlottedRun& run) {
-  std::vector<Frame> frames = read_frames(directory, run.from, run.to);
-  std::vector<FramePicture> pictures;
-  if (frames.empty()) return pictures;
+void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures) {
+  std::vector<Frame> frames = run.frames;
+  if (frames.empty()) return;
   take_out_slides(frames);
   const FrameScales shared = scales_of(frames, run.greatest_force);
   const std::size_t count = std::min(frames.size(), most_pictures);
@@ -240,12 +223,10 @@ std::vector<FramePicture> frame_pictures(const fs::path& directory, const Plotte
     const Frame& frame = frames[count == 1 ? 0 : i * (frames.size() - 1) / (count - 1)];
     const FrameScales scales = scales_of(frame, shared);
     const std::string name = fmt::format("frame-{}", i + 1);
-    const fs::path folder = directory / "plots";
-    write_file(folder / (name + "-shape.csv"), shape_text(frame, scales.magnification));
-    write_file(folder / (name + "-forces.csv"), force_table(scales).text(frame.forces));
-    pictures.push_back({name, script_of(frame, scales, run, name)});
+    pictures.add_table(name + "-shape", shape_text(frame, scales.magnification));
+    pictures.add_table(name + "-forces", force_table(scales).text(frame.forces));
+    pictures.add(run, picture_of(frame, scales, run, name));
   }
-  return pictures;
 }
 
 }  // namespace signorini

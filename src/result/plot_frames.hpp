@@ -7,21 +7,12 @@
 // Magnification, scale of the forces and section are the same in all frames of a run, and stated.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
+#include "result/picture_files.hpp"
 #include "result/plot_parts.hpp"
 
 namespace signorini {
 
-struct FramePicture {
-  std::string name;    ///< "frame-1"
-  std::string script;  ///< text
-};
-
-/// Writes the tables into DIR/plots and returns the scripts; none without frames. Errors: FileError.
-[[nodiscard]] std::vector<FramePicture> frame_pictures(const std::filesystem::path& directory,
-                                                       const PlottedRun& run);
+/// A picture a frame of the time shown, evenly chosen where there are many.
+void add_frame_pictures(const PlottedRun& run, PictureFiles& pictures);
 
 }  // namespace signorini

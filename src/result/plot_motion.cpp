@@ -73,8 +73,8 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
     for (std::size_t i = 1; i < run.columns.size(); ++i) {
       const std::string& name = run.columns[i];
       if (!ends_with(name, p.key)) continue;
-      p.lines.push_back(
-          {name.substr(0, name.size() - p.key.size()), curve_of(run, "history.csv", name, i + 1)});
+      p.lines.push_back({name.substr(0, name.size() - p.key.size()),
+                         curve_of(run, name, {rows_over_time("../history.csv", run.times), 1, i + 1})});
     }
   double greatest = 0.0;
   for (const auto& [name, range] : run.moves)
@@ -94,67 +94,64 @@ std::vector<PanelOfLines> displacement_panels(const PlottedRun& run) {
 }
 
 /// One a unit.
-std::vector<PanelOfLines> response_panels(const PlottedRun& run, const CsvReader& table) {
+std::vector<PanelOfLines> response_panels(const PlottedRun& run) {
   std::vector<PanelOfLines> panels;
-  for (std::size_t i = 0; i < run.facts.response.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < run.responses.size(); ++i) {
     const RunFacts::Response& column = run.facts.response[i];
     const auto same = std::find_if(panels.begin(), panels.end(),
                                    [&](const PanelOfLines& p) { return p.key == column.unit; });
     PanelOfLines& p = same == panels.end()
                           ? panels.emplace_back(PanelOfLines{column.unit, "[" + column.unit + "]", {}})
                           : *same;
-    p.lines.push_back(
-        {column.name, {"'../response.csv'", table.column("t") + 1, table.column(column.name) + 1}});
+    p.lines.push_back({column.name, {"'../response.csv'", run.responses[0], run.responses[i + 1]}});
   }
   for (PanelOfLines& p : panels)
     if (p.lines.size() == 1) p.label = p.lines[0].title + " " + p.label;
   return panels;
 }
 
-/// Panels above each other; nothing without any.
-std::string script_of_lines(const PlottedRun& run, Picture picture, const std::vector<PanelOfLines>& panels) {
-  if (panels.empty()) return "";
-  const int count = static_cast<int>(panels.size());
-  picture.canvas = canvas_of(run.look, 132 + (count == 1 ? 480 : 290 * count), true);
-  const Canvas& canvas = picture.canvas;
-  std::string s = begin_script(run, picture);
-  s += "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n";
-  s += "unset colorbox\n";
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const PanelOfLines& p = panels[i];
-    s += panel(run, canvas, stacked(i, panels.size(), canvas), p.label, i + 1 == panels.size()) + p.axis;
-    const std::size_t shown = std::min(p.lines.size(), most_curves);
-    if (shown > 12) s += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
-    std::vector<std::string> elements;
-    for (std::size_t j = 0; j < shown; ++j)
-      elements.push_back(fmt::format(
-          "{} using {}:{} with lines linewidth {} {} title {}", p.lines[j].curve.data, p.lines[j].curve.time,
-          // Curves that coincide show through: every other one is thinner and dashed, on top.
-          p.lines[j].curve.number, j % 2 == 0 ? "1.9" : "1.2",
-          colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"), quoted(p.lines[j].title)));
-    if (shown < p.lines.size())
-      elements.push_back("NaN with lines linecolor '#ffffff' title " +
-                         quoted("(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"));
-    if (p.chosen_of > 0)
-      elements.push_back("NaN with lines linecolor '#ffffff' title " +
-                         quoted("(" + say(run, "the {} of {} that move most", shown, p.chosen_of) + ")"));
-    s += plot_command(elements);
-  }
-  return s + end_script();
+Panel panel_of(const PlottedRun& run, const PanelOfLines& p, const Canvas& canvas) {
+  Panel panel{p.label, {}, p.axis};
+  const std::size_t shown = std::min(p.lines.size(), most_curves);
+  if (shown > 12) panel.axes += fmt::format("set key spacing 0.9 font ',{:.4g}'\n", canvas.font(10.0));
+  for (std::size_t j = 0; j < shown; ++j)
+    // Curves that coincide show through: every other one is thinner and dashed, on top.
+    panel.curves.push_back({p.lines[j].curve.rows, p.lines[j].curve.columns(),
+                            std::string("with lines linewidth ") + (j % 2 == 0 ? "1.9 " : "1.2 ") +
+                                colour(j, shown) + (j % 2 == 0 ? "" : " dashtype 2"),
+                            p.lines[j].title});
+  if (shown < p.lines.size())
+    panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
+                            "(" + say(run, "first {} of {}", shown, p.lines.size()) + ")"});
+  if (p.chosen_of > 0)
+    panel.curves.push_back({"NaN", "", "with lines linecolor '#ffffff'",
+                            "(" + say(run, "the {} of {} that move most", shown, p.chosen_of) + ")"});
+  return panel;
+}
+
+Picture picture_of_lines(const PlottedRun& run, const char* name, const std::string& subtitle,
+                         const std::vector<PanelOfLines>& panels) {
+  const auto count = static_cast<double>(panels.size());
+  Picture picture{name, subtitle, canvas_of(run.look, 132 + (count == 1 ? 480 : 290 * count), true)};
+  picture.setup =
+      "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21908c', 0.75 '#5dc863', 1 '#fde725')\n"
+      "unset colorbox\n";
+  for (const PanelOfLines& p : panels) picture.panels.push_back(panel_of(run, p, picture.canvas));
+  return picture;
 }
 
 }  // namespace
 
-std::string displacement_script(const PlottedRun& run) {
-  return script_of_lines(run, {"displacement", say(run, "Displacements from the undeformed state"), {}},
-                         displacement_panels(run));
+Picture displacement_picture(const PlottedRun& run) {
+  return picture_of_lines(run, "displacement", say(run, "Displacements from the undeformed state"),
+                          displacement_panels(run));
 }
 
-std::string response_script(const PlottedRun& run, const CsvReader& table) {
-  return script_of_lines(run, {"response", say(run, "Response quantities"), {}}, response_panels(run, table));
+Picture response_picture(const PlottedRun& run) {
+  return picture_of_lines(run, "response", say(run, "Response quantities"), response_panels(run));
 }
 
-std::string energy_script(const PlottedRun& run, const std::set<std::string>& used, double start) {
+Picture energy_picture(const PlottedRun& run) {
   struct Look {
     const char *column, *words, *line;
   };
@@ -168,34 +165,36 @@ std::string energy_script(const PlottedRun& run, const std::set<std::string>& us
       {"loads", "work of loads", "linewidth 1.8 linecolor '#1a1a1a'"},
       {"surface", "work of surfaces", "linewidth 1.8 linecolor '#1a1a1a' dashtype 2"},
   }};
-  const std::string unit = run.facts.units.force + " " + run.facts.units.length;
-  const Canvas canvas = canvas_of(run.look, 768, true);
-  const std::vector<PanelEdges> edges = stacked({0.72, 0.28}, canvas, 27.0);
-  std::string s =
-      begin_script(run, {"energy", say(run, "Where the energy is, where it went, and the balance"), canvas});
-  s += panel(run, canvas, edges[0], say(run, "energy") + " [" + unit + "]", false);
-  std::vector<std::string> elements;
+  const std::string unit = " [" + run.facts.units.force + " " + run.facts.units.length + "]";
   const auto curve_in = [&](const char* column) {
-    return curve_of(run, "energy.csv", column, energy_table().number(column));
+    return curve_of(run, column,
+                    {rows_over_time("../energy.csv", run.energies.times), energy_table().number("t"),
+                     energy_table().number(column)});
   };
-  for (const Look& part : parts) {
-    if (!used.contains(part.column)) continue;
-    const TableColumn curve = curve_in(part.column);
-    elements.push_back(fmt::format("{} using {}:{} with lines {} title {}", curve.data, curve.time,
-                                   curve.number, part.line, quoted(say(run, part.words))));
-  }
   const TableColumn balance = curve_in(balance_column);
-  if (elements.empty())
-    elements.push_back(balance.data + fmt::format(" using {}:(0) with lines title ", balance.time) +
-                       quoted(say(run, "kinetic")));
-  s += plot_command(elements);
-  s += panel(run, canvas, edges[1], say(run, "balance off by") + " [" + unit + "]", true);
-  s += "set format y '%.1e'\n";
-  s += plot_command(
-      {fmt::format("{} using {}:(${}-({})) with lines linewidth 1.2 linecolor '#1a1a1a' title {}",
-                   balance.data, balance.time, balance.number, shortest(start), quoted(say(run, "drift")))});
-  s += "set format y '%g'\n";
-  return s + end_script();
+  Panel energies{say(run, "energy") + unit, {}, "", 0.72};
+  for (const Look& part : parts) {
+    if (!run.energies.used.contains(part.column)) continue;
+    const TableColumn curve = curve_in(part.column);
+    energies.curves.push_back(
+        {curve.rows, curve.columns(), std::string("with lines ") + part.line, say(run, part.words)});
+  }
+  if (energies.curves.empty())
+    energies.curves.push_back(
+        {balance.rows, fmt::format("{}:(0)", balance.time), "with lines", say(run, "kinetic")});
+  Panel off{say(run, "balance off by") + unit,
+            {{balance.rows,
+              fmt::format("{}:(${}-({}))", balance.time, balance.number, shortest(run.energies.start)),
+              "with lines linewidth 1.2 linecolor '#1a1a1a'", say(run, "drift")}},
+            "set format y '%.1e'\n",
+            0.28,
+            "set format y '%g'\n"};
+  return {"energy",
+          say(run, "Where the energy is, where it went, and the balance"),
+          canvas_of(run.look, 768, true),
+          true,
+          {energies, off},
+          27.0};
 }
 
 }  // namespace signorini

@@ -8,29 +8,13 @@
 // 1e3 eps: src/base/rounding.hpp. 2e-4: labels of six digits on some ten ticks, all different. 1e-3, 0.01: chosen, a line that looks flat beside figures of a few digits.
 #pragma once
 
-#include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "result/plotted_run.hpp"
+
 namespace signorini {
 
-struct PlottedRun;
-
-struct Range {
-  double least = std::numeric_limits<double>::infinity(), greatest = -least;
-
-  void take(double value);
-  void take(const Range& other);
-  [[nodiscard]] bool empty() const { return !(least <= greatest); }
-  /// The greatest magnitude; 0 of nothing.
-  [[nodiscard]] double size() const;
-};
-
-/// Of a contact.
-struct ContactRanges {
-  Range gap, ut, slip, N, T;
-};
 struct ContactScales {
   double length = 0.0, force = 0.0;
 };
@@ -40,8 +24,5 @@ struct ContactScales {
 [[nodiscard]] std::string steady(const Range& range, double scale);
 /// Whether it is rounding and no more.
 [[nodiscard]] bool is_rounding(const Range& range, double scale);
-
-/// What motion.csv (else contacts.csv) and curves.csv (else history.csv) hold between run.from and run.to. Errors: FileError.
-void read_ranges(const std::filesystem::path& directory, PlottedRun& run);
 
 }  // namespace signorini

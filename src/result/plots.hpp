@@ -17,18 +17,16 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_files.hpp"
 
 namespace signorini {
 
-/// The time shown; absent ends are those of the run.
-struct PlotWindow {
-  std::optional<double> from, to;
-};
-
+/// What is to be written for the run in `directory`; nothing when there are fewer than two output times to draw. Errors:
+/// FileError; UsageError when the window shows nothing of the run.
+[[nodiscard]] PictureFiles run_pictures(const std::filesystem::path& directory, const PlotWindow& window = {},
+                                        const PictureLook& look = {});
 /// Writes scripts and bands for the run in `directory`; returns the scripts, none when there are fewer
 /// than two output times to draw. Errors: FileError; UsageError when the window
 /// shows nothing of the run, before anything is removed.

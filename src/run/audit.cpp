@@ -127,18 +127,34 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
 
 void Auditor::equilibrium(double t, double residual) { raise(audit_.equilibrium, residual, t); }
 
+double Auditor::work_of_jump(const Forcing& forcing, double t, const Point& before,
+                             const Decision& decision) const {
+  Vector load = Vector::Zero(model_.size());
+  forcing.add_load(t, 0, load.data());
+  double work = 0.0;
+  for (int i = 0; i < model_.size(); ++i)
+    if (model_.dofs[static_cast<std::size_t>(i)].massless) work += load[i] * (decision.u[i] - before.u[i]);
+  return work;
+}
+
 void Auditor::instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
-                      bool load_jumps) {
+                      const Forcing& forcing, bool load_jumps) {
   landings_.instant(t, decision, old_mode);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   for (const Impulse& impulse : decision.impulses)
     if (impulse.normal > 0.0 && !impulse.hit) ++audit_.impulses_on_closed;
   const Point after{decision.u, decision.v, decision.jet.forces.col(0)};
-  const double released = massless_
-                              ? stored(old_mode, before).stored() - stored(decision.mode, after).stored() -
-                                    (decision.impact_loss - decision.impact_surface_work)
-                              : 0.0;
+  // Where parts without mass jump under loads that stay, these work, too.
+  const bool any_jumps =
+      std::find(decision.jumped.begin(), decision.jumped.end(), true) != decision.jumped.end();
+  const double driven =
+      massless_ && any_jumps && !load_jumps ? work_of_jump(forcing, t, before, decision) : 0.0;
+  const double released = massless_ ? driven + stored(old_mode, before).stored() -
+                                          stored(decision.mode, after).stored() -
+                                          (decision.impact_loss - decision.impact_surface_work)
+                                    : 0.0;
+  work_.loads += driven;
   const Drops drops = drops_of(model_, decision);
   double lost = 0.0;  // by friction, at this instant
   for (std::size_t k = 0; k < friction_.size(); ++k) {

@@ -31,7 +31,7 @@ class Auditor {
   void equilibrium(double t, double residual);
   /// What an instant dissipates: friction forces that drop, loads that jump on massless parts.
   void instant(double t, const Decision& decision, const Mode& old_mode, const Point& before,
-               bool load_jumps);
+               const Forcing& forcing, bool load_jumps);
   /// Energies now; also audits the balance. ahead: works that have been added and come after t.
   Energy energy(double t, const Mode& mode, const Point& point);
   Energy energy(double t, const Works& ahead, const Mode& mode, const Point& point);
@@ -56,6 +56,9 @@ class Auditor {
   /// p, that of a rigid stick its anchor.
   [[nodiscard]] double slip(std::size_t contact, const ContactState& state, const ContactMotion& m) const;
 
+  /// Of the loads on parts without mass, which jump under loads that stay: P . (u+ - u-).
+  [[nodiscard]] double work_of_jump(const Forcing& forcing, double t, const Point& before,
+                                    const Decision& decision) const;
   /// Audits the balance of these.
   Energy audited(double t, const Energy& e);
   /// Kinetic, elastic and contact energy.

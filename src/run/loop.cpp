@@ -266,7 +266,7 @@ bool Loop::instant(std::vector<Fired> fired, std::optional<Mode> adopted) {
                         point_.v, load_jumps});
   touches_.instant(t_, old_mode, next);
   if (all || next.mode != old_mode || !next.impulses.empty()) response_.before(t_, point_, auditor_.losses());
-  auditor_.instant(t_, next, old_mode, point_, load_jumps);
+  auditor_.instant(t_, next, old_mode, point_, forcing_, load_jumps);
   decision_ = std::move(next);
   warn_of_decision();
   log_.instant({t_, resolution_, &decision_, &old_mode, load_jumps, std::move(unseen)}, *engine_);

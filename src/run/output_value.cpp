@@ -10,6 +10,10 @@ double given_at(const Output::Given& given, double t, Side side) {
   return (side == Side::after ? given.history.piece(t) : given.history.piece_before(t)).value(t);
 }
 
+double restored(const Output::Restoring& r, const Point& point) {
+  return r.factor * (-point.N(r.contact) - r.said) * r.slip.dot(point.u);
+}
+
 void take(OutputReading& all, const OutputReading& part) {
   if (part.greatest > all.greatest) all.greatest = part.greatest, all.at_greatest = part.at_greatest;
   if (part.least < all.least) all.least = part.least, all.at_least = part.at_least;
@@ -24,6 +28,7 @@ double value_of(const Output& output, double t, Side side, const Point& point,
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.dot(point.a);
   for (const Output::ContactForces& f : output.forces)
     sum += f.N * point.N(f.contact) + f.T * point.T(f.contact);
+  for (const Output::Restoring& r : output.restoring) sum += restored(r, point);
   for (const Output::Given& g : output.given) sum += given_at(g, t, side);
   return sum;
 }
@@ -63,6 +68,7 @@ double magnitude_of(const Output& output, double t, Side side, const Point& poin
   if (!output.a.terms.empty() && point.a.size() > 0) sum += output.a.magnitude(point.a);
   for (const Output::ContactForces& f : output.forces)
     sum += std::abs(f.N * point.N(f.contact)) + std::abs(f.T * point.T(f.contact));
+  for (const Output::Restoring& r : output.restoring) sum += std::abs(restored(r, point));
   for (const Output::Given& g : output.given) sum += std::abs(given_at(g, t, side));
   return sum;
 }

@@ -1,6 +1,7 @@
 // output_value.hpp: an output at one instant.
 //
 //   linear       r = u.u + v.v + a.a + sum_k ( N_k N + T_k T ) + sum_i h_i(t) + constant
+//                    + sum_k c_k ( |N| - N_0 ) t.u
 //   stretches    r = greatest |p(x)|, p through the linear outputs at their points (base/along.hpp);
 //                with the greatest p, the least p, and where they are
 #pragma once

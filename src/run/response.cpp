@@ -32,7 +32,9 @@ double resolved(std::size_t stride) {
 }
 
 /// Of displacements and velocities alone.
-bool is_of_motion(const Output& linear) { return linear.a.terms.empty() && linear.forces.empty(); }
+bool is_of_motion(const Output& linear) {
+  return linear.a.terms.empty() && linear.forces.empty() && linear.restoring.empty();
+}
 
 }  // namespace
 

@@ -1,5 +1,9 @@
 #include "sensitivity/loss_rates.hpp"
 
+#include <algorithm>
+
+#include "sensitivity/forcing_rates.hpp"
+
 namespace signorini {
 
 /// Of both sides of an instant, along it.
@@ -39,6 +43,22 @@ std::optional<double> LossRates::drop_by(const Sides& s, std::size_t c) const {
          (b.T * b.T - a.T * a.T) * derivative_.contacts[c].tangential_stiffness / (2.0 * kt * kt);
 }
 
+/// Of P . (u+ - u-) on parts without mass, which jump under loads that stay.
+double LossRates::driven_by(const Sides& s) const {
+  const ObservedInstant& now = s.motion.instant;
+  ForcingRatesSeries rates;
+  ForcingRates(model_, derivative_, now.t, Side::after).expand(now.t, 1.0, 1, rates);
+  Vector load = Vector::Zero(model_.size()), rate = rates.load.col(0);
+  now.forcing_after.add_load(now.t, 0, load.data());
+  now.forcing_after.add_load(now.t, 1, rate.data(), s.after.dt);
+  double work = 0.0;
+  for (int i = 0; i < model_.size(); ++i)
+    if (model_.dofs[static_cast<std::size_t>(i)].massless)
+      work +=
+          rate[i] * (s.motion.after.u[i] - s.motion.before.u[i]) + load[i] * (s.Du_after[i] - s.Du_before[i]);
+  return work;
+}
+
 void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
   const ObservedInstant& now = s.motion.instant;
   const InstantMotion& m = s.motion;
@@ -51,6 +71,12 @@ void LossRates::add_drops(const Sides& s, WorkTangent& works) const {
     WorkRates impact{Works(model_.contacts.size()), 0.0};
     add_impact(s, impact);
     released = from.stored() - to.stored() - (impact.impact - impact.surface());
+  }
+  const std::vector<bool>& jumped = now.after.jumped;
+  if (massless_ && !now.load_jumps && std::find(jumped.begin(), jumped.end(), true) != jumped.end()) {
+    const double driven = driven_by(s);
+    released += driven;
+    works.now().works.loads += driven;
   }
   std::vector<std::optional<double>> drops;
   int count = 0;

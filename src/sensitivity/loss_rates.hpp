@@ -5,7 +5,7 @@
 //   parts without mass, which move at once (run/audit.hpp):
 //   friction   L = T+ (slip+ - slip-)               where a load jumps, L = what is released where friction drops;
 //                                                   of several their own and an equal part of the rest
-//   loads      W += sum of L - what is released     where a load jumps
+//   loads      W += sum of L - what is released     where a load jumps, else W += P . (u+ - u-), which is released, too
 //
 // DL: along the moving instant, as all that happens at it.
 #pragma once
@@ -32,6 +32,7 @@ class LossRates {
   struct Sides;
   void add_impact(const Sides& sides, WorkRates& works) const;
   [[nodiscard]] std::optional<double> drop_by(const Sides& sides, std::size_t contact) const;
+  [[nodiscard]] double driven_by(const Sides& sides) const;
   void add_drops(const Sides& sides, WorkTangent& works) const;
 
   const Model& model_;

@@ -96,8 +96,53 @@ Vector Finder::closing() const {
   return most;
 }
 
+/// Parts without mass follow at once where forces on them jump: by a load, where they leave a contact, and where
+/// friction drops to its kinetic value.
 bool Finder::lets_massless_jump() const {
-  return record_.breakpoint || record_.start || !record_.released.empty();
+  if (massless_jump_) return *massless_jump_;
+  bool any = record_.breakpoint || record_.start || !record_.released.empty();
+  for (const std::size_t k : bench_.on_massless()) any = any || lets_go(k);
+  massless_jump_ = any;
+  return any;
+}
+
+/// It stuck at its static limit, which is above the kinetic one, and slides, or is open.
+bool Finder::lets_go(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (c.own || c.shear || c.friction.varies() || !(c.friction.static_ > c.friction.kinetic)) return false;
+  const RecordedEvent* event = event_of(k);
+  if (event == nullptr || event->t_uncertainty < 0.0) return false;
+  if (kind_of(old.state) != State::stick || kind_of(now.state) == State::stick) return false;
+  const Sight before = see(c, k, record_.before);
+  for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
+    if (guard.law != std::string_view("friction")) continue;
+    const double zero = zero_of(guard, c) + of_uncertainty * event->t_uncertainty *
+                                                std::max(std::abs(event->guard_rate), std::abs(guard.rate));
+    return std::abs(guard.value) <= zero;
+  }
+  return false;
+}
+
+/// Where parts without mass jump, a contact that sticks keeps its sliding point, and one that lets go slides the way that
+/// its friction force pointed:  p = ut - T/kt,  s (p+ - p-) >= 0.
+void Finder::slide_at_once(std::size_t k) {
+  const Contact& c = model_.contacts[k];
+  const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+  if (record_.breakpoint || record_.start || is_released(k)) return;
+  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const double kt = *c.tangential_stiffness;
+  const double limit =
+      rounding::of_elimination * (kt * (a.place + b.place) + std::abs(a.T) + std::abs(b.T)) +
+      of_tolerance * (kt * (bench_.limits.rtol * a.place + bench_.limits.displacement) +
+                      bench_.limits.rtol * (std::abs(a.T) + std::abs(b.T)) + bench_.limits.force);
+  const double moved = kt * (a.ut - b.ut) - (a.T - b.T);
+  const bool sticks = kind_of(old.state) == State::stick && kind_of(now.state) == State::stick;
+  if (sticks && event_of(k) == nullptr && std::abs(moved) > limit)
+    add(static_cast<int>(k), "continuity of friction", std::abs(moved), limit, seen::force, false);
+  const double back = b.T >= 0.0 ? -moved : moved;
+  if (lets_go(k) && back > limit)
+    add(static_cast<int>(k), "continuity of friction", back, limit, seen::force, false);
 }
 
 /// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
@@ -105,7 +150,7 @@ void Finder::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
-  if (moves_at_once(k) && record_.breakpoint) return;
+  if (moves_at_once(k) && lets_massless_jump()) return slide_at_once(k);
   const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
   const double fs = c.friction.static_, fk = c.friction.kinetic, kt = *c.tangential_stiffness;
   const double off_N =

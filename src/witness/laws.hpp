@@ -95,6 +95,9 @@ struct Unbalanced {
 /// orders: 1 forces, 2 their rates, too, 3 and the rates of these. At most one row an order.
 [[nodiscard]] std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side,
                                                        int orders);
+/// Rounding of the forces of each row without mass, or of their first derivatives (order 1), n; what tolerances leave is
+/// not in it.
+[[nodiscard]] Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order);
 
 /// The laws at one instant.
 class Finder {
@@ -144,6 +147,8 @@ class Finder {
   [[nodiscard]] const RecordedEvent* event_of(std::size_t k) const;
   /// Displacements without mass may jump.
   [[nodiscard]] bool lets_massless_jump() const;
+  [[nodiscard]] bool lets_go(std::size_t k) const;
+  void slide_at_once(std::size_t k);
   /// Rounding of forces that hold accelerations.
   [[nodiscard]] double force_noise() const;
 
@@ -152,6 +157,7 @@ class Finder {
   const InstantRecord& record_;
   std::vector<Violation>& found_;
   mutable std::optional<double> force_noise_;
+  mutable std::optional<bool> massless_jump_;
 };
 
 }  // namespace signorini

@@ -75,15 +75,20 @@ class Balance {
         known_(static_cast<std::size_t>(bench.model.size()), true) {}
 
   [[nodiscard]] std::optional<Unbalanced> worst() {
-    structure();
-    for (const std::size_t k : bench_.on_massless()) contact(k);
+    const Vector rounded = noise();
     for (const int i : bench_.massless()) {
-      const double limit =
-          (order_ == 0 ? rounding::of_elimination : of_rates) * size_[i] + of_tolerance * off_[i];
+      const double limit = rounded[i] + of_tolerance * off_[i];
       if (known_[static_cast<std::size_t>(i)] && std::abs(sum_[i]) > limit)
         return Unbalanced{i, names[order_], std::abs(sum_[i]), limit, order_};
     }
     return std::nullopt;
+  }
+
+  /// Sums all rows; of each, its rounding.
+  [[nodiscard]] Vector noise() {
+    structure();
+    for (const std::size_t k : bench_.on_massless()) contact(k);
+    return (order_ == 0 ? rounding::of_elimination : of_rates) * size_;
   }
 
  private:
@@ -148,6 +153,10 @@ class Balance {
 };
 
 }  // namespace
+
+Vector massless_noise(const Bench& bench, const WitnessedSide& side, int order) {
+  return Balance(bench, side, order).noise();
+}
 
 std::vector<Unbalanced> massless_balance(const Bench& bench, const WitnessedSide& side, int orders) {
   std::vector<Unbalanced> found;

@@ -4,6 +4,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
 #include "witness/laws.hpp"
+#include "witness/massless_rates.hpp"
 
 namespace signorini {
 namespace {
@@ -132,7 +133,9 @@ void Finder::state_of(std::size_t k) {
     if (std::string_view(guard.law) == "slip direction" && (c.shear || !record_.located)) continue;
     // And it stops for a step what goes on sliding the other way.
     if (std::string_view(guard.law) == "friction" && !c.tangential_stiffness && !record_.located) continue;
-    const double zero = zero_of(guard, c);
+    double zero = zero_of(guard, c);
+    if (guard.value < -zero && std::string_view(guard.law) == "slip direction")
+      zero += (1.0 + record_.forgiven) * noise_of_slip_rate(bench_, record_.after, k);
     if (guard.value < -zero)
       add(contact, guard.law, -guard.value, zero, unit_of(guard), -guard.value > gross * guard.size);
   }

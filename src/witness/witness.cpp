@@ -5,6 +5,7 @@
 
 #include "base/rounding.hpp"
 #include "witness/laws.hpp"
+#include "witness/massless_rates.hpp"
 
 namespace signorini {
 
@@ -116,6 +117,10 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
     const Sight m = see(model.contacts[k], k, now);
     const std::size_t before = found.size();
     contact(t, k, (*now.mode)[k], m, now.a != nullptr, 0.0, found);
+    if (found.size() > before && found.back().law == std::string_view("slip direction")) {
+      found.back().limit += noise_of_slip_rate(parts_->bench, now, k);
+      if (found.back().value <= found.back().limit) found.pop_back();
+    }
     if (found.size() == before || (model.contacts[k].has_spring() && model.contacts[k].tangential_stiffness))
       continue;
     found.resize(before);  // rarely: what its forces are known to takes a sum over the structure

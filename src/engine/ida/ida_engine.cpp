@@ -70,6 +70,15 @@ double IdaEngine::lowest_flight(const Contact& contact, const Vector& u) const {
   return std::max(std::sqrt(tolerance * size), 2.0 * re_arm_tolerances * tolerance);
 }
 
+/// There are parts without mass, and no damper acts on one. Their velocities follow from K v = P' - ...; the derivative of
+/// a step's polynomial is off by h u''/2 after a restart, which is far above the tolerance of velocities in a short step.
+/// Where dampers act, C v = P - K u - ... would enlarge errors of u by K/C (BdfIntegrator).
+bool IdaEngine::follows_at_once() const {
+  if (!consistent_.massless()) return false;
+  const std::vector<DofKind>& kinds = segment_.decision->system->kinds();
+  return std::find(kinds.begin(), kinds.end(), DofKind::damped) == kinds.end();
+}
+
 /// Short flights are taken by their series where friction is linear while they last.
 bool IdaEngine::knows_low_flights() const {
   return std::none_of(model_.contacts.begin(), model_.contacts.end(),
@@ -82,6 +91,7 @@ void IdaEngine::start(const Segment& segment) {
   segment_ = segment;
   steps_ = 0;
   const Decision& decision = *segment.decision;
+  consistently_ = accelerations_ || follows_at_once();
   flight_ =
       flights_.take(segment, [&](const Contact& contact) { return lowest_flight(contact, decision.u); });
   if (flight_) return;
@@ -105,7 +115,7 @@ void IdaEngine::start(const Segment& segment) {
 void IdaEngine::evaluate(double t, Point& point) {
   if (flight_) return flights_.motion().evaluate(t, point);
   bdf_.evaluate(t, point);
-  if (accelerations_)
+  if (consistently_)
     consistent_.make(segment_.decision->system, *segment_.forcing, t, point);
   else
     point.a.resize(0);  // what stands there is of another time
@@ -144,7 +154,7 @@ Step IdaEngine::advance() {
     return step;
   }
   bdf_.evaluate(bdf.end, point_);
-  if (accelerations_) consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
+  if (consistently_) consistent_.make(segment_.decision->system, *segment_.forcing, bdf.end, point_);
   fill(bdf.end, point_, history_.push(bdf.end, bdf.length));
   history_.prepare(bdf.order);
   ++steps_;

@@ -47,6 +47,7 @@ class IdaEngine final : public Stepper {
     std::size_t slot;
     double time;
   };
+  [[nodiscard]] bool follows_at_once() const;
   void fill(double t, const Point& point, double* out);
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
@@ -70,6 +71,7 @@ class IdaEngine final : public Stepper {
   Point point_;
   std::vector<double> integrals_;
   bool accelerations_ = false;  // a guard needs them
+  bool consistently_ = false;   // points of the segment are made consistent
   long steps_ = 0;              // of the segment
   bool touched_ = false;        // has been said
 };

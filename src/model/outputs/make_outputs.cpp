@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/along.hpp"
+#include "contact/bowl.hpp"
 #include "model/outputs/body_reaction.hpp"
 #include "model/outputs/member_cuts.hpp"
 #include "model/outputs/structure_rows.hpp"
@@ -90,6 +91,17 @@ class Maker {
     output.forces = row.forces;
     output.given = row.given;
     output.constant = row.constant;
+    for (const PhysicalRow::Bowl& bowl : row.bowls) restore(bowl, output);
+  }
+
+  /// N u / R beside the spring N_0 / R of the scene, which stands in the row; N_K u / R of the model is damped by beta.
+  void restore(const PhysicalRow::Bowl& bowl, Output& output) const {
+    const Contact& contact = model_.contacts[bowl.contact];
+    const Bowl& said = *scene_.contacts[bowl.contact].bowl;
+    output.restoring.push_back(
+        {bowl.contact, contact.body_tangent(), bowl.factor / said.radius, said.carried});
+    if (model_.beta != 0.0)
+      add(output.v, contact.body_tangent(), bowl.factor * model_.beta * beyond_spring(said, *contact.bowl));
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
@@ -245,13 +257,6 @@ class Maker {
     else
       for (std::size_t c = 0; c < 3; ++c)
         if (d[c] != 0.0 && is_held(node, c)) rows_->add_reaction(row, node, c, d[c]);
-    if (row.bowl)
-      refuse(spec, "at",
-             fmt::format(
-                 "the support bears N u / radius of pendulum '{}', whose N varies; no output is a product of "
-                 "both: expected a pendulum whose normal_force is a number, or outputs of the contact, N, T "
-                 "and slip",
-                 scene_.contacts[*row.bowl].name));
   }
 
   /// The nodes of its rigid body, or itself.
@@ -315,6 +320,8 @@ class Maker {
       add(output.a, term.a, factor);
       for (const Output::ContactForces& f : term.forces)
         output.forces.push_back({f.contact, factor * f.N, factor * f.T});
+      for (const Output::Restoring& r : term.restoring)
+        output.restoring.push_back({r.contact, r.slip, factor * r.factor, r.said});
       for (const Output::Given& g : term.given)
         output.given.push_back({g.history.scaled(factor), g.load, factor * g.factor, g.of_load});
       output.constant += factor * term.constant;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounding.hpp"
 #include "model/assembly/loads.hpp"
 #include "scene/history_from_spec.hpp"
 
@@ -204,7 +203,7 @@ void StructureRows::add_contact(PhysicalRow& row, std::size_t k, int node, std::
   if (const auto t = sliding_direction(spec); t[0] != 0.0 || t[1] != 0.0)
     forces.T = factor * share * unit_vector(t)[c];
   if (forces.N != 0.0 || forces.T != 0.0) row.forces.push_back(forces);
-  if (spec.bowl && std::abs(forces.T) > rounding::of_many) row.bowl = k;
+  if (spec.bowl && forces.T != 0.0) row.bowls.push_back({k, forces.T});
 }
 
 void StructureRows::add_reaction(PhysicalRow& row, int node, std::size_t c, double factor) const {

@@ -21,8 +21,12 @@ struct PhysicalRow {
   std::vector<Output::ContactForces> forces;
   std::vector<Output::Given> given;
   double constant = 0.0;
-  /// A contact whose curved surface adds N u / R as N varies, which is no form of the motion.
-  std::optional<std::size_t> bowl = {};
+  /// A contact whose curved surface adds N u / R as N varies, and the factor of that force.
+  struct Bowl {
+    std::size_t contact = 0;
+    double factor = 0.0;
+  };
+  std::vector<Bowl> bowls = {};
 };
 
 class StructureRows {

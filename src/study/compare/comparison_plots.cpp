@@ -6,12 +6,9 @@
 #include <array>
 
 #include "base/file_name.hpp"
-#include "base/number.hpp"
-#include "result/csv.hpp"
-#include "result/csv_read.hpp"
+#include "result/picture_files.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
-#include "result/plot_rows.hpp"
 #include "result/run_tables.hpp"
 #include "study/compare/comparison_tables.hpp"
 
@@ -34,24 +31,6 @@ std::string look(std::size_t run) {
 
 std::string plain(const std::string& name) { return file_name(name, 60, "-", '_'); }
 
-PlottedRun plotted(const RunFigures& figures, double t_end) {
-  PlottedRun run;
-  run.facts = figures.facts;
-  CsvReader history(figures.directory / "history.csv");
-  while (history.next()) {
-    run.t_last = history.t();
-    if (run.times++ == 0) run.t_first = run.t_last;
-  }
-  // What is killed may lack the last row in contacts.csv, or have a part of it.
-  if (run.times > 0 && run.facts.outcome == "running") --run.times;
-  run.from = run.t_first;
-  run.to = std::max(run.t_last, t_end);
-  run.greatest_compression.assign(run.facts.contacts.size(), 0.0);
-  read_motion(figures.directory, contact_numbers(run.facts), run);
-  read_ranges(figures.directory, run);
-  return run;
-}
-
 /// As seen from the folder of the scripts.
 std::string path_from(const fs::path& folder, const fs::path& file) {
   std::error_code error;
@@ -68,7 +47,7 @@ struct ContactCurve {
 };
 
 /// A panel of differences.
-struct Curve {
+struct DifferenceCurve {
   std::string label, name;
   std::size_t column;
 };
@@ -81,7 +60,7 @@ class Pictures {
     for (const ComparedRun& run : report.runs) t_end = std::max(t_end, run.figures.t);
     std::vector<std::string> names;
     for (const ComparedRun& run : report.runs) {
-      runs_.push_back(plotted(run.figures, t_end));
+      runs_.push_back(read_compared(TableFolder(run.figures.directory), run.figures.facts, t_end));
       names.push_back(run.figures.name);
     }
     for (PlottedRun& run : runs_) {
@@ -92,7 +71,7 @@ class Pictures {
 
   [[nodiscard]] bool any() const { return runs_.front().times >= 2; }
 
-  [[nodiscard]] std::string contact(std::size_t k, const std::string& name) const {
+  [[nodiscard]] Picture contact(std::size_t k, const std::string& name) const {
     const PlottedRun& first = runs_.front();
     const RunFacts::Contact& contact = first.facts.contacts[k];
     const Units& units = first.facts.units;
@@ -102,33 +81,29 @@ class Pictures {
       curves.push_back({"gap" + length, "gap", &ContactRanges::gap, &ContactScales::length});
     curves.push_back({"N" + force, "N", &ContactRanges::N, &ContactScales::force});
     curves.push_back({"T" + force, "T", &ContactRanges::T, &ContactScales::force});
-    const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
-    std::string s = begin_script(first, {name, "Contact '" + contact.name + "': motion and forces", canvas});
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      s += panel(first, canvas, stacked(i, curves.size(), canvas), curves[i].label, i + 1 == curves.size());
-      s += axis(contact.name, curves[i]);
-      std::vector<std::string> elements;
+    Picture picture{name, "Contact '" + contact.name + "': motion and forces", canvas(curves.size())};
+    for (const ContactCurve& curve : curves) {
+      Panel panel{curve.label, {}, axis(contact.name, curve)};
       for (std::size_t r = 0; r < runs_.size(); ++r) {
         const auto& contacts = runs_[r].facts.contacts;
         const auto found = std::find_if(contacts.begin(), contacts.end(),
                                         [&](const auto& c) { return c.name == contact.name; });
         if (found == contacts.end() || runs_[r].times < 2) continue;
         const auto index = static_cast<std::size_t>(found - contacts.begin());
-        elements.push_back(
-            fmt::format("{} using 1:{} with lines {} title {}",
-                        contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
-                        contact_table().number(curves[i].column), look(r),
-                        quoted(legend_name(report_.runs[r].figures.name))));
+        panel.curves.push_back(
+            {contact_rows(runs_[r], index, path_from(folder_, report_.runs[r].figures.directory)),
+             fmt::format("{}:{}", contact_table().number("t"), contact_table().number(curve.column)),
+             "with lines " + look(r), legend_name(report_.runs[r].figures.name)});
       }
-      s += plot_command(elements);
+      picture.panels.push_back(panel);
     }
-    return s + end_script();
+    return picture;
   }
 
-  [[nodiscard]] std::string differences() const {
+  [[nodiscard]] Picture differences() const {
     const PlottedRun& first = runs_.front();
     const Units& units = first.facts.units;
-    std::vector<Curve> curves = {
+    std::vector<DifferenceCurve> curves = {
         {"displacement [" + units.length + "]", "motion", motion_difference_table().number("displacement")}};
     for (const char* force : {"N", "T"})
       if (!first.facts.contacts.empty())
@@ -139,28 +114,29 @@ class Pictures {
     if (events)
       curves.push_back(
           {"event time [" + units.time + "]", "events", event_pair_table().number("difference")});
-    const Canvas canvas = canvas_of(first.look, 142.0 + 230.0 * static_cast<double>(curves.size()), true);
-    std::string s = begin_script(
-        first, {"differences", "Greatest differences from " + report_.runs.front().figures.name, canvas});
-    s += "set logscale y\n";
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      s += panel(first, canvas, stacked(i, curves.size(), canvas), curves[i].label, i + 1 == curves.size());
-      s += "set format y '%.0e'\n";
-      std::vector<std::string> elements;
-      for (std::size_t r = 1; r < runs_.size(); ++r) elements.push_back(difference(curves[i], r));
-      s += y_range(curves[i], elements);
+    Picture picture{"differences", "Greatest differences from " + report_.runs.front().figures.name,
+                    canvas(curves.size())};
+    picture.setup = "set logscale y\n";
+    for (const DifferenceCurve& curve : curves) {
+      Panel panel{curve.label, {}};
+      for (std::size_t r = 1; r < runs_.size(); ++r) panel.curves.push_back(difference(curve, r));
+      panel.axes = "set format y '%.0e'\n" + y_range(curve, panel.curves);
       for (std::size_t r = 1; r < runs_.size(); ++r)
         if (const auto& split = report_.comparisons[r - 1].alignment.split)
-          s += fmt::format(
-              "set arrow {0} from first {1}, graph 0 to first {1}, graph 1 nohead dashtype 3 "
-              "linecolor '{2}'\n",
-              r, shortest(split->t), colours[r % colours.size()]);
-      s += plot_command(elements);
+          panel.axes +=
+              upright(r, split->t, fmt::format("dashtype 3 linecolor '{}'", colours[r % colours.size()]));
+      picture.panels.push_back(panel);
     }
-    return s + end_script();
+    return picture;
   }
 
+  [[nodiscard]] const PlottedRun& first() const { return runs_.front(); }
+
  private:
+  [[nodiscard]] Canvas canvas(std::size_t panels) const {
+    return canvas_of(runs_.front().look, 142.0 + 230.0 * static_cast<double>(panels), true);
+  }
+
   /// Where the curves of all runs together hardly move.
   [[nodiscard]] std::string axis(const std::string& contact, const ContactCurve& curve) const {
     Range all;
@@ -177,7 +153,7 @@ class Pictures {
 
   /// At most 12 decades below the greatest one. A logarithmic axis needs something positive, also where all
   /// runs agree to the last digit.
-  [[nodiscard]] std::string y_range(const Curve& curve, std::vector<std::string>& elements) const {
+  [[nodiscard]] std::string y_range(const DifferenceCurve& curve, std::vector<Curve>& curves) const {
     double greatest = 0.0;
     for (const Comparison& c : report_.comparisons) {
       if (curve.name == "motion") greatest = std::max(greatest, c.displacement.whole.value);
@@ -190,26 +166,25 @@ class Pictures {
     if (greatest > 0.0 && greatest < 1e300) {
       return "set yrange [" + shortest(greatest * 1e-12) + "<*:*]\n";
     }
-    elements.push_back(fmt::format("{} with lines linecolor '#ffffff' notitle", 1e-18));
+    curves.push_back({"1e-18", "", "with lines linecolor '#ffffff'"});
     return "set yrange [1e-20:1e-10]\n";
   }
 
-  [[nodiscard]] std::string difference(const Curve& curve, std::size_t r) const {
+  [[nodiscard]] Curve difference(const DifferenceCurve& curve, std::size_t r) const {
     const std::string name = report_.runs[r].figures.name;
+    const std::string colour = fmt::format("linecolor '{}'", colours[r % colours.size()]);
     if (curve.name == "events") {
       const auto& table = event_pair_table();
-      return fmt::format(
-          "'../events.csv' skip 1 using {3}:({4} eq {0} && {5} != 0 ? abs({5}) : NaN) with points "
-          "pointtype 7 "
-          "pointsize 0.7 linecolor '{1}' title {2}",
-          quoted(name), colours[r % colours.size()], quoted(legend_name(name)), table.number("t_reference"),
-          table.word("run"), table.value("difference"));
+      return {"'../events.csv' skip 1",
+              fmt::format("{2}:({3} eq {0} && {1} != 0 ? abs({1}) : NaN)", quoted(name),
+                          table.value("difference"), table.number("t_reference"), table.word("run")),
+              "with points pointtype 7 pointsize 0.7 " + colour, legend_name(name)};
     }
-    return fmt::format(
-        "'{}-{}.csv' skip 1{} using 1:(${} > 0 ? ${} : NaN) with lines linewidth 1.1 linecolor '{}' "
-        "title {}",
-        curve.name, run_slug(name, r), every(runs_[r], 1, 0), curve.column, curve.column,
-        colours[r % colours.size()], quoted(legend_name(name)));
+    const std::size_t time =
+        curve.name == "motion" ? motion_difference_table().number("t") : force_difference_table().number("t");
+    return {rows_over_time(curve.name + "-" + run_slug(name, r) + ".csv", runs_[r].times),
+            fmt::format("{0}:(${1} > 0 ? ${1} : NaN)", time, curve.column),
+            "with lines linewidth 1.1 " + colour, legend_name(name)};
   }
 
   fs::path folder_;
@@ -235,21 +210,15 @@ void begin_comparison_plots(const fs::path& directory) {
 
 std::vector<fs::path> write_comparison_plots(const fs::path& directory, const ComparisonReport& report,
                                              const PictureLook& look) {
-  const fs::path folder = directory / "plots";
-  const Pictures pictures(folder, report, look);
+  const Pictures pictures(directory / "plots", report, look);
+  PictureFiles files;  // their tables are there already
   if (!pictures.any()) return {};
-  std::vector<fs::path> scripts;
-  const auto add = [&](const std::string& name, const std::string& text) {
-    scripts.push_back(folder / (name + ".gp"));
-    write_file(scripts.back(), text);
-  };
   const auto& contacts = report.runs.front().figures.facts.contacts;
-  for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k) {
-    const std::string name = fmt::format("contact-{}-{}", k + 1, plain(contacts[k].name));
-    add(name, pictures.contact(k, name));
-  }
-  if (!report.comparisons.empty()) add("differences", pictures.differences());
-  return scripts;
+  for (std::size_t k = 0; k < std::min(contacts.size(), most_contacts); ++k)
+    files.add(pictures.first(),
+              pictures.contact(k, fmt::format("contact-{}-{}", k + 1, plain(contacts[k].name))));
+  if (!report.comparisons.empty()) files.add(pictures.first(), pictures.differences());
+  return files.write(directory);
 }
 
 }  // namespace signorini

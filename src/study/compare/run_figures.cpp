@@ -19,9 +19,9 @@ std::optional<Value> optional_value(const Json& json, const char* key) {
   return found->get<Value>();
 }
 
-double last_output_time(const std::filesystem::path& directory) {
+double last_output_time(const TableFolder& tables) {
   double t = 0.0;
-  CsvReader history(directory / "history.csv");
+  CsvReader history = tables.open("history.csv");
   while (history.next()) t = history.t();
   return t;
 }
@@ -69,7 +69,7 @@ RunFigures read_run_figures(const std::filesystem::path& directory) {
       for (const auto& [name, extreme] : json["audit"].items())
         if (const auto relative = optional_value<double>(extreme, "relative")) run.audit[name] = *relative;
     const auto t = optional_value<double>(outcome, "t");
-    run.t = t ? *t : last_output_time(directory);
+    run.t = t ? *t : last_output_time(TableFolder(directory));
   } catch (const Json::exception& error) {
     throw FileError(path.string(), std::string("is not the summary of a run: ") + error.what());
   }

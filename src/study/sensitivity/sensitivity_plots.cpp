@@ -8,7 +8,6 @@
 
 #include "base/number.hpp"
 #include "result/plot_folder.hpp"
-#include "result/plot_parts.hpp"
 #include "result/table.hpp"
 #include "study/key_unit.hpp"
 #include "study/sensitivity/sensitivity_files.hpp"
@@ -32,15 +31,6 @@ bool is_picture_of_sensitivities(const fs::path& file) {
   const bool named = stem == "tornado" || stem == "sequence" || stem.starts_with("times-");
   return (is_picture(file) && named) ||
          (file.extension() == ".csv" && (named || stem.starts_with("tornado-")));
-}
-
-PlottedRun facts_of(const Sensitivities& s, const PictureLook& look) {
-  PlottedRun run;
-  run.look = look;
-  run.facts.title = s.title;
-  run.facts.outcome = "done";
-  run.facts.units = s.units;
-  return run;
 }
 
 struct Bar {
@@ -83,11 +73,11 @@ std::vector<PlacedBar> placed(const std::vector<Bar>& bars) {
   return list;
 }
 
-std::string bar_ticks(const std::vector<Bar>& bars) {
-  std::string s = "set ytics (";
-  for (std::size_t i = 0; i < bars.size(); ++i)
-    s += (i > 0 ? ", " : "") + quoted_tick(bars[i].name) + fmt::format(" {}", i + 1);
-  return s + fmt::format(")\nset yrange [0.4:{:.1f}]\n", static_cast<double>(bars.size()) + 0.6);
+std::string bar_tics(const std::vector<Bar>& bars) {
+  std::vector<std::pair<std::string, std::size_t>> names;
+  for (const Bar& bar : bars) names.emplace_back(bar.name, names.size() + 1);
+  return named_tics('y', names) +
+         fmt::format("\nset yrange [0.4:{:.1f}]\n", static_cast<double>(bars.size()) + 0.6);
 }
 
 /// What a parameter does to a figure: elasticity, or sigma dx/dp.
@@ -116,54 +106,50 @@ std::vector<const Response*> moved_figures(const Sensitivities& s) {
   return list;
 }
 
-/// Room for names of keys at the left of a panel.
-std::string wide_margin() { return "set lmargin at screen 0.3\n"; }
+constexpr const char* wide_margin = "set lmargin at screen 0.3\n";  // room for names of keys
 
-std::string bars_plot(const std::string& file) {
-  const CsvTable<PlacedBar> table = bar_table("length");
-  return plot_command(
-      {fmt::format("'{0}' skip 1 using (0.5*{3}):{4}:(0.5*abs({3})):(0.36):({3} < 0 ? {1} : {2}) with "
-                   "boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable notitle",
-                   file, "0xc0182b", "0x2166ac", table.value("length"), table.number("place"))});
+std::string axis_of(const Sensitivities& s, const Response& r, bool sigmas) {
+  return r.name + (r.contact < 0 ? "" : " of '" + contact_of(s, r) + "'") +
+         fmt::format(" = {:.6g} {}", r.value, unit_of(r, s.units)) +
+         (sigmas ? "; change [" + unit_of(r, s.units) + "]" : "; change [%]");
 }
 
-std::string tornado(const Sensitivities& s, const Sigmas& sigmas, const fs::path& folder,
-                    const PictureLook& look) {
+void add_tornado(const Sensitivities& s, const Sigmas& sigmas, const PlottedRun& run, PictureFiles& files) {
   const std::vector<const Response*> figures = moved_figures(s);
-  if (figures.empty()) return {};
-  const PlottedRun run = facts_of(s, look);
-  const auto bars_each = static_cast<int>(std::min(s.parameters.size(), most_bars));
-  const int each = 70 + 26 * bars_each;
-  const Canvas canvas = canvas_of(
-      run.look, room_above + room_below - 64.0 + (each + 64.0) * static_cast<double>(figures.size()), false,
-      true);
-  std::string text =
-      begin_script(run, {"tornado",
-                         sigmas.empty() ? "What one per cent more of each key does: blue more, red less"
-                                        : "What one standard deviation more of each key does: blue more, "
-                                          "red less",
-                         canvas, false});
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const Response& r = *figures[i];
+  const double each = 70.0 + 26.0 * static_cast<double>(std::min(s.parameters.size(), most_bars));
+  Picture picture{
+      "tornado",
+      sigmas.empty() ? "What one per cent more of each key does: blue more, red less"
+                     : "What one standard deviation more of each key does: blue more, red less",
+      canvas_of(run.look,
+                room_above + room_below - 64.0 + (each + 64.0) * static_cast<double>(figures.size()), false,
+                true),
+      false,
+      {},
+      64.0};
+  for (const Response* r : figures) {
     std::vector<Bar> bars;
     for (std::size_t p = 0; p < s.parameters.size(); ++p)
-      if (const double x = reach_of(s, sigmas, r, p); std::isfinite(x) && (sigmas.empty() || sigmas[p] > 0.0))
+      if (const double x = reach_of(s, sigmas, *r, p);
+          std::isfinite(x) && (sigmas.empty() || sigmas[p] > 0.0))
         bars.push_back({s.parameters[p].path, x});
     sort_bars(bars);
-    const std::string table = fmt::format("tornado-{}.csv", i + 1);
-    write_file(folder / table, bar_table("length").text(placed(bars)));
-    text += panel(run, canvas, stacked(i, figures.size(), canvas, 64.0), "", true) + wide_margin();
-    text += "set xlabel " +
-            quoted(r.name + (r.contact < 0 ? "" : " of '" + contact_of(s, r) + "'") +
-                   fmt::format(" = {:.6g} {}", r.value, unit_of(r, s.units)) +
-                   (sigmas.empty() ? "; change [%]" : "; change [" + unit_of(r, s.units) + "]")) +
-            "\n";
-    text +=
-        "set xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\nset xrange "
-        "[*:*]\n";
-    text += bar_ticks(bars) + bars_plot(table);
+    const std::string name = fmt::format("tornado-{}", picture.panels.size() + 1);
+    const CsvTable<PlacedBar> table = bar_table("length");
+    files.add_table(name, table.text(placed(bars)));
+    Panel panel{"",
+                {{"'" + name + ".csv' skip 1",
+                  fmt::format("(0.5*{0}):{1}:(0.5*abs({0})):(0.36):({0} < 0 ? 0xc0182b : 0x2166ac)",
+                              table.value("length"), table.number("place")),
+                  "with boxxyerror fillstyle solid 0.75 noborder linecolor rgb variable"}}};
+    panel.axes = wide_margin + ("set xlabel " + quoted(axis_of(s, *r, !sigmas.empty()))) +
+                 "\nset xzeroaxis\nset arrow 1 from 0, graph 0 to 0, graph 1 nohead linecolor '#808080'\n"
+                 "set xrange [*:*]\n" +
+                 bar_tics(bars);
+    panel.own_axis = true;
+    picture.panels.push_back(panel);
   }
-  return text + end_script();
+  files.add(run, picture);
 }
 
 /// How far to each side a picture of event times goes: past the first changes of the sequence.
@@ -202,101 +188,84 @@ std::vector<Tangent> tangents_of(const Sensitivities& s, std::size_t p, double s
   return list;
 }
 
-std::string times(const Sensitivities& s, std::size_t p, const fs::path& folder, const PictureLook& look) {
+void add_times(const Sensitivities& s, std::size_t p, const PlottedRun& run, PictureFiles& files) {
   const Parameter& parameter = s.parameters[p];
   const double span = span_of(s, p);
   const std::string name = fmt::format("times-{}", p + 1);
-  write_file(folder / (name + ".csv"), tangent_table().text(tangents_of(s, p, span)));
-  const PlottedRun run = facts_of(s, look);
-  const Canvas canvas = canvas_of(run.look, 760, false);
-  std::string text =
-      begin_script(run, {name,
-                         "Times of " +
-                             (s.events.size() > first_events
-                                  ? fmt::format("the first {} of {} events", first_events, s.events.size())
-                                  : std::string("events")) +
-                             " over " + parameter.path + ", to first order",
-                         canvas, false});
-  text += panel(run, canvas, stacked(0, 1, canvas), "t [" + s.units.time + "]", true);
-  text += "set xlabel " + quoted(key_with_unit(parameter.path, s.units)) + "\n";
-  text += fmt::format("set xrange [{}:{}]\nset yrange [*:*]\n", shortest(parameter.value - span),
-                      shortest(parameter.value + span));
-  text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead dashtype 3 linecolor '#808080'\n",
-                      shortest(parameter.value));
-  int arrow = 2;
+  const CsvTable<Tangent>& table = tangent_table();
+  files.add_table(name, table.text(tangents_of(s, p, span)));
+  Panel panel{"t [" + s.units.time + "]", {}};
+  panel.axes = "set xlabel " + quoted(key_with_unit(parameter.path, s.units)) + "\n" +
+               range_of('x', parameter.value - span, parameter.value + span) + "set yrange [*:*]\n" +
+               upright(1, parameter.value, "dashtype 3 linecolor '#808080'");
+  std::size_t arrow = 2;
+  const std::string meets = fmt::format("dashtype 2 linecolor '{}'", falling);
   for (const Swap& swap : least_swaps(s))
     if (swap.parameter == p && std::max(swap.first, swap.second) < first_events)
-      text +=
-          fmt::format("set arrow {0} from {1}, graph 0 to {1}, graph 1 nohead dashtype 2 linecolor '{2}'\n",
-                      arrow++, shortest(parameter.value + swap.change), falling);
-  std::vector<std::string> elements;
+      panel.axes += upright(arrow++, parameter.value + swap.change, meets);
   const std::size_t count = std::min<std::size_t>(s.contacts.size(), std::size(contact_colours));
-  const CsvTable<Tangent>& table = tangent_table();
-  for (std::size_t c = 0; c <= count; ++c) {
-    const std::string title = c == 0 ? "" : s.contacts[c - 1];
-    elements.push_back(
-        fmt::format("'{}.csv' skip 1 using {}:{}:({} == {} ? {} : NaN):{} with vectors nohead linewidth 1.2 "
-                    "linecolor '{}' {}",
-                    name, table.number("p"), table.number("t"), table.value("contact"), c, table.value("dp"),
-                    table.number("dt"), c == 0 ? "#808080" : contact_colours[c - 1],
-                    c == 0 ? "notitle" : "title " + quoted(title)));
-  }
-  elements.push_back(
-      fmt::format("NaN with lines dashtype 2 linecolor '{}' title 'two events meet'", falling));
-  return text + plot_command(elements) + end_script();
+  for (std::size_t c = 0; c <= count; ++c)
+    panel.curves.push_back(
+        {"'" + name + ".csv' skip 1",
+         fmt::format("{}:{}:({} == {} ? {} : NaN):{}", table.number("p"), table.number("t"),
+                     table.value("contact"), c, table.value("dp"), table.number("dt")),
+         fmt::format("with vectors nohead linewidth 1.2 linecolor '{}'",
+                     c == 0 ? "#808080" : contact_colours[c - 1]),
+         c == 0 ? std::nullopt : std::optional(s.contacts[c - 1])});
+  panel.curves.push_back({"NaN", "", "with lines " + meets, "two events meet"});
+  const std::string events = s.events.size() > first_events
+                                 ? fmt::format("the first {} of {} events", first_events, s.events.size())
+                                 : "events";
+  files.add(run, {name,
+                  "Times of " + events + " over " + parameter.path + ", to first order",
+                  canvas_of(run.look, 760, false),
+                  false,
+                  {panel}});
 }
 
-std::string sequence(const Sensitivities& s, const fs::path& folder, const PictureLook& look) {
-  const std::vector<Swap> swaps = least_swaps(s);
+void add_sequence(const Sensitivities& s, const PlottedRun& run, PictureFiles& files) {
   std::vector<Bar> bars;
-  for (const Swap& swap : swaps) {
+  for (const Swap& swap : least_swaps(s)) {
     const Parameter& parameter = s.parameters[swap.parameter];
     if (parameter.value == 0.0) continue;
     bars.push_back({parameter.path + (swap.change > 0.0 ? " up" : " down"),
                     100.0 * swap.change / std::abs(parameter.value)});
   }
-  if (bars.empty()) return {};
+  if (bars.empty()) return;
   sort_bars(bars);
   std::reverse(bars.begin(), bars.end());  // the least change on top
   const CsvTable<PlacedBar> table = bar_table("per_cent");
-  write_file(folder / "sequence.csv", table.text(placed(bars)));
-  const PlottedRun run = facts_of(s, look);
-  const Canvas canvas = canvas_of(
-      run.look, room_above + room_below + 38.0 + 30.0 * static_cast<double>(bars.size()), false, true);
-  std::string text = begin_script(
-      run, {"sequence", "Least change of each key at which, to first order, two events meet", canvas, false});
-  text += panel(run, canvas, stacked(0, 1, canvas), "", true) + wide_margin();
-  text += "set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\nset xrange [*:*]\n" +
-          bar_ticks(bars);
-  const auto points = [&](const char* sign, const char* colour, const char* title) {
-    return fmt::format(
-        "'sequence.csv' skip 1 using ({3} {0} 0 ? abs({3}) : NaN):{4} with points pointtype 7 pointsize 1.4 "
-        "linecolor '{1}' title '{2}'",
-        sign, colour, title, table.value("per_cent"), table.number("place"));
+  files.add_table("sequence", table.text(placed(bars)));
+  const auto points = [&](const char* sign, const char* colour, const char* title) -> Curve {
+    return {
+        "'sequence.csv' skip 1",
+        fmt::format("({0} {1} 0 ? abs({0}) : NaN):{2}", table.value("per_cent"), sign, table.number("place")),
+        fmt::format("with points pointtype 7 pointsize 1.4 linecolor '{}'", colour), title};
   };
-  return text + plot_command({points(">", rising, "upwards"), points("<", falling, "downwards")}) +
-         end_script();
+  Panel panel{"", {points(">", rising, "upwards"), points("<", falling, "downwards")}};
+  panel.axes = wide_margin +
+               std::string("set xlabel 'change of the key [%]'\nset logscale x\nset format x '%g'\n") +
+               "set xrange [*:*]\n" + bar_tics(bars);
+  const double height = room_above + room_below + 38.0 + 30.0 * static_cast<double>(bars.size());
+  files.add(run, {"sequence",
+                  "Least change of each key at which, to first order, two events meet",
+                  canvas_of(run.look, height, false, true),
+                  false,
+                  {panel}});
 }
 
 }  // namespace
 
-std::vector<fs::path> write_sensitivity_plots(const fs::path& directory, const Sensitivities& s,
-                                              const Sigmas& sigmas, const PictureLook& look) {
-  if (s.events.empty() && s.responses.empty()) return {};
-  const fs::path folder = directory / "plots";
-  begin_plot_folder(folder, is_picture_of_sensitivities);
-  std::vector<fs::path> scripts;
-  const auto add = [&](const std::string& name, const std::string& text) {
-    if (text.empty()) return;
-    scripts.push_back(folder / (name + ".gp"));
-    write_file(scripts.back(), text);
-  };
-  add("tornado", tornado(s, sigmas, folder, look));
+PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas, const PictureLook& look) {
+  PictureFiles files(is_picture_of_sensitivities);
+  const PlottedRun run = untold_run(s.title, s.units, look);
+  if (s.events.empty() && s.responses.empty()) return files;
+  add_tornado(s, sigmas, run, files);
   if (!s.events.empty())
     for (std::size_t p = 0; p < std::min(s.parameters.size(), most_time_pictures); ++p)
-      add(fmt::format("times-{}", p + 1), times(s, p, folder, look));
-  add("sequence", sequence(s, folder, look));
-  return scripts;
+      add_times(s, p, run, files);
+  add_sequence(s, run, files);
+  return files;
 }
 
 void remove_sensitivity_plots(const fs::path& directory) {

@@ -8,19 +8,17 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_files.hpp"
 #include "study/sensitivity/spread.hpp"
 
 namespace signorini {
 
-/// Writes the scripts and returns them; none without events and figures. Errors: FileError.
-std::vector<std::filesystem::path> write_sensitivity_plots(const std::filesystem::path& directory,
-                                                           const Sensitivities& s, const Sigmas& sigmas,
-                                                           const PictureLook& look = {});
+/// None without events and figures.
+[[nodiscard]] PictureFiles sensitivity_pictures(const Sensitivities& s, const Sigmas& sigmas,
+                                                const PictureLook& look = {});
 
-/// Removes what write_sensitivity_plots and its scripts put there. Errors: FileError.
+/// Removes what they and their scripts put into DIR/plots. Errors: FileError.
 void remove_sensitivity_plots(const std::filesystem::path& directory);
 
 }  // namespace signorini

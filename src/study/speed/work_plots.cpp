@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/number.hpp"
+#include "result/picture_files.hpp"
 #include "result/plot_folder.hpp"
 #include "result/plot_parts.hpp"
 #include "result/table.hpp"
@@ -22,7 +23,7 @@ constexpr std::array<const char*, 8> colours = {"#1f77b4", "#d95f02", "#1a1a1a",
                                                 "#7b3294", "#e7298a", "#a6761d", "#666666"};
 constexpr std::array<const char*, 4> drawn = {"event_time", "displacement", "force_away", "energy"};
 constexpr std::array<int, 6> symbols = {7, 5, 9, 11, 13, 15};  // filled; the hollow one is the number before
-constexpr int panel_height = 330;
+constexpr double panel_height = 330.0;
 
 /// Runs of one engine, the accurate ones last.
 struct Line {
@@ -82,48 +83,32 @@ std::optional<Axis> axis_of(const std::vector<Line>& lines, const std::string& q
   return Axis{"error of " + name + " [" + unit + "]", std::pow(10.0, std::floor(std::log10(least)))};
 }
 
-std::string script(const WorkReport& report, const std::vector<Line>& lines,
-                   const std::vector<std::pair<std::size_t, Axis>>& axes) {
-  PlottedRun run;
-  run.facts.title = report.title.empty() ? report.scene : report.title;
-  run.facts.outcome = "done";
-  run.facts.units = report.units;
-  std::vector<std::string> labels;
-  for (const Line& line : lines) labels.push_back(line.label);
-  run.legend = room_for(labels);
-  const int count = static_cast<int>(axes.size());
-  const Canvas canvas = canvas_of(run.look, 90 + panel_height * count, false);
-  std::string s = begin_script(run, {"work-precision",
-                                     "Time of a run over its error, reference " + report.reference +
-                                         "; hollow: not all events, or not to the end",
-                                     canvas, false});
-  s += "set logscale xy\n";
-  for (int i = 0; i < count; ++i) {
-    const auto& [quantity, axis] = axes[static_cast<std::size_t>(i)];
-    s += panel(run, canvas, stacked(static_cast<std::size_t>(i), axes.size(), canvas, 80.0), "wall time [s]",
-               true);
-    s += "set format y '%.0e'\nset format x '%.0e'\nset xlabel " + quoted(axis.label) + "\n";
-    s += "set yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
-    std::vector<std::string> elements;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      const CsvTable<const WorkRow*>& table = line_table();
-      const std::string data = fmt::format("'line-{}.csv' skip 1 using (", k + 1);
-      const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
-                                        table.number(drawn[quantity]), shortest(axis.floor));
-      const std::string complete = table.value("complete");
-      const std::size_t time = table.number("wall_time");
-      const std::string colour = colours[k % colours.size()];
-      elements.push_back(
-          data + fmt::format("{} == 1 ? ({}) : NaN):{} with linespoints linewidth 2 pointtype {} "
-                             "pointsize 0.9 linecolor '{}' title {}",
-                             complete, x, time, symbols[k % symbols.size()], colour, quoted(lines[k].label)));
-      elements.push_back(data + fmt::format("{} == 0 ? ({}) : NaN):{} with points pointtype {} pointsize 1.4 "
-                                            "linewidth 1.1 linecolor '{}' notitle",
-                                            complete, x, time, symbols[k % symbols.size()] - 1, colour));
-    }
-    s += plot_command(elements);
+Panel panel_of(std::size_t quantity, const Axis& axis, const std::vector<Line>& lines) {
+  const CsvTable<const WorkRow*>& table = line_table();
+  Panel panel{"wall time [s]", {}};
+  panel.axes =
+      "set format y '%.0e'\nset format x '%.0e'\nset xlabel " + quoted(axis.label) +
+      "\nset yrange [*:*]\nset xrange [*:*]\nset offsets graph 0.02,graph 0.02,graph 0.06,graph 0.06\n";
+  panel.own_axis = true;
+  const std::string x = fmt::format("strlen(strcol({0})) ? (${0} > 0 ? ${0} : {1}) : NaN",
+                                    table.number(drawn[quantity]), shortest(axis.floor));
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::string data = fmt::format("'line-{}.csv' skip 1", k + 1);
+    const auto where = [&](int complete) {
+      return fmt::format("({} == {} ? ({}) : NaN):{}", table.value("complete"), complete, x,
+                         table.number("wall_time"));
+    };
+    const std::string colour = fmt::format("linecolor '{}'", colours[k % colours.size()]);
+    const int symbol = symbols[k % symbols.size()];
+    panel.curves.push_back(
+        {data, where(1),
+         fmt::format("with linespoints linewidth 2 pointtype {} pointsize 0.9 {}", symbol, colour),
+         lines[k].label});
+    panel.curves.push_back(
+        {data, where(0),
+         fmt::format("with points pointtype {} pointsize 1.4 linewidth 1.1 {}", symbol - 1, colour)});
   }
-  return s + end_script();
+  return panel;
 }
 
 bool is_picture_of_work(const fs::path& file) {
@@ -137,16 +122,27 @@ bool is_picture_of_work(const fs::path& file) {
 
 std::vector<fs::path> write_work_plots(const fs::path& directory, const WorkReport& report) {
   const std::vector<Line> lines = lines_of(report);
-  std::vector<std::pair<std::size_t, Axis>> axes;
+  PictureFiles files(is_picture_of_work);
+  PlottedRun run = untold_run(report.title.empty() ? report.scene : report.title, report.units);
+  std::vector<std::string> labels;
+  for (const Line& line : lines) {
+    labels.push_back(line.label);
+    files.add_table(fmt::format("line-{}", labels.size()), line_table().text(line.rows));
+  }
+  run.legend = room_for(labels);
+  Picture picture{"work-precision",
+                  "Time of a run over its error, reference " + report.reference +
+                      "; hollow: not all events, or not to the end",
+                  {},
+                  false};
+  picture.space = 80.0;
+  picture.setup = "set logscale xy\n";
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    if (const auto axis = axis_of(lines, drawn[i])) axes.emplace_back(i, *axis);
-  const fs::path folder = directory / "plots";
-  begin_plot_folder(folder, is_picture_of_work);
-  if (axes.empty()) return {};
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    write_file(folder / fmt::format("line-{}.csv", k + 1), line_table().text(lines[k].rows));
-  write_file(folder / "work-precision.gp", script(report, lines, axes));
-  return {folder / "work-precision.gp"};
+    if (const auto axis = axis_of(lines, drawn[i])) picture.panels.push_back(panel_of(i, *axis, lines));
+  picture.canvas =
+      canvas_of(run.look, 90.0 + panel_height * static_cast<double>(picture.panels.size()), false);
+  files.add(run, picture);
+  return files.write(directory);
 }
 
 void remove_work_plots(const fs::path& directory) {

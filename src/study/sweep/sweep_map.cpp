@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/number.hpp"
-#include "result/plot_parts.hpp"
 #include "study/key_unit.hpp"
 
 namespace signorini {
@@ -132,44 +131,43 @@ Borders borders_of(const SweepSpec& spec, const MapAxes& axes, const SweepRows& 
   return borders;
 }
 
-std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                       const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
-                       const PictureLook& look) {
-  PlottedRun run;
-  run.look = look;
-  run.facts.title = spec.title;
-  run.facts.outcome = "done";
-  run.facts.units = spec.units;
+Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
+                    const std::string& subtitle, const std::vector<MapPanel>& panels, bool borders,
+                    const PictureLook& look) {
   const CsvTable<MapCell> cells = map_table(spec);
   const CsvTable<Border>& sides = border_table();
   const std::size_t count = panels.size();
-  const Canvas canvas = canvas_of(run.look, 148.0 + 380.0 * static_cast<double>(count), false);
-  std::string s = begin_script(run, {name, subtitle, canvas, false});
-  s += "set palette defined (0 '#f7fbff', 0.35 '#6baed6', 0.7 '#08519c', 1 '#08203f')\nset grid front\n";
+  Picture picture{name, subtitle, canvas_of(look, 148.0 + 380.0 * static_cast<double>(count), false), false};
+  picture.space = 30.0;
+  picture.setup =
+      "set palette defined (0 '#f7fbff', 0.35 '#6baed6', 0.7 '#08519c', 1 '#08203f')\nset grid front\n";
+  const Canvas& canvas = picture.canvas;
+  const std::vector<PanelEdges> edges = stacked(std::vector<double>(count, 1.0), canvas, picture.space);
   for (std::size_t i = 0; i < count; ++i) {
-    const MapPanel& shown = panels[i];
-    const PanelEdges edges = stacked(i, count, canvas, 30.0);
-    s += panel(run, canvas, edges, key_with_unit(spec.vary[axes.y].path, spec.units), i + 1 == count);
-    if (i + 1 == count) s += "set xlabel " + quoted(key_with_unit(spec.vary[axes.x].path, spec.units)) + "\n";
-    s += axis("x", values_of(spec.vary[axes.x])) + axis("y", values_of(spec.vary[axes.y]));
-    s += fmt::format(
+    Panel panel{key_with_unit(spec.vary[axes.y].path, spec.units), {}};
+    if (i + 1 == count)
+      panel.axes = "set xlabel " + quoted(key_with_unit(spec.vary[axes.x].path, spec.units)) + "\n";
+    panel.axes += axis("x", values_of(spec.vary[axes.x])) + axis("y", values_of(spec.vary[axes.y]));
+    panel.axes += fmt::format(
         "set colorbox user origin screen {:.4f}, screen {:.4f} size screen 0.018, screen {:.4f}\n",
-        canvas.right() + 22.0 / canvas.width, edges.bottom, edges.top - edges.bottom);
-    s += "set cblabel " + quoted(shown.label) + " offset character 1,0\n";
-    std::vector<std::string> elements{fmt::format(
-        "'map.csv' skip 1 using (0.5*({0}+{1})):(0.5*({2}+{3})):{4}:{5}:{6}:{7}:{8} with "
-        "boxxyerror fillstyle solid 1.0 noborder fillcolor palette notitle",
-        cells.value("x0"), cells.value("x1"), cells.value("y0"), cells.value("y1"), cells.number("x0"),
-        cells.number("x1"), cells.number("y0"), cells.number("y1"), cells.number(shown.column))};
+        canvas.right() + 22.0 / canvas.width, edges[i].bottom, edges[i].top - edges[i].bottom);
+    panel.axes += "set cblabel " + quoted(panels[i].label) + " offset character 1,0\n";
+    panel.curves.push_back(
+        {"'map.csv' skip 1",
+         fmt::format("(0.5*({0}+{1})):(0.5*({2}+{3})):{4}:{5}:{6}:{7}:{8}", cells.value("x0"),
+                     cells.value("x1"), cells.value("y0"), cells.value("y1"), cells.number("x0"),
+                     cells.number("x1"), cells.number("y0"), cells.number("y1"),
+                     cells.number(panels[i].column)),
+         "with boxxyerror fillstyle solid 1.0 noborder fillcolor palette"});
     if (borders)
-      elements.push_back(fmt::format(
-          "'borders.csv' skip 1 using {}:{}:({}-{}):({}-{}) with vectors nohead linewidth 1.6 linecolor "
-          "'#d95f02' notitle",
-          sides.number("x0"), sides.number("y0"), sides.value("x1"), sides.value("x0"), sides.value("y1"),
-          sides.value("y0")));
-    s += plot_command(elements);
+      panel.curves.push_back(
+          {"'borders.csv' skip 1",
+           fmt::format("{}:{}:({}-{}):({}-{})", sides.number("x0"), sides.number("y0"), sides.value("x1"),
+                       sides.value("x0"), sides.value("y1"), sides.value("y0")),
+           "with vectors nohead linewidth 1.6 linecolor '#d95f02'"});
+    picture.panels.push_back(panel);
   }
-  return s + end_script();
+  return picture;
 }
 
 }  // namespace signorini

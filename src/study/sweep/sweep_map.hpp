@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture.hpp"
 #include "result/table.hpp"
 #include "study/sweep/sweep_table.hpp"
 
@@ -52,8 +52,8 @@ struct Borders {
 struct MapPanel {
   std::string label, column;
 };
-[[nodiscard]] std::string map_script(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
-                                     const std::string& subtitle, const std::vector<MapPanel>& panels,
-                                     bool borders, const PictureLook& look);
+[[nodiscard]] Picture map_picture(const SweepSpec& spec, const MapAxes& axes, const std::string& name,
+                                  const std::string& subtitle, const std::vector<MapPanel>& panels,
+                                  bool borders, const PictureLook& look);
 
 }  // namespace signorini

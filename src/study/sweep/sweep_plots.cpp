@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
-#include <system_error>
+#include <utility>
 
 #include "base/number.hpp"
 #include "result/plot_folder.hpp"
-#include "result/plot_parts.hpp"
 #include "result/table.hpp"
 #include "study/key_unit.hpp"
 #include "study/sweep/quantiles.hpp"
+#include "study/sweep/strobe_files.hpp"
 #include "study/sweep/sweep_map.hpp"
+#include "study/sweep/swept_axis.hpp"
 
 namespace signorini {
 
@@ -28,73 +28,8 @@ constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77"
 constexpr std::size_t most_panels = 6;
 constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
 
-/// Rows that have all values in common but that on the axis.
-struct Curve {
-  std::string name;
-  std::vector<const SweepRow*> rows;
-};
-
-struct Axis {
-  std::size_t key = 0;
-  bool numbers = true;
-  const Vary* vary = nullptr;
-
-  [[nodiscard]] std::string x(const SweepRow& row) const {
-    if (numbers) return shortest(*parse_number(row.values[key]));
-    const auto& values = vary->values;
-    return std::to_string(std::find(values.begin(), values.end(), row.values[key]) - values.begin());
-  }
-};
-
-Axis axis_of(const SweepSpec& spec) {
-  Axis axis;
-  const auto several = std::find_if(spec.vary.begin(), spec.vary.end(),
-                                    [](const Vary& vary) { return vary.values.size() > 1; });
-  if (several != spec.vary.end()) axis.key = static_cast<std::size_t>(several - spec.vary.begin());
-  axis.vary = &spec.vary[axis.key];
-  axis.numbers = std::all_of(axis.vary->values.begin(), axis.vary->values.end(),
-                             [](const std::string& value) { return parse_number(value).has_value(); });
-  return axis;
-}
-
-/// The key of the axis, or one in step with it.
-bool moves_with(const SweepSpec& spec, const Axis& axis, std::size_t key) {
-  return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
-}
-
-std::vector<Curve> group(const SweepSpec& spec, const SweepRows& rows, const Axis& axis) {
-  std::vector<Curve> list;
-  std::map<std::vector<std::string>, std::size_t> known;
-  for (const auto& [index, row] : rows) {
-    if (!row.ran()) continue;
-    std::vector<std::string> others = row.values;
-    for (std::size_t i = spec.vary.size(); i-- > 0;)
-      if (moves_with(spec, axis, i)) others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto [found, fresh] = known.emplace(others, list.size());
-    if (fresh) {
-      std::string name;
-      for (std::size_t i = 0; i < row.values.size(); ++i) {
-        if (moves_with(spec, axis, i) || spec.vary[i].values.size() < 2) continue;
-        name += (name.empty() ? "" : ", ") + row.values[i];
-      }
-      list.push_back({name, {}});
-    }
-    list[found->second].rows.push_back(&row);
-  }
-  return list;
-}
-
-/// What the numbers in the legend are.
-std::string other_keys(const SweepSpec& spec, const Axis& axis) {
-  std::string text;
-  for (std::size_t i = 0; i < spec.vary.size(); ++i)
-    if (!moves_with(spec, axis, i) && spec.vary[i].values.size() > 1)
-      text += (text.empty() ? "; curves: " : ", ") + spec.vary[i].path;
-  return text;
-}
-
 /// curve-N.csv: a row of the sweep, its x, and figures of contacts.
-CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const Axis& axis,
+CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& axis,
                                       const std::vector<std::string>& contacts) {
   CsvTable<const SweepRow*> table = {{"x", [axis](const SweepRow* row) { return axis.x(*row); }},
                                      {"events", [](const SweepRow* row) { return row->changes(); }}};
@@ -110,7 +45,7 @@ CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const Axis& axis,
 }
 
 /// A range may fall, a list has any order; lines run from left to right.
-std::vector<const SweepRow*> from_left(const Curve& curve, const Axis& axis) {
+std::vector<const SweepRow*> from_left(const SweptCurve& curve, const SweptAxis& axis) {
   std::vector<const SweepRow*> rows = curve.rows;
   std::stable_sort(rows.begin(), rows.end(), [&](const SweepRow* a, const SweepRow* b) {
     return parse_number(axis.x(*a)) < parse_number(axis.x(*b));
@@ -118,105 +53,96 @@ std::vector<const SweepRow*> from_left(const Curve& curve, const Axis& axis) {
   return rows;
 }
 
-struct Panel {
+/// A panel of a picture or of a map.
+struct Shown {
   enum class Kind { events, contacts, answer };
   std::string label;
   Kind kind;
   std::string column = "events";  ///< of curve-N.csv; of contacts: what follows their names
 };
 
-class Script {
+class SweptCurves {
  public:
-  Script(const SweepSpec& spec, const Axis& axis, const std::vector<Curve>& combinations,
-         const std::vector<std::string>& contacts, const PictureLook& look)
-      : axis_(axis), curves_(combinations), contacts_(contacts), table_(curve_table(spec, axis, contacts)) {
-    run_.look = look;
-    run_.facts.title = spec.title;
-    run_.facts.outcome = "done";
-    run_.facts.units = spec.units;
+  SweptCurves(const SweepSpec& spec, const SweptAxis& axis, const std::vector<SweptCurve>& combinations,
+              const std::vector<std::string>& contacts)
+      : units_(spec.units),
+        axis_(axis),
+        combinations_(combinations),
+        contacts_(contacts),
+        table_(curve_table(spec, axis, contacts)) {}
+
+  [[nodiscard]] Picture picture(const std::string& name, const std::string& subtitle,
+                                const std::vector<Shown>& panels, const PictureLook& look) const {
+    const std::size_t count = panels.size();
+    Picture picture{name, subtitle, canvas_of(look, 148.0 + 320.0 * static_cast<double>(count), false),
+                    false};
+    picture.space = 26.0;
+    picture.setup = "set offsets 0,0,graph 0.05,0\n" + x_range(axis_);
+    for (std::size_t i = 0; i < count; ++i) {
+      Panel panel{panels[i].label, curves(panels[i])};
+      panel.axes = panels[i].kind == Shown::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
+      if (!axis_.numbers) panel.axes += tics(i + 1 == count);
+      if (i + 1 == count)
+        panel.axes += "set xlabel " + quoted(key_with_unit(axis_.vary->path, units_)) + "\n";
+      picture.panels.push_back(panel);
+    }
+    return picture;
   }
 
-  [[nodiscard]] std::string str(const std::string& name, const std::string& subtitle,
-                                const std::vector<Panel>& panels) const {
-    const std::size_t count = panels.size();
-    const Canvas canvas = canvas_of(run_.look, 148.0 + 320.0 * static_cast<double>(count), false);
-    std::string s = begin_script(run_, {name, subtitle, canvas, false});
-    s += "set offsets 0,0,graph 0.05,0\n" + x_range();
-    for (std::size_t i = 0; i < count; ++i) {
-      s += panel(run_, canvas, stacked(i, count, canvas, 26.0), panels[i].label, i + 1 == count);
-      s += panels[i].kind == Panel::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
-      if (!axis_.numbers) s += ticks(i + 1 == count);
-      if (i + 1 == count)
-        s += "set xlabel " + quoted(key_with_unit(axis_.vary->path, run_.facts.units)) + "\n";
-      s += plot_command(elements(panels[i]));
-    }
-    return s + end_script();
+  /// The tables that it draws.
+  void add_tables(PictureFiles& files) const {
+    for (std::size_t i = 0; i < std::min(combinations_.size(), most_curves); ++i)
+      files.add_table(fmt::format("curve-{}", i + 1), table_.text(from_left(combinations_[i], axis_)));
   }
 
  private:
-  /// Of all values, also where no run began: a hole at an end is seen.
-  [[nodiscard]] std::string x_range() const {
-    double first = 0.0, last = static_cast<double>(axis_.vary->values.size()) - 1.0;
-    if (axis_.numbers) {
-      first = last = *parse_number(axis_.vary->values.front());
-      for (const std::string& value : axis_.vary->values) {
-        first = std::min(first, *parse_number(value));
-        last = std::max(last, *parse_number(value));
-      }
-    }
-    const double air = last > first ? 0.03 * (last - first) : 1.0;
-    return "set xrange [" + shortest(first - air) + ":" + shortest(last + air) + "]\n";
+  [[nodiscard]] std::string tics(bool named) const {
+    std::vector<std::pair<std::string, std::size_t>> names;
+    for (const std::string& value : axis_.vary->values) names.emplace_back(named ? value : "", names.size());
+    return named_tics('x', names) + "\n";
   }
 
-  [[nodiscard]] std::string ticks(bool named) const {
-    std::string s = "set xtics (";
-    for (std::size_t i = 0; i < axis_.vary->values.size(); ++i)
-      s += (i > 0 ? ", " : "") + quoted_tick(named ? axis_.vary->values[i] : "") + fmt::format(" {}", i);
-    return s + ")\n";
-  }
-
-  [[nodiscard]] std::vector<std::string> elements(const Panel& panel) const {
-    std::vector<std::string> list;
-    const bool of_contacts = panel.kind == Panel::Kind::contacts;
-    const std::size_t curves = of_contacts ? contacts_.size() : 1;
-    for (std::size_t k = 0; k < curves; ++k) {
-      for (std::size_t c = 0; c < curves_.size() && list.size() < most_curves; ++c) {
+  [[nodiscard]] std::vector<Curve> curves(const Shown& panel) const {
+    std::vector<Curve> list;
+    const bool of_contacts = panel.kind == Shown::Kind::contacts;
+    for (std::size_t k = 0; k < (of_contacts ? contacts_.size() : 1); ++k) {
+      for (std::size_t c = 0; c < combinations_.size() && list.size() < most_curves; ++c) {
         const std::size_t column = table_.number((of_contacts ? contacts_[k] + "." : "") + panel.column);
-        const bool alone = !of_contacts || (contacts_.size() == 1 && curves_.size() > 1);
-        std::string title = panel.kind == Panel::Kind::events ? (curves_.size() == 1 ? "events" : "")
+        const bool alone = !of_contacts || (contacts_.size() == 1 && combinations_.size() > 1);
+        std::string title = panel.kind == Shown::Kind::events ? (combinations_.size() == 1 ? "events" : "")
                             : alone                           ? ""
                                                               : contacts_[k];
-        if (!curves_[c].name.empty()) title += (title.empty() ? "" : ", ") + curves_[c].name;
+        if (!combinations_[c].name.empty()) title += (title.empty() ? "" : ", ") + combinations_[c].name;
         // Colour says which contact, or which values of the other keys where there are several.
-        const std::size_t colour = curves_.size() > 1 ? c : k;
+        const std::size_t colour = combinations_.size() > 1 ? c : k;
         // Curves that coincide show through: later ones are thinner and dashed, on top.
         const std::size_t i = list.size();
         list.push_back(
-            fmt::format("'curve-{}.csv' skip 1 using {}:{} with linespoints linewidth {:.1f} pointtype {} "
-                        "pointsize 0.7{} "
-                        "linecolor '{}' title {}",
-                        c + 1, table_.number("x"), column, std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)),
-                        5 + 2 * static_cast<int>(i % 5), i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1),
-                        colours[colour % colours.size()], signorini::quoted(title)));
+            {fmt::format("'curve-{}.csv' skip 1", c + 1), fmt::format("{}:{}", table_.number("x"), column),
+             fmt::format("with linespoints linewidth {:.1f} pointtype {} pointsize 0.7{} linecolor '{}'",
+                         std::max(1.0, 2.6 - 0.5 * static_cast<double>(i)), 5 + 2 * static_cast<int>(i % 5),
+                         i == 0 ? "" : fmt::format(" dashtype {}", i % 5 + 1),
+                         colours[colour % colours.size()]),
+             title});
       }
     }
     return list;
   }
 
-  const Axis& axis_;
-  const std::vector<Curve>& curves_;
+  const Units& units_;
+  const SweptAxis& axis_;
+  const std::vector<SweptCurve>& combinations_;
   const std::vector<std::string>& contacts_;
   CsvTable<const SweepRow*> table_;
-  PlottedRun run_;
 };
 
 bool is_picture_of_sweep(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named =
-      stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" || stem == "exceedance";
+  const bool named = stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" ||
+                     stem == "exceedance" || stem == "strobe";
   return (is_picture(file) && named) ||
          (file.extension() == ".csv" && (stem.starts_with("curve-") || stem.starts_with("exceedance-") ||
-                                         stem == "map" || stem == "borders"));
+                                         stem.starts_with("strobe-") || stem == "map" || stem == "borders"));
 }
 
 std::string labelled(const SweepSpec& spec, std::size_t query) {
@@ -225,53 +151,43 @@ std::string labelled(const SweepSpec& spec, std::size_t query) {
 }
 
 /// Probability that an answer is greater, over it, with its interval; a panel a query.
-std::vector<fs::path> write_sample_plots(const fs::path& directory, const SweepSpec& spec,
-                                         const SweepRows& rows, const PictureLook& look) {
+void add_exceedances(const SweepSpec& spec, const SweepRows& rows, const PlottedRun& run,
+                     PictureFiles& files) {
   const std::vector<Sampled> answers = sampled_answers(spec, rows);
   const auto drawn = [](const Sampled& s) { return s.sorted.size() > 1; };
-  if (std::none_of(answers.begin(), answers.end(), drawn)) return {};
-  const fs::path folder = directory / "plots";
-  begin_plot_folder(folder, is_picture_of_sweep);
-  PlottedRun run;
-  run.look = look;
-  run.facts.title = spec.title;
-  run.facts.outcome = "done";
-  run.facts.units = spec.units;
+  if (std::none_of(answers.begin(), answers.end(), drawn)) return;
+  const CsvTable<Exceedance>& table = exceedance_columns();
   const std::size_t panels = std::min(spec.responses.size(), most_panels);
-  const Canvas canvas = canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false);
-  std::string s = begin_script(run, {"exceedance", "Probability of more; " + spec.sampling, canvas, false});
-  s += "set logscale y\n";
+  Picture picture{"exceedance", "Probability of more; " + spec.sampling,
+                  canvas_of(run.look, 74.0 + 340.0 * static_cast<double>(panels), false), false};
+  picture.space = 80.0;
+  picture.setup = "set logscale y\n";
   for (std::size_t i = 0; i < panels; ++i) {
-    s += panel(run, canvas, stacked(i, panels, canvas, 80.0), "P(greater)", true);
-    s += "set xlabel " + quoted(labelled(spec, i)) + "\nset yrange [*:1]\n";
-    std::vector<std::string> elements;
-    for (std::size_t k = 0; k < answers.size() && elements.size() < most_curves; ++k) {
+    Panel panel{"P(greater)", {}, "set xlabel " + quoted(labelled(spec, i)) + "\nset yrange [*:1]\n"};
+    panel.own_axis = true;
+    for (std::size_t k = 0; k < answers.size() && panel.curves.size() < most_curves; ++k) {
       if (answers[k].query != i || !drawn(answers[k])) continue;
-      const CsvTable<Exceedance>& table = exceedance_columns();
-      const std::string name = fmt::format("exceedance-{}.csv", k + 1);
-      write_file(folder / name, table.text(exceedance(answers[k].sorted, independent(spec))));
+      const std::string name = fmt::format("exceedance-{}", k + 1);
+      files.add_table(name, table.text(exceedance(answers[k].sorted, independent(spec))));
       std::string title;
       for (const std::string& value : answers[k].values) title += (title.empty() ? "" : ", ") + value;
-      const char* colour = colours[elements.size() % colours.size()];
+      const std::string data = "'" + name + ".csv' skip 1";
+      const std::string colour = fmt::format("linecolor '{}'", colours[panel.curves.size() % colours.size()]);
       if (independent(spec) && answers.size() == spec.responses.size())
-        elements.push_back(
-            fmt::format("'{}' skip 1 using {}:{}:{} with filledcurves fillstyle solid 0.2 noborder "
-                        "linecolor '{}' title '95 % confidence'",
-                        name, table.number("value"), table.number("low"), table.number("high"), colour));
-      elements.push_back(
-          fmt::format("'{}' skip 1 using {}:{} with steps linewidth 1.8 linecolor '{}' title {}", name,
-                      table.number("value"), table.number("probability"), colour, signorini::quoted(title)));
+        panel.curves.push_back(
+            {data, fmt::format("{}:{}:{}", table.number("value"), table.number("low"), table.number("high")),
+             "with filledcurves fillstyle solid 0.2 noborder " + colour, "95 % confidence"});
+      panel.curves.push_back({data, fmt::format("{}:{}", table.number("value"), table.number("probability")),
+                              "with steps linewidth 1.8 " + colour, title});
     }
-    s += plot_command(elements);
+    picture.panels.push_back(panel);
   }
-  const fs::path script = folder / "exceedance.gp";
-  write_file(script, s + end_script());
-  return {script};
+  files.add(run, picture);
 }
 
 struct SweepPicture {
   std::string name, subtitle;
-  std::vector<Panel> panels;
+  std::vector<Shown> panels;
 };
 
 std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<std::string>& contacts) {
@@ -279,13 +195,13 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
   const std::string energy = " [" + spec.units.force + " " + spec.units.length + "]";
   std::vector<SweepPicture> list;
   if (!spec.responses.empty()) {
-    std::vector<Panel> panels;
+    std::vector<Shown> panels;
     for (std::size_t i = 0; i < std::min(spec.responses.size(), most_panels); ++i)
-      panels.push_back({labelled(spec, i), Panel::Kind::answer, spec.responses[i]});
+      panels.push_back({labelled(spec, i), Shown::Kind::answer, spec.responses[i]});
     list.push_back({"responses", "What was asked for", panels});
   }
   if (!contacts.empty()) {
-    constexpr Panel::Kind of_contacts = Panel::Kind::contacts;
+    constexpr Shown::Kind of_contacts = Shown::Kind::contacts;
     list.push_back({"motion",
                     "Greatest motion of the contacts from the start",
                     {{"along the tangent" + length, of_contacts, "peak_t"},
@@ -296,58 +212,58 @@ std::vector<SweepPicture> pictures_of(const SweepSpec& spec, const std::vector<s
     list.push_back(
         {"losses",
          "Work lost by friction, and events",
-         {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Panel::Kind::events}}});
+         {{"friction work" + energy, of_contacts, "friction_work"}, {"events", Shown::Kind::events}}});
   }
   return list;
 }
 
+/// Two keys as axes of maps.
+void add_maps(const SweepSpec& spec, const MapAxes& axes, const SweepRows& rows,
+              const std::vector<std::string>& contacts, const PlottedRun& run, PictureFiles& files) {
+  files.add_table("map", map_table(spec).text(map_cells(spec, axes, rows)));
+  const Borders found = borders_of(spec, axes, rows);
+  const bool differ = !found.sides.empty();
+  const bool borders =
+      differ && 2 * found.sides.size() <= found.neighbours;  // around most cells they would say nothing
+  if (borders) files.add_table("borders", border_table().text(found.sides));
+  const char* parts = !differ   ? ""
+                      : borders ? "; lines part sequences of events"
+                                : "; most neighbours have other sequences of events";
+  for (const SweepPicture& shown : pictures_of(spec, contacts)) {
+    const bool several = contacts.size() > 1 && shown.panels.front().kind != Shown::Kind::answer;
+    std::vector<MapPanel> maps;
+    for (const Shown& p : shown.panels) maps.push_back({p.label, p.column});
+    files.add(run, map_picture(spec, axes, shown.name,
+                               shown.subtitle + (several ? ", greatest of all contacts" : "") + parts, maps,
+                               borders, run.look));
+  }
+}
+
 }  // namespace
 
-std::vector<fs::path> write_sweep_plots(const fs::path& directory, const SweepSpec& spec,
-                                        const SweepRows& rows, const PictureLook& look) {
-  if (!spec.sampling.empty()) return write_sample_plots(directory, spec, rows, look);
-  const Axis axis = axis_of(spec);
-  const std::vector<Curve> list = group(spec, rows, axis);
-  const std::vector<std::string> contacts = contact_names(rows);
-  if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return {};
-  const fs::path folder = directory / "plots";
-  begin_plot_folder(folder, is_picture_of_sweep);
-  const CsvTable<const SweepRow*> table = curve_table(spec, axis, contacts);
-  for (std::size_t i = 0; i < std::min(list.size(), most_curves); ++i)
-    write_file(folder / fmt::format("curve-{}.csv", i + 1), table.text(from_left(list[i], axis)));
-
-  const std::optional<MapAxes> axes = map_axes(spec);
-  bool borders = false, differ = false;
-  if (axes) {
-    write_file(folder / "map.csv", map_table(spec).text(map_cells(spec, *axes, rows)));
-    const Borders found = borders_of(spec, *axes, rows);
-    differ = !found.sides.empty();
-    borders =
-        differ && 2 * found.sides.size() <= found.neighbours;  // around most cells they would say nothing
-    if (borders) write_file(folder / "borders.csv", border_table().text(found.sides));
+PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows, const PictureLook& look) {
+  PictureFiles files(is_picture_of_sweep);
+  const PlottedRun run = untold_run(spec.title, spec.units, look);
+  if (!spec.sampling.empty()) {
+    add_exceedances(spec, rows, run, files);
+    return files;
   }
-  const Script script(spec, axis, list, contacts, look);
-  std::vector<fs::path> scripts;
+  if (!spec.strobe.text.empty()) add_strobe_picture(spec, rows, run, files);
+  if (spec.carry.back) return files;  // two runs a value: no curve over it
+  const SweptAxis axis = axis_of(spec);
+  const std::vector<SweptCurve> list = swept_curves(spec, rows, axis);
+  const std::vector<std::string> contacts = contact_names(rows);
+  if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return files;
+  const SweptCurves curves(spec, axis, list, contacts);
+  curves.add_tables(files);
+  if (const std::optional<MapAxes> axes = map_axes(spec)) {
+    add_maps(spec, *axes, rows, contacts, run, files);
+    return files;
+  }
   const std::string others = other_keys(spec, axis);
-  const auto add = [&](const std::string& name, const std::string& subtitle,
-                       const std::vector<Panel>& panels) {
-    scripts.push_back(folder / (name + ".gp"));
-    if (!axes) {
-      write_file(scripts.back(), script.str(name, subtitle + others, panels));
-      return;
-    }
-    std::vector<MapPanel> maps;
-    for (const Panel& p : panels) maps.push_back({p.label, p.column});
-    const std::string parts = !differ   ? ""
-                              : borders ? "; lines part sequences of events"
-                                        : "; most neighbours have other sequences of events";
-    const char* of =
-        contacts.size() > 1 && panels.front().kind != Panel::Kind::answer ? ", greatest of all contacts" : "";
-    write_file(scripts.back(), map_script(spec, *axes, name, subtitle + of + parts, maps, borders, look));
-  };
-  for (const SweepPicture& picture : pictures_of(spec, contacts))
-    add(picture.name, picture.subtitle, picture.panels);
-  return scripts;
+  for (const SweepPicture& shown : pictures_of(spec, contacts))
+    files.add(run, curves.picture(shown.name, shown.subtitle + others, shown.panels, look));
+  return files;
 }
 
 void remove_sweep_plots(const fs::path& directory) {

@@ -5,6 +5,7 @@
 //   DIR/plots/losses.gp   friction work, and events
 //   DIR/plots/responses.gp the answers to the queries, a panel each
 //   DIR/plots/exceedance.gp of a sampled sweep, instead of all others: probabilities of more
+//   DIR/plots/strobe.gp   of a stroboscopic sweep: bifurcation diagrams (strobe_files.hpp)
 //   DIR/plots/curve-1.csv x, events, then the figures of every contact: one file a combination
 //
 // The first key with more than one value is the axis; where its values are no numbers, they stand evenly. Two
@@ -12,19 +13,17 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "result/picture_look.hpp"
+#include "result/picture_files.hpp"
 #include "study/sweep/sweep_table.hpp"
 
 namespace signorini {
 
-/// Writes the scripts and returns them; none with fewer than two rows that ran. Errors: FileError.
-std::vector<std::filesystem::path> write_sweep_plots(const std::filesystem::path& directory,
-                                                     const SweepSpec& spec, const SweepRows& rows,
-                                                     const PictureLook& look = {});
+/// None with fewer than two rows that ran.
+[[nodiscard]] PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows,
+                                          const PictureLook& look = {});
 
-/// Removes what write_sweep_plots and its scripts put there. Errors: FileError.
+/// Removes what they and their scripts put into DIR/plots. Errors: FileError.
 void remove_sweep_plots(const std::filesystem::path& directory);
 
 }  // namespace signorini

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "base/json.hpp"
+#include "result/csv.hpp"
+#include "result/picture_files.hpp"
 #include "result/plot_folder.hpp"
-#include "result/plot_parts.hpp"
 #include "result/table.hpp"
 #include "result/units_json.hpp"
 #include "study/figures.hpp"
@@ -123,35 +124,30 @@ void begin_verify_plot(const fs::path& directory) { begin_plot_folder(directory 
 std::vector<fs::path> write_verify_plot(const fs::path& directory, const Model& model,
                                         const Verification& result) {
   if (result.events.size() < 2) return {};
-  const fs::path folder = directory / "plots";
-  write_file(folder / "verify.csv", plot_table().text(result.events));
-  PlottedRun run;
-  run.facts.title = model.title;
-  run.facts.outcome = "done";
-  run.facts.units = model.units;
-  run.from = 0.0;
+  PictureFiles files(is_ours);
+  files.add_table("verify", plot_table().text(result.events));
+  PlottedRun run = untold_run(model.title, model.units);
   run.to = result.events.back().time.t * 1.02;
   if (result.until < run.to) run.facts.certain_until = result.until;
-  const auto data = [](const char* column) {
-    return fmt::format("'verify.csv' skip 1 using {}:{}", plot_table().number("t"),
-                       plot_table().number(column));
+  const auto curve = [](const char* column, const char* look, const char* name) -> Curve {
+    return {"'verify.csv' skip 1",
+            fmt::format("{}:{}", plot_table().number("t"), plot_table().number(column)), look, name};
   };
-  const Canvas canvas = canvas_of(run.look, 620, true);
-  std::string script =
-      begin_script(run, {"verify",
-                         fmt::format("Times of events: ida against newmark at dt = {:g}, {:g}, {:g}",
-                                     result.dt[0], result.dt[1], result.dt[2]),
-                         canvas});
-  script += panel(run, canvas, stacked(0, 1, canvas), "difference [" + model.units.time + "]", true);
-  script += "set logscale y\nset format y '%.0e'\n";
-  script += plot_command(
-      {data("allowed") + " with lines linewidth 1.2 linecolor '#c0182b' title 'allowed'",
-       data("bar") + " with lines linewidth 1 dashtype 2 linecolor '#777777' title 'bar of newmark'",
-       data("difference") + " with points pointtype 7 pointsize 0.4 linecolor '#1a1a1a' title 'ida - limit'",
-       data("exact") + " with points pointtype 6 pointsize 0.4 linecolor '#1f77b4' title 'ida - exact'"});
-  script += "unset logscale y\n" + end_script();
-  write_file(folder / "verify.gp", script);
-  return {folder / "verify.gp"};
+  Panel panel{
+      "difference [" + model.units.time + "]",
+      {curve("allowed", "with lines linewidth 1.2 linecolor '#c0182b'", "allowed"),
+       curve("bar", "with lines linewidth 1 dashtype 2 linecolor '#777777'", "bar of newmark"),
+       curve("difference", "with points pointtype 7 pointsize 0.4 linecolor '#1a1a1a'", "ida - limit"),
+       curve("exact", "with points pointtype 6 pointsize 0.4 linecolor '#1f77b4'", "ida - exact")},
+      "set logscale y\nset format y '%.0e'\n"};
+  panel.after = "unset logscale y\n";
+  files.add(run, {"verify",
+                  fmt::format("Times of events: ida against newmark at dt = {:g}, {:g}, {:g}", result.dt[0],
+                              result.dt[1], result.dt[2]),
+                  canvas_of(run.look, 620, true),
+                  true,
+                  {panel}});
+  return files.write(directory);
 }
 
 }  // namespace signorini

@@ -60,13 +60,13 @@ TEST_CASE("frames: two rows an element, one a named node, forces on the body") {
   CHECK(slurp(folder / "run" / "frame_contacts.csv") ==
         "t,contact,state,node,x,y,ux,uy,nx,ny,tx,ty,N,T\n"
         "0.5,foot,stick,R,4,0,0.01,0.02,0,1,1,0,-30,4\n");
-  const auto frames = read_frames(folder / "run", 0.0, 1.0);
+  const auto frames = read_frames(TableFolder(folder / "run"), 0.0, 1.0);
   REQUIRE(frames.size() == 1);
   REQUIRE(frames[0].elements.size() == 2);
   REQUIRE(frames[0].forces.size() == 1);
   CHECK(frames[0].forces[0].fx == -4.0);
   CHECK(frames[0].forces[0].fy == 30.0);
-  CHECK(read_frames(folder / "run", 0.6, 1.0).empty());
+  CHECK(read_frames(TableFolder(folder / "run"), 0.6, 1.0).empty());
 }
 
 TEST_CASE("frames: the drawn curve is the beam's own, and magnification keeps it readable") {

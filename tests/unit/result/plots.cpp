@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "result/csv.hpp"
+#include "result/picture_files.hpp"
 #include "result/plot_parts.hpp"
 #include "result/plots.hpp"
 #include "result/run_directory.hpp"
@@ -18,7 +20,7 @@ TEST_CASE("plots: nothing in a name is expanded by gnuplot") {
   CHECK(quoted("end'") == "'end'''");
   CHECK(quoted("6'' on a plate") == R"('6'."\047\047".' on a plate')");
   CHECK(quoted("'''") == R"(''."\047\047\047".'')");
-  CHECK(quoted_tick("%s of 100 %") == "'%%s of 100 %%'");
+  CHECK(named_tics('x', {{"%s of 100 %", 0}, {"it's", 3}}) == "set xtics ('%%s of 100 %%' 0, 'it''s' 3)");
 }
 
 TEST_CASE("plots: a row a contact is as high as a picture allows, and names do not overlap") {
@@ -29,7 +31,7 @@ TEST_CASE("plots: a row a contact is as high as a picture allows, and names do n
     const double dots = 1.5 * (row * static_cast<double>(count) + room_above + room_below);
     CHECK(dots <= 32767.0);  // Cairo's limit
     CHECK(dots >= 20000.0);
-    const std::string ticks = row_ticks(std::vector<RunFacts::Contact>(count), row);
+    const std::string ticks = row_tics(std::vector<RunFacts::Contact>(count), row);
     CHECK(static_cast<double>(std::count(ticks.begin(), ticks.end(), ',')) * 13.0 <
           row * static_cast<double>(count));
   }
@@ -58,6 +60,57 @@ TEST_CASE("plots: scripts, and bands that are exact to the event") {
   CHECK(scripts[5].filename() == "cone.gp");
   CHECK(slurp(plots / "marks.csv") == "row,t,event,N,T\n0,0.123456789,slip,-58.86,-17.658\n");
   CHECK(slurp(plots / "states-pad__left.csv") == "from,to,state\n0,1,slip-\n");
+}
+
+TEST_CASE("plots: a picture is its panels, from above, each with its axes and curves") {
+  const PlottedRun run = untold_run("A portal", {"N", "kg", "m", "s"});
+  Picture picture{"two", "Twice", canvas_of({}, 400.0, false), false};
+  picture.panels.push_back(
+      {"upper [m]", {{"'a.csv'", "1:2", "with lines", "it's"}, {"'b.csv'", "1:3", "with points"}}});
+  picture.panels.push_back(
+      {"lower [N]", {{"3*x", "", "with lines"}}, "set logscale y\n", 2.0, "unset logscale y\n"});
+  const std::string script = script_of(run, picture);
+  const auto at = [&](const std::string& text) {
+    const std::size_t place = script.find(text);
+    CAPTURE(text);
+    CHECK(place != std::string::npos);
+    return place;
+  };
+  const std::string upper =
+      "plot 'a.csv' using 1:2 with lines title 'it''s', \\\n     'b.csv' using 1:3 with points notitle\n";
+  CHECK(at("set ylabel 'upper [m]'") < at(upper));
+  CHECK(at(upper) < at("set ylabel 'lower [N]'"));
+  CHECK(at("set ylabel 'lower [N]'") < at("set logscale y\nplot 3*x with lines notitle\n"));
+  CHECK(at("notitle\nunset label 1\nunset label 2\nunset logscale y\n") > 0);
+  // Only the lowest one has figures at its horizontal axis.
+  CHECK(at("unset xlabel") < at(upper));
+  CHECK(at("set xlabel 'time t [s]'") > at(upper));
+  const auto edges = stacked({1.0, 2.0}, picture.canvas, picture.space);
+  CHECK(2.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(edges[1].top - edges[1].bottom));
+  // 400 less 62, 70 and 22 for what is above, below and between, a third of it.
+  CHECK(400.0 * (edges[0].top - edges[0].bottom) == doctest::Approx(246.0 / 3.0));
+}
+
+TEST_CASE("plots: what earlier pictures left goes only where new ones come") {
+  const Folder folder;
+  const auto ours = [](const std::filesystem::path& file) { return file.stem() == "old"; };
+  std::filesystem::create_directories(folder / "run" / "plots");
+  write_file(folder / "run" / "plots" / "old.gp", "plot 1\n");
+  write_file(folder / "run" / "plots" / "mine.txt", "kept\n");
+  PictureFiles files(ours);
+  files.add_table("numbers", "a\n1\n");
+  files.add({}, Picture{});
+  CHECK(files.write(folder / "run").empty());
+  CHECK(slurp(folder / "run" / "plots" / "old.gp") == "plot 1\n");
+  Picture picture{"new", "", canvas_of({}, 400.0, false), false};
+  picture.panels.push_back({"", {{"x", "", "with lines"}}});
+  files.add({}, picture);
+  const auto scripts = files.write(folder / "run");
+  REQUIRE(scripts.size() == 1);
+  CHECK(scripts[0].filename() == "new.gp");
+  CHECK_FALSE(std::filesystem::exists(folder / "run" / "plots" / "old.gp"));
+  CHECK(slurp(folder / "run" / "plots" / "mine.txt") == "kept\n");
+  CHECK(slurp(folder / "run" / "plots" / "numbers.csv") == "a\n1\n");
 }
 
 TEST_CASE("plots: names that look alike as file names stay apart") {
@@ -123,7 +176,7 @@ TEST_CASE("plots: on paper letters stay readable, and take their room") {
     CHECK(canvas.font(13.0) * 72.0 / 96.0 >= 6.0 - 1e-12);                         // points
     CHECK((canvas.right() - canvas.left()) * canvas.width >= 0.5 * canvas.width);  // left for the curves
     CHECK(canvas.height * canvas.pixel >= 800.0 * mm / 1120.0 * 96.0 / 25.4 * 0.25);
-    CHECK(stacked(1, 2, canvas).bottom * canvas.height == doctest::Approx(room_below));
+    CHECK(stacked({1.0, 1.0}, canvas, 20.0).back().bottom * canvas.height == doctest::Approx(room_below));
   }
   look.width = 160.0;
   look.height = 90.0;

@@ -151,4 +151,83 @@ TEST_CASE("a contact that parts without mass leave at once was at a limit") {
   CHECK(law_broken(false));
 }
 
+TEST_CASE("what rests on a damper has velocities of rounding over its damping: they tell no direction") {
+  // dof 2: 5 v = -20 x - T; terms of 2 |T| at least, so that 1e3 eps 2 |T|/5 is in v; of kt x and kn g, too, ten times as much.
+  const auto broken = [](double back) {
+    Chain chain;
+    chain.model.damping.insert(2, 2) = 5.0;
+    chain.rate = 0.0;
+    chain.follow(chain.u, -0.9, chain.load);
+    chain.v.setZero();
+    chain.v[2] = -back;
+    return tells_of(chain.instant(), "slip direction");
+  };
+  const double T = std::abs(Chain().forces[1]), noise = 1e3 * 2.220446e-16 * 2.0 * T / 5.0;
+  CHECK_FALSE(broken(0.0));
+  CHECK_FALSE(broken(0.9 * noise));
+  CHECK(broken(30.0 * noise));
+}
+
+namespace {
+
+/// The chain's foot lets go of its static friction, 0.6; beside it a slider sticks.
+struct LetGo {
+  Chain chain;
+  Vector u_after, forces_before = Vector::Zero(4), forces_after = forces_before;
+  std::vector<ContactState> before, after;
+  double slid = 0.0;    ///< by so much more does x jump
+  double anchor = 0.0;  ///< of the slider, after
+
+  std::vector<Violation> found(double part_of_limit) {
+    Contact beside;
+    beside.name = "beside";
+    beside.law = Law::slider;
+    beside.tangent.terms = {{2, 1.0}};
+    beside.tangential_stiffness = 30.0;
+    beside.friction.static_ = beside.friction.kinetic = 5.0;
+    if (chain.model.contacts.size() == 1) chain.model.contacts.push_back(beside);
+    chain.model.contacts[0].friction.static_ = 0.6;
+    const double N = chain.forces[0];
+    const auto x_of = [&](double T) { return -T / (20.0 + 30.0); };  // -20 x - T - 30 x = 0
+    const double held = -part_of_limit * 0.6 * N, slides = -0.5 * N;
+    chain.u[2] = x_of(held);
+    u_after = chain.u;
+    u_after[2] = x_of(slides) + slid;
+    forces_before << N, held, -8.0, 30.0 * chain.u[2];
+    forces_after << N, slides, -8.0, 30.0 * (u_after[2] - anchor);
+    before = {{State::stick, chain.u[2] - held / 90.0}, {State::stick, 0.0}};
+    after = {{State::slip_plus, u_after[2] - slides / 90.0}, {State::stick, anchor}};
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    record.before = chain.sides();
+    record.after = chain.sides();
+    record.before.driven = record.after.driven = {Driven{}, Driven{}};
+    for (Driven* d : {&record.before.driven[1], &record.after.driven[1]}) d->q = 8.0;
+    record.before.forces = &forces_before;
+    record.before.mode = &before;
+    record.after.u = &u_after;
+    record.after.forces = &forces_after;
+    record.after.mode = &after;
+    record.events.push_back({0, "slip", State::stick, State::slip_plus, 1.0, 1e-15, N, held, N, slides});
+    return Witness(chain.model, {}).instant(record);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("parts without mass jump where friction drops to its kinetic value, and nowhere else") {
+  const auto jumps = [](const std::vector<Violation>& found) {
+    return tells_of(found, "continuity") || tells_of(found, "continuity of friction");
+  };
+  CHECK_FALSE(jumps(LetGo().found(1.0)));
+  CHECK(tells_of(LetGo().found(0.9), "continuity"));  // it was not at its limit
+  LetGo back;
+  back.slid = -1.0;  // against the force that held it
+  CHECK(tells_of(back.found(1.0), "continuity of friction"));
+  LetGo drops;
+  drops.anchor = 1e-6;  // of what sticks beside
+  CHECK(tells_of(drops.found(1.0), "continuity of friction"));
+}
+
 TEST_SUITE_END();

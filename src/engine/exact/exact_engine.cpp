@@ -42,6 +42,7 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       structure_(structure),
       taylor_(systems),
       t_end_(t_end),
+      damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })),
       norm_(model),
       contacts_(model.contacts.size()),
       sizes_(most_levels + 3),
@@ -97,7 +98,7 @@ std::optional<double> ExactEngine::growth_beside(const ModeSystem& system) {
     if (contact.normal_damping > 0.0 || contact.own || contact.takes_impulses() || contact.sticks_rigidly() ||
         contact.friction.varies() || contact.bowl)
       return std::nullopt;
-    more += growth_margin * growth_margin * stiffening(system, c);
+    more += (damped_ ? 2.0 : 1.0) * growth_margin * growth_margin * stiffening(system, c);
     if (!(more <= most_beside * square)) return std::nullopt;
   }
   return std::sqrt(square + more);

@@ -12,7 +12,8 @@
 // W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
 // few soft contacts; in the norm of flow_norm.hpp these add at most
 //   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
-// and that is taken as long as it adds little.
+// and that is taken as long as it adds little. With C the sum counts twice: W^2 = c W + k, so that k + m adds
+// (1 + c / sqrt(c^2 + 4 k)) m at most.
 #pragma once
 
 #include <numbers>
@@ -90,6 +91,7 @@ class ExactEngine final : public Stepper {
   const Structure& structure_;
   Taylor taylor_;
   const double t_end_;
+  const bool damped_;
   FlowNorm norm_;
   std::size_t degree_ = 0;  // of all polynomials on the last step
   BoundedCache<std::vector<State>, double> growth_{most_growths};

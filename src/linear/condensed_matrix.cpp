@@ -4,8 +4,14 @@
 #include <set>
 
 #include "linear/band_order.hpp"
+#include "linear/dof_kinds.hpp"
 
 namespace signorini {
+
+bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared) {
+  return !has_massless(model) && shared.groups().empty() &&
+         structure.size + 2 * static_cast<int>(model.contacts.size()) >= economical_from;
+}
 
 CondensedMatrix::CondensedMatrix(const Model& model, const Structure& structure, std::size_t most_width)
     : structure_(structure) {

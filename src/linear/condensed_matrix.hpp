@@ -16,12 +16,18 @@
 
 namespace signorini {
 
+/// Unknowns from which a factorisation is worth avoiding: of 200 it takes some 30 us. Chosen: unit/engine/newmark tests
+/// both sides.
+inline constexpr int economical_from = 200;
+/// All degrees of freedom have mass, contacts share nothing, and there are so many unknowns.
+[[nodiscard]] bool is_economical(const Model& model, const Structure& structure, const SharedRows& shared);
+
 class CondensedMatrix {
  public:
   /// The widest band for which this is worth it: its n width^2 products beside those of a sparse method.
   static constexpr std::size_t widest = 16;
 
-  /// Both must outlive it. All degrees of freedom have mass, and contacts share nothing.
+  /// Both must outlive it; of what is_economical().
   CondensedMatrix(const Model& model, const Structure& structure, std::size_t most_width = widest);
 
   /// False: the band is too wide.

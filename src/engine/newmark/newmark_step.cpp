@@ -14,9 +14,6 @@ namespace {
 // bytes as much as mode systems may take (motion/mode_systems.hpp).
 constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
 
-// Unknowns from which a factorisation is worth avoiding: of 200 it takes some 30 us. Chosen: unit/engine/newmark tests
-// both sides.
-constexpr Eigen::Index economical_from = 200;
 // A factorisation of a banded matrix, with all that is read of it, over a solve: 0.64 + 0.3 ms over 0.045 at 3000
 // unknowns.
 constexpr double solves_a_factorisation = 20.0;
@@ -37,9 +34,7 @@ NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::si
       workshop_(model, structure),
       kept_(most_kept),
       odd_(model, structure),
-      economical_(!massless_ &&
-                  structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()) >= economical_from &&
-                  odd_.shared_rows().groups().empty()),
+      economical_(is_economical(model, structure, odd_.shared_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = none_ = u_;

@@ -69,7 +69,7 @@ void NewmarkEngine::start(const Segment& segment) {
 bool NewmarkEngine::rates_known(std::size_t slot) const {
   const std::size_t k = contact_of_guard(slot);
   const Form& form = segment_.decision->guards[slot].form;
-  const Rows rows = signorini::rows(model_.contacts[k], segment_.decision->mode[k]);
+  const Rows& rows = segment_.decision->system->rows()[k];
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
   if (form.an != 0.0 || form.at != 0.0) return false;
   if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
@@ -150,8 +150,17 @@ double NewmarkEngine::value_after(std::size_t slot, double h) {
   return value_of(slot, t0_ + h, inner_);
 }
 
+/// Contacts without an element have forces that follow accelerations, and what is left of a gap, a slip rate or a force of
+/// theirs the decision takes out at once: modes above the step keep that blow, and blows make the next events.
+bool NewmarkEngine::is_soft(std::size_t slot) const {
+  const Contact& contact = model_.contacts[contact_of_guard(slot)];
+  return !contact.takes_impulses() && !contact.sticks_rigidly();
+}
+
 /// Up to this value a guard is zero: a search for its fall would follow its rounding.
-double NewmarkEngine::zero_of(std::size_t slot) const { return rounding_of_guard * watched_[slot].level; }
+double NewmarkEngine::zero_of(std::size_t slot) const {
+  return is_soft(slot) ? rounding_of_guard * watched_[slot].level : 0.0;
+}
 
 double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi) {
   double last = g_lo;  // a singular matrix on the way must not reach the root finder
@@ -185,26 +194,22 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
   const GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
   const auto fall = w.has_rate ? path.fall() : std::nullopt;
   double at = fall ? fall->x * h : nan, slope = fall ? fall->slope / h : nan, before = nan, g_before = nan;
-  for (int i = 0; i < most_tangents && slope < 0.0; ++i) {
+  const int most = is_soft(slot) ? most_tangents : 1;
+  for (int i = 0; i < most && slope < 0.0; ++i) {
     const double g = narrow(at);
     if (std::abs(g) <= zero_of(slot)) return at;
     if (i > 0) slope = (g - g_before) / (at - before);
-    if (std::abs(g / slope) <= 0.25 * resolution_at(t0_ + h, h)) return at;
+    if (is_soft(slot) && std::abs(g / slope) <= 0.25 * resolution_at(t0_ + h, h)) return at;
     before = at;
     g_before = g;
     at -= g / slope;
   }
-  if (slope < 0.0) (void)narrow(before - 2.0 * g_before / slope);  // to the other side of the fall
+  if (slope < 0.0 && g_before != 0.0)
+    (void)narrow(before - 2.0 * g_before / slope);  // to the other side of the fall
   return fall_between(slot, lo, g_lo, hi, g_hi);
 }
 
-/// Contacts without an element have forces that follow accelerations, and what interpolation leaves of a gap,
-/// a slip rate or a force of theirs the decision takes out at once: modes above the step keep that blow, and
-/// blows make the next events.
-bool NewmarkEngine::interpolates(std::size_t slot) const {
-  const Contact& contact = model_.contacts[contact_of_guard(slot)];
-  return linear_ && !contact.takes_impulses() && !contact.sticks_rigidly();
-}
+bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
 
 /// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
 /// twice the next interpolation, until it has.

@@ -70,6 +70,7 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] double value_of(std::size_t slot, double t, const Point& point) const;
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
+  [[nodiscard]] bool is_soft(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
   [[nodiscard]] double fall_near(std::size_t slot, double h);

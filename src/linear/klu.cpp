@@ -1,6 +1,5 @@
 #include "linear/klu.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "base/rounding.hpp"
@@ -66,7 +65,7 @@ bool Klu::refactor(const std::vector<double>& values) {
       h_->common.status == KLU_SINGULAR)
     return factor(values);
   klu_l_rcond(h_->symbolic, h_->numeric, &h_->common);
-  if (!(h_->common.rcond >= std::max(kept_quality * fresh_rcond_, rounding::eps))) return factor(values);
+  if (h_->common.rcond < kept_quality * fresh_rcond_) return factor(values);
   h_->reader.read(h_->symbolic, h_->numeric, &h_->common, false, h_->factors);
   return true;
 }

@@ -335,11 +335,7 @@ void Taylor::begin(const ModeSystemPtr& system, const Forcing& forcing, double t
   out.t = t;
   out.scale = scale;
   out.levels = -1;
-  out.u.resize(u.size(), levels + 3);
-  if (massless_)
-    out.u.setZero();  // else each level writes a column
-  else
-    out.u.col(1).setZero();
+  out.u.setZero(u.size(), levels + 3);
   out.forces.resize(static_cast<Eigen::Index>(2 * model_.contacts.size()), levels + 1);
   forcing.expand(t, scale, static_cast<std::size_t>(levels) + 3, out.forcing);
   out.u.col(0) = u;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
@@ -23,6 +24,7 @@ constexpr int one_by_one = 2;
 // Over the usual stretch. Where events come at random one stretch in e^2 is longer, and takes another step.
 constexpr double stretches_a_step = 2.0;
 constexpr double memory_of_stretches = 7.0 / 8.0;  // chosen
+constexpr double far_shorter = 0.25;  // than series reach, from where on few terms are worth it; chosen
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
 constexpr double most_beside =
@@ -217,7 +219,7 @@ bool ExactEngine::stands(double x) const {
 
 /// Is a step of this length far shorter than series reach, since events end it?
 bool ExactEngine::cut_short(double scale) const {
-  return usual_ > 0.0 && growth_now_ * scale < 0.25 * static_cast<double>(most_levels);
+  return usual_ > 0.0 && growth_now_ * scale < far_shorter * 0.5 * static_cast<double>(most_levels);
 }
 
 /// Expands to as many levels as a step of the given scale needs, all at most; returns the part of it that
@@ -228,6 +230,7 @@ double ExactEngine::expand(double scale) {
                 series_);
   std::size_t measured = 0;
   const int more = cut_short(scale) ? one_by_one : more_levels;
+  bool enough = more == more_levels;  // of few terms some more, so that as little is left out as of many
   for (int level = fewest_levels;; level = std::min(level + more, most_levels)) {
     taylor_.extend(*segment_.forcing, level, series_);
     degree_ = static_cast<std::size_t>(level - late);
@@ -236,7 +239,7 @@ double ExactEngine::expand(double scale) {
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
     if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
-        stands(1.0))
+        stands(1.0) && std::exchange(enough, true))
       break;
     if (level == most_levels) break;
   }
@@ -361,7 +364,7 @@ void ExactEngine::see_unarmed(double x) {
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
   double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
-  if (last_ == 0.0 && usual_ > 0.0) longest = std::min(longest, stretches_a_step * usual_);
+  if (const double usual = stretches_a_step * usual_; last_ == 0.0 && cut_short(usual)) longest = usual;
   const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
   if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
   ++counters.steps;

@@ -24,7 +24,7 @@ constexpr int one_by_one = 2;
 // Over the usual stretch. Where events come at random one stretch in e^2 is longer, and takes another step.
 constexpr double stretches_a_step = 2.0;
 constexpr double memory_of_stretches = 7.0 / 8.0;  // chosen
-constexpr double far_shorter = 0.25;  // than series reach, from where on few terms are worth it; chosen
+constexpr double far_shorter = 0.5;  // than series reach, from where on few terms are worth it; chosen
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
 constexpr double most_beside =

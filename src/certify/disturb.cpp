@@ -17,6 +17,11 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31U);
 }
 
+/// It has a gap at the start, and no rounding of one.
+bool is_apart(const Contact& c, const Vector& u0) {
+  return c.has_gap() && c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0));
+}
+
 class Disturber {
  public:
   explicit Disturber(std::uint64_t seed) : seed_(mixed(seed)) {}
@@ -53,8 +58,7 @@ class Disturber {
   }
 
   void contact(Contact& c, const Vector& u0) {
-    if (c.has_gap() && c.gap_at(u0) > rounding_of_data * (std::abs(c.gap) + c.normal.magnitude(u0)))
-      c.gap *= next();
+    if (is_apart(c, u0)) c.gap *= next();
     c.normal_stiffness *= next();
     c.normal_damping *= next();
     if (c.tangential_stiffness) *c.tangential_stiffness *= next();
@@ -74,12 +78,13 @@ class Disturber {
   std::uint64_t seed_, number_ = 0;
 };
 
-/// Degrees of freedom on which a contact acts.
+/// Degrees of freedom on which a contact acts that touches at the start.
 std::vector<bool> touched(const Model& model) {
   std::vector<bool> list(static_cast<std::size_t>(model.size()), false);
   for (const Contact& c : model.contacts)
-    for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
-      for (const auto& [dof, factor] : form->terms) list[static_cast<std::size_t>(dof)] = true;
+    if (!is_apart(c, model.u0))
+      for (const Combination* form : {&c.normal, &c.tangent, &c.body_tangent()})
+        for (const auto& [dof, factor] : form->terms) list[static_cast<std::size_t>(dof)] = true;
   return list;
 }
 
@@ -99,8 +104,11 @@ Model disturbed(const Model& model, std::uint64_t seed) {
   for (Load& load : near.loads) disturb.history(load.history);
   for (Contact& contact : near.contacts) disturb.contact(contact, model.u0);
   const std::vector<bool> touches = touched(model);
-  for (int i = 0; i < near.size(); ++i)
-    if (!touches[static_cast<std::size_t>(i)]) near.v0[i] *= disturb.next();
+  for (int i = 0; i < near.size(); ++i) {
+    if (touches[static_cast<std::size_t>(i)]) continue;
+    near.v0[i] *= disturb.next();
+    if (!model.static_start) near.u0[i] *= disturb.next();  // else it follows from the other data
+  }
   return near;
 }
 

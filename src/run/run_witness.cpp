@@ -41,7 +41,7 @@ RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Record
       recorder_(recorder),
       engine_(engine),
       witness_(model, engine.limits),
-      motion_(model, engine.sums_over_modes) {}
+      motion_(model, engine) {}
 
 namespace {
 
@@ -116,6 +116,7 @@ void RunWitness::instant(const Instant& now) {
     passed_[k].place = std::max(passed_[k].place, see(model_.contacts[k], k, record.before).place);
   if (recorder_.wants_instants()) recorder_.instant(row_of(record));
   keep(witness_.instant(record));
+  motion_.leave(*now.forcing_after, now.t);
 }
 
 void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point,

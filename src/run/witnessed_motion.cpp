@@ -77,11 +77,18 @@ Vector left_forces(const Model& model) {
   return forces;
 }
 
-WitnessedMotion::WitnessedMotion(const Model& model, bool sums_over_modes)
+WitnessedMotion::WitnessedMotion(const Model& model, const WitnessedEngine& engine)
     : model_(model),
-      sums_over_modes_(sums_over_modes),
+      sums_over_modes_(engine.sums_over_modes),
       massless_(
-          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })) {}
+          std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })),
+      step_(engine.limits.step),
+      jerk_(model.contacts.size(), 0.0) {}
+
+void WitnessedMotion::leave(const Forcing& forcing, double t) {
+  if (!(step_ > 0.0)) return;
+  for (std::size_t k = 0; k < jerk_.size(); ++k) jerk_[k] = std::abs(forcing.surface(k, t, 3));
+}
 
 WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dependence) const {
   WitnessedSide side;
@@ -102,7 +109,11 @@ void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, 
                       forcing.pressing(k, t, 0),
                       forcing.pressing(k, t, 1),
                       forcing.pressing(k, t, 2),
-                      k < lightness_.size() ? lightness_[k] * std::sqrt(energy_) : 0.0};
+                      k < lightness_.size() ? lightness_[k] * std::sqrt(energy_) : 0.0,
+                      step_ > 0.0 ? step_ * step_ / 12.0 *
+                                        (jerk_[k] + std::abs(forcing.surface(k, t, 3)) +
+                                         step_ * std::abs(forcing.surface(k, t, 4)))
+                                  : 0.0};
   if (!massless_) return;
   side.loads.resize(3);
   for (int order = 0; order < 3; ++order) {

@@ -1,9 +1,10 @@
 // witnessed_motion.hpp: what the witness knows of a motion beside u and v: what drives contacts, what loads parts without
 // mass, and how far the motion has reached.
 //
-//   WitnessedMotion motion(model, sums_over_modes);
+//   WitnessedMotion motion(model, engine);
 //   motion.reach(witness, u, v);
 //   WitnessedSide side = motion.side(forcing, t);        u, v, forces, states: to be set
+//   motion.leave(forcing, t);                            the instant is over
 //
 // Of a run (run/run_witness.hpp) and of a directory of results (study/witness/directory_witness.hpp).
 #pragma once
@@ -37,7 +38,7 @@ struct WitnessedEngine {
 
 class WitnessedMotion {
  public:
-  WitnessedMotion(const Model& model, bool sums_over_modes);
+  WitnessedMotion(const Model& model, const WitnessedEngine& engine);
 
   /// At instants alone: what is greater between two is little greater.
   void reach(const Witness& witness, const Vector& u, const Vector& v);
@@ -48,10 +49,14 @@ class WitnessedMotion {
   [[nodiscard]] WitnessedSide side(const Forcing& forcing, double t, double dependence) const;
   /// The same into one that is there, whose memory is used again.
   void fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const;
+  /// Of an instant, with the forcing after it.
+  void leave(const Forcing& forcing, double t);
 
  private:
   const Model& model_;
   bool sums_over_modes_, massless_;
+  double step_;               // WitnessLimits::step
+  std::vector<double> jerk_;  // |s'''| of each surface just after the last instant
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
   double energy_ = 0.0;                                                // greatest Witness::twice_energy
   std::vector<double> lightness_;                                      // of each contact

@@ -107,15 +107,14 @@ void Finder::captures() {
                                   std::min(by_t, std::abs(c.tangent.dot(change))));
     double limit = with_slow_slips * bench_.slowest(record_, k);
     // Between steps g' of a gap that is held swings by what a step makes of the acceleration that is held; and what comes
-    // to rest within a step is found at its end, by when it moves again.
+    // to rest within a step is found at its end, by when it moves again. What sticks rigidly to a surface that moves
+    // follows its acceleration, and its velocity with the error of the step's rule.
     if (bench_.limits.step > 0.0 && !is_open((*record_.before.mode)[k].state))
-      limit += bench_.limits.step * bench_.swing(record_, k);
+      limit += bench_.limits.step * bench_.swing(record_, k) + record_.before.driven[k].drift;
     // What stops within a step of an engine that finds no instants swings on by up to the speed that it had. The limit
-    // of an engine with steps takes the accelerations of both ends, which need not bound those between: it is grave
-    // from a hundred times it on (chosen: tests/scenes/robust/sliders13.toml at dt = 0.01, with an amplitude changed in the
-    // fifth digit, has up to 17 in nine runs of ten thousand events).
-    constexpr double grossly = 100.0;
-    const bool grave = record_.located && speed > (bench_.limits.step > 0.0 ? grossly : 1.0) * limit;
+    // of an engine with steps takes the accelerations of both ends and the first terms of errors in h: what is left of
+    // the series is given twice as much.
+    const bool grave = record_.located && speed > (bench_.limits.step > 0.0 ? of_uncertainty : 1.0) * limit;
     if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
   }
 }

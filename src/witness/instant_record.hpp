@@ -19,6 +19,9 @@ struct Driven {
   double s = 0.0, ds = 0.0, dds = 0.0;  ///< place, velocity, acceleration of the surface
   double q = 0.0, dq = 0.0, ddq = 0.0;  ///< normal_force and its rates
   double speed = 0.0;  ///< the greatest that energies of the run's displacements could make of its velocities
+  /// By how much steps of given length h leave the velocity of what sticks rigidly beside that of the surface: the
+  /// trapezoidal rule's error of its acceleration since the last instant, h^2/12 (|s'''| there + |s'''| here) + h^3/12 |s''''|.
+  double drift = 0.0;
 };
 
 /// One side of an instant, or a point of the motion between two.

@@ -82,8 +82,10 @@ TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
     // 11, 16: a start without the force that drives pendulums back moved at once; going on lost what K had of them. 19: of
     // reduced models the stated error left out what cancels in a shape's stiffness.
-    for (const auto& [seed, relation] : {std::pair{11U, "shifted"}, {16U, "going on"}, {19U, "turned"}}) {
+    for (const auto& [seed, relation] :
+         {std::pair{11U, "shifted"}, {11U, "in units"}, {16U, "going on"}, {19U, "turned"}}) {
       RelationSettings settings;
+      settings.seed = 1;
       settings.bounds.seconds = 1e6;
       settings.only = relation;
       long compared = 0;

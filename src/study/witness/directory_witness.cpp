@@ -53,7 +53,7 @@ class DirectoryWitness {
         engine_(witnessed_engine(spec_of(scene, told_), tolerance_of(model_, scene.run), told_.flow,
                                  follows_low_flights(model_, told_.engine))),
         witness_(model_, engine_.limits),
-        motion_(model_, engine_.sums_over_modes),
+        motion_(model_, engine_),
         rows_(model_, engine_, witness_, told_.stopped) {
     result_.complete = told_.ended;
     for (Event& event : told_events(directory, model_)) events_.push_back(std::move(event));
@@ -145,6 +145,7 @@ class DirectoryWitness {
       if (event.contact >= 0) record.events.push_back(recorded(event, row));
     for (Violation& v : witness_.instant(record)) add(std::move(v));
     rows_.instant(row, record);
+    motion_.leave(Forcing(model_, row.t, Side::after), row.t);
   }
 
   void point_to(const InstantRow& row, InstantRecord& record) const {

@@ -74,6 +74,7 @@ struct Recorded {
   std::vector<ContactState> before, after;
   InstantRecord record;
   bool untrue = false;  ///< rows of events say nothing of both sides
+  double drift = 0.0;   ///< of what sticks to a surface that moves
 
   explicit Recorded(double g = 0.0, double ut = 0.0)
       : u_before(along(g, ut)),
@@ -88,6 +89,7 @@ struct Recorded {
     record.t = 1.0;
     record.resolution = 1e-15;
     record.before = {&u_before, &v_before, nullptr, &before, &forces_before, {Driven{}}};
+    record.before.driven[0].drift = drift;
     record.after = {&u_after, &v_after, &a, &after, &forces_after, {Driven{}}};
     if (before[0].state != after[0].state && record.events.empty())
       record.events.push_back({0, "event", before[0].state, after[0].state});
@@ -222,6 +224,27 @@ TEST_CASE("a hit is no capture: rest is for what is slower than capture_velocity
     const auto found = r.by(block(ground(Law::rigid)), limits);
     CHECK(names(found, "capture") == (fell > 1.0));
     CHECK_FALSE(names(found, "momentum"));
+  }
+}
+
+TEST_CASE(
+    "steps leave what sticks to a moving surface beside it by their rule's error: more is noticed, thrice is "
+    "grave") {
+  for (const double part : {0.9, 2.0, 4.0}) {
+    CAPTURE(part);
+    Recorded r;
+    r.drift = 1e-6;
+    r.v_before = along(0.0, part * r.drift);
+    r.before = r.after = {{State::stick, 0.0}};
+    r.record.captures = Eigen::Vector2d(0.0, -mass * part * r.drift);
+    WitnessLimits limits;
+    limits.capture_velocity = 1e-12;
+    limits.step = 0.01;
+    const auto found = r.by(block(ground(Law::slider)), limits);
+    CHECK_FALSE(names(found, "momentum"));
+    CHECK(names(found, "capture") == (part > 1.0));
+    for (const Violation& v : found)
+      if (v.law == std::string("capture")) CHECK(v.grave == (part > 3.0));
   }
 }
 

@@ -91,10 +91,8 @@ void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& o
   for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
   for (std::size_t i = 0; i < varying_.size(); ++i)
     varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
-  for (const std::size_t k : pressed_)
-    pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
-  for (const std::size_t k : carried_)
-    surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
+  for (const std::size_t k : pressed_) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
+  for (const std::size_t k : carried_) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
 }
 
 void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) const {

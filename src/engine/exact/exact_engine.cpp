@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <utility>
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
@@ -19,12 +18,6 @@ namespace signorini {
 namespace {
 
 constexpr int fewest_levels = 12, more_levels = 6;
-// Of steps that events cut short: one more level costs a sweep, to ask whether it is needed little.
-constexpr int one_by_one = 2;
-// Over the usual stretch. Where events come at random one stretch in e^2 is longer, and takes another step.
-constexpr double stretches_a_step = 2.0;
-constexpr double memory_of_stretches = 7.0 / 8.0;  // chosen
-constexpr double far_shorter = 0.5;  // than series reach, from where on few terms are worth it; chosen
 constexpr int probe_levels = 20;
 constexpr double growth_margin = 1.25;  // on a growth that is computed from twenty powers of the flow
 constexpr double most_beside =
@@ -44,7 +37,6 @@ ExactEngine::ExactEngine(const Model& model, const Structure& structure, ModeSys
       structure_(structure),
       taylor_(systems),
       t_end_(t_end),
-      damped_(std::any_of(structure.c.begin(), structure.c.end(), [](double c) { return c != 0.0; })),
       norm_(model),
       contacts_(model.contacts.size()),
       sizes_(most_levels + 3),
@@ -100,7 +92,7 @@ std::optional<double> ExactEngine::growth_beside(const ModeSystem& system) {
     if (contact.normal_damping > 0.0 || contact.own || contact.takes_impulses() || contact.sticks_rigidly() ||
         contact.friction.varies() || contact.bowl)
       return std::nullopt;
-    more += (damped_ ? 2.0 : 1.0) * growth_margin * growth_margin * stiffening(system, c);
+    more += growth_margin * growth_margin * stiffening(system, c);
     if (!(more <= most_beside * square)) return std::nullopt;
   }
   return std::sqrt(square + more);
@@ -130,7 +122,7 @@ double ExactEngine::probed_growth(const ModeSystemPtr& system) {
 void ExactEngine::start(const Segment& segment) {
   segment_ = segment;
   const Decision& decision = *segment.decision;
-  t_ = begun_ = decision.jet.t;
+  t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ = std::max({growth_of(decision.system), 2.0 * segment.forcing->greatest_omega(), 1.0 / t_end_});
   last_ = first_step();
@@ -207,19 +199,10 @@ bool ExactEngine::stands(const double* a, std::size_t last, double x) const {
 bool ExactEngine::stands(double x) const {
   if (!stands(sizes_.data(), degree_ + 2, x)) return false;
   const ForcingSeries& f = series_.forcing;
-  if (!segment_.forcing->varies()) return true;  // one coefficient each
   for (const std::vector<double>* rows : {&f.loads, &f.pressing, &f.surface})
-    for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count) {
-      const bool of_contact = rows != &f.loads;
-      if (of_contact && !segment_.forcing->drives(i / f.count)) continue;
+    for (std::size_t i = 0; i + f.count <= rows->size(); i += f.count)
       if (!stands(rows->data() + i, f.count - 1, x)) return false;
-    }
   return true;
-}
-
-/// Is a step of this length far shorter than series reach, since events end it?
-bool ExactEngine::cut_short(double scale) const {
-  return usual_ > 0.0 && growth_now_ * scale < far_shorter * 0.5 * static_cast<double>(most_levels);
 }
 
 /// Expands to as many levels as a step of the given scale needs, all at most; returns the part of it that
@@ -229,9 +212,7 @@ double ExactEngine::expand(double scale) {
   taylor_.begin(segment_.decision->system, *segment_.forcing, t_, end_.u, end_.v, most_levels, scale,
                 series_);
   std::size_t measured = 0;
-  const int more = cut_short(scale) ? one_by_one : more_levels;
-  bool enough = more == more_levels;  // of few terms some more, so that as little is left out as of many
-  for (int level = fewest_levels;; level = std::min(level + more, most_levels)) {
+  for (int level = fewest_levels;; level = std::min(level + more_levels, most_levels)) {
     taylor_.extend(*segment_.forcing, level, series_);
     degree_ = static_cast<std::size_t>(level - late);
     if (measured == 0) weigh();
@@ -239,7 +220,7 @@ double ExactEngine::expand(double scale) {
     measured = static_cast<std::size_t>(std::max(0, level - late - 2));
     // |x_(k+1)| <= |x_k|/2 from here on, so two small terms make a small rest
     if (degree_ >= polynomial_ && growth_now_ * scale <= 0.5 * static_cast<double>(degree_ + 2) &&
-        stands(1.0) && std::exchange(enough, true))
+        stands(1.0))
       break;
     if (level == most_levels) break;
   }
@@ -363,8 +344,7 @@ void ExactEngine::see_unarmed(double x) {
 
 Step ExactEngine::advance() {
   const double remaining = segment_.end - t_;
-  double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
-  if (const double usual = stretches_a_step * usual_; last_ == 0.0 && cut_short(usual)) longest = usual;
+  const double longest = 0.5 * static_cast<double>(most_levels) / growth_now_;
   const double scale = std::min({longest, last_ > 0.0 ? 1.5 * last_ : longest, remaining});
   if (std::string why = hindrance(scale); !why.empty()) return failed(std::move(why));
   ++counters.steps;
@@ -386,8 +366,6 @@ Step ExactEngine::advance() {
                     !arming_.armed(*first.slot)}};
     x *= first.at;
     end = t_ + scale * x;
-    const double now = end - begun_;
-    usual_ = usual_ > 0.0 ? memory_of_stretches * usual_ + (1.0 - memory_of_stretches) * now : now;
   } else {
     see_unarmed(x);
   }

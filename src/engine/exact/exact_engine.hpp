@@ -6,14 +6,12 @@
 // Between events the system of a mode is linear with constant coefficients, so its Taylor series has the
 // radius of the forcing's, infinite, and |x_(k+1)| <= W s/(k+1) |x_k| with W the greatest growth of the mode.
 // A step is as long as the series still converges to rounding with that bound, and short enough that its
-// terms do not cancel. docs/theory.md gives the argument that no event is missed. Where events are far closer than that,
-// steps reach a few times as far as stretches have of late, with the fewer terms that this takes.
+// terms do not cancel. docs/theory.md gives the argument that no event is missed.
 //
 // W of a state is found from twenty levels of a series. Of large structures most states differ from one that is known in
 // few soft contacts; in the norm of flow_norm.hpp these add at most
 //   W^2 <= W_0^2 + sum over contacts that differ ( kn |M^-1 n| |n| + kt |M^-1 t| |t| + f kn |M^-1 t| |n| )
-// and that is taken as long as it adds little. With C the sum counts twice: W^2 = c W + k, so that k + m adds
-// (1 + c / sqrt(c^2 + 4 k)) m at most.
+// and that is taken as long as it adds little.
 #pragma once
 
 #include <numbers>
@@ -68,7 +66,6 @@ class ExactEngine final : public Stepper {
   void measure(std::size_t first, std::size_t last);
   [[nodiscard]] bool stands(const double* a, std::size_t last, double x) const;
   [[nodiscard]] bool stands(double x) const;
-  [[nodiscard]] bool cut_short(double scale) const;
   [[nodiscard]] double expand(double scale);
   [[nodiscard]] double rest_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double rest_of_series(double x);
@@ -91,7 +88,6 @@ class ExactEngine final : public Stepper {
   const Structure& structure_;
   Taylor taylor_;
   const double t_end_;
-  const bool damped_;
   FlowNorm norm_;
   std::size_t degree_ = 0;  // of all polynomials on the last step
   BoundedCache<std::vector<State>, double> growth_{most_growths};
@@ -109,8 +105,6 @@ class ExactEngine final : public Stepper {
   Point end_;  // of the last step
   double t_ = 0.0, growth_now_ = 0.0;
   double last_ = 0.0;   // length of the last step of the segment
-  double begun_ = 0.0;  // where the segment began
-  double usual_ = 0.0;  // length of stretches that end with an event, of late; 0: there was none
   double end_x_ = 0.0;  // of the last step in its series
   Step step_;
   SeriesWorks works_;

@@ -99,8 +99,9 @@ struct BranchPoint {
   int sequence =
       0;  ///< number of the sequence of events, from 1 on, in the order in which the branch meets them
   long events = 0;  ///< in one period
-  /// What lies between the point before and this one: "fold" (the parameter turns), "stability" (gained or lost),
-  /// "sequence", "restart" (the branch before could not be followed on); several with "+"
+  /// A point that was located: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last one
+  /// with its sequence). Else what lies between the point before and this one: "stability" (gained or lost), "sequence",
+  /// "restart" (the branch before could not be followed on); several with "+"
   std::string special;
 };
 

@@ -120,13 +120,20 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
   return a.completeOrthogonalDecomposition().solve(b);
 }
 
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
-                                  double size) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+template <class Svd>
+static Eigen::VectorXd shortest_by(Svd svd, const Eigen::VectorXd& b, double least, double size) {
   const double greatest = svd.singularValues().size() > 0 ? svd.singularValues()[0] : 0.0;
-  if (!(greatest > least * size)) return Eigen::VectorXd::Zero(a.cols());
+  if (!(greatest > least * size)) return Eigen::VectorXd::Zero(svd.cols());
   svd.setThreshold(least * std::max(1.0, size / greatest));
   return svd.solve(b);
+}
+
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double least,
+                                  double size) {
+  constexpr Eigen::Index fewest_divided = 48;  // columns from which division costs less than rotations
+  constexpr unsigned both = Eigen::ComputeThinU | Eigen::ComputeThinV;
+  return a.cols() < fewest_divided ? shortest_by(Eigen::JacobiSVD<Eigen::MatrixXd>(a, both), b, least, size)
+                                   : shortest_by(Eigen::BDCSVD<Eigen::MatrixXd>(a, both), b, least, size);
 }
 
 Eigen::VectorXd combination_of_columns(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {

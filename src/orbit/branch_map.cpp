@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/eigen_dense.hpp"
 #include "base/number.hpp"
 #include "model/rescale.hpp"
 #include "run/choose_engine.hpp"
@@ -11,8 +12,10 @@
 namespace signorini {
 namespace {
 
-// Of the range: differences of the map over it have its third derivative times 1e-10 and rounding over 1e-5. Chosen.
-constexpr double difference = 1e-5;
+// Of the range: differences of the map over it have its second derivative times it, and noise over it. Chosen: of `exact`
+// the noise is rounding, 1e-10 at most (shooting.cpp), of `ida` a few of its tolerance.
+constexpr double difference = 1e-7, difference_of_steps = 1e-4;
+constexpr std::size_t most_kept = 4;  // maps: those of a point, of its difference, of the next point
 constexpr double most_periods = restart_periods + 4.0;  // of a transient, and of the orbit itself
 constexpr double same_time = 1e-9;  // of a period: rounding of times that are written as text
 
@@ -72,7 +75,7 @@ double BranchMap::period_of(const Scene& scene) const {
   return loads_at(scene).period.value_or(0.0) * options_.orbit.times / machine_.time;
 }
 
-double BranchMap::period(double s) const { return autonomous_ ? start_.duration : period_of(scene_at(s)); }
+double BranchMap::period(double s) const { return autonomous_ ? start_.duration : kept(s).period; }
 
 /// A state of one model means nothing in a model with other unknowns.
 void BranchMap::check_structure(const Model& model) const {
@@ -83,7 +86,7 @@ void BranchMap::check_structure(const Model& model) const {
     throw SceneError({}, options_.path, "the unknowns of the model change along the branch");
 }
 
-PeriodMap BranchMap::at(double s, bool outputs) const {
+BranchMap::Kept BranchMap::make(double s) const {
   const Scene scene = scene_at(s);
   Model model = build_model(scene);
   RunSpec run = scene.run;
@@ -92,26 +95,71 @@ PeriodMap BranchMap::at(double s, bool outputs) const {
   check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
   run = rescaled(run, inverse(machine_));
-  const double section = autonomous_ ? 0.0 : section_ * period_of(scene);
-  return {driven_from(std::move(model), phase_ + section), run, recorder_, outputs};
+  const double period = autonomous_ ? 0.0 : period_of(scene);
+  auto map =
+      std::make_shared<PeriodMap>(driven_from(std::move(model), phase_ + section_ * period), run, recorder_);
+  map->take_flow(flow_);
+  return {s, section_, period, std::move(map)};
 }
 
-OrbitPass BranchMap::pass(const BranchState& state, bool tangents) const {
-  return at(state.s).pass({state.state, state.duration, tangents});
+const BranchMap::Kept& BranchMap::kept(double s) const {
+  for (const Kept& one : kept_) {
+    if (one.map->flow()) flow_ = one.map->flow();
+    if (one.s == s && one.section == section_) return one;
+  }
+  Kept made = make(s);
+  if (kept_.size() == most_kept) kept_.erase(kept_.begin());
+  kept_.push_back(std::move(made));
+  return kept_.back();
+}
+
+std::shared_ptr<const PeriodMap> BranchMap::at(double s) const { return kept(s).map; }
+
+OrbitState BranchMap::fitted(OrbitState state, const Mode& mode, double s) const {
+  const Model& model = at(s)->model();
+  const auto fit = [&](Vector& x, const std::vector<std::pair<const Combination*, double>>& rows) {
+    if (rows.empty()) return;
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), x.size());
+    Vector b(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index k = 0; k < b.size(); ++k) {
+      const auto& [form, value] = rows[static_cast<std::size_t>(k)];
+      for (const auto& [dof, factor] : form->terms) A(k, dof) += factor;
+      b[k] = value - form->dot(x);
+    }
+    x += least_squares(A, b);
+  };
+  std::vector<std::pair<const Combination*, double>> places, rates;
+  for (std::size_t c = 0; c < mode.size(); ++c) {
+    const Contact& contact = model.contacts[c];
+    if (contact.takes_impulses() && !mode[c].is_open()) {
+      places.emplace_back(&contact.normal, -contact.gap);
+      rates.emplace_back(&contact.normal, 0.0);
+    }
+    if (contact.sticks_rigidly() && mode[c].state == State::stick)
+      rates.emplace_back(&contact.tangent, contact.surface_motion.piece(0.0).value(0.0, 1));
+  }
+  fit(state.u, places);
+  fit(state.v, rates);
+  return state;
+}
+
+OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs) const {
+  return at(state.s)->pass({state.state, state.duration, tangents, outputs});
 }
 
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
   const auto gap = [&](double s) -> std::optional<Vector> {
-    const OrbitPass other = this->pass({state.state, autonomous_ ? state.duration : period(s), s}, false);
+    const OrbitPass other = this->pass(
+        {fitted(state.state, pass.begin.mode, s), autonomous_ ? state.duration : period(s), s}, false);
     if (!other.done()) return std::nullopt;
     return section.coordinates(other.end) - section.coordinates(other.begin);
   };
-  const auto above = gap(state.s + difference), below = gap(state.s - difference);
   const Vector here = section.coordinates(pass.end) - section.coordinates(pass.begin);
-  if (above && below) return (*above - *below) / (2.0 * difference);
-  if (above) return (*above - here) / difference;
-  if (below) return (here - *below) / difference;
+  const double h = at(state.s)->run().engine == Engine::exact ? difference : difference_of_steps;
+  const double side = state.s < 0.5 ? h : -h;  // within the range
+  if (const auto other = gap(state.s + side)) return (*other - here) / side;
+  if (const auto other = gap(state.s - side)) return (here - *other) / side;
   return Vector::Zero(here.size());
 }
 

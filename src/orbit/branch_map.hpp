@@ -1,7 +1,7 @@
 // branch_map.hpp: the period map of a scene at any value of one of its keys.
 //
 //   y = (x, dT, s)       x: directions at the section; dT where the motion is driven by itself; s: (p - from)/(to - from)
-//   G(y) = B^T (z(T; z, s) - z),    dG/ds by central differences of the map, dG/dx from Phi
+//   G(y) = B^T (z(T; z, s) - z),    dG/ds by a difference of the map, dG/dx from Phi
 //
 // All models have the units of the machine of the first one, so that states are comparable.
 #pragma once
@@ -36,9 +36,14 @@ class BranchMap {
   [[nodiscard]] double section() const { return section_; }
   void move_section(double part) { section_ = part; }
 
-  [[nodiscard]] PeriodMap at(double s, bool outputs = false) const;
-  [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true) const;
-  /// dG/ds, coordinates at the section, not yet times B^T.
+  /// Those of the last values of s are kept.
+  [[nodiscard]] std::shared_ptr<const PeriodMap> at(double s) const;
+  /// The state at s that holds what this mode holds rigidly: n . u = -g0 and n . v = 0 of closed contacts, t . v that of the
+  /// surface of those that stick. A key may move all three.
+  [[nodiscard]] OrbitState fitted(OrbitState state, const Mode& mode, double s) const;
+  [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
+  /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T. A matrix of Newton's method and a
+  /// direction: neither needs more digits.
   [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;
 
  private:
@@ -57,6 +62,14 @@ class BranchMap {
   double section_ = 0.0;
   Model first_;
   BranchState start_;
+  struct Kept {
+    double s, section, period;
+    std::shared_ptr<const PeriodMap> map;
+  };
+  [[nodiscard]] const Kept& kept(double s) const;
+  [[nodiscard]] Kept make(double s) const;
+  mutable std::vector<Kept> kept_;
+  mutable std::shared_ptr<StateFlow> flow_;  // of the last map that had one
 };
 
 }  // namespace signorini

@@ -135,7 +135,9 @@ bool Search::forced() {
       if (!to_section.done()) return stop("the run to the section stopped: " + to_section.outcome.reason);
       at_section = orbit_state(to_section.end);
     }
+    std::shared_ptr<StateFlow> flow = map_ ? map_->flow() : nullptr;
     map_.emplace(driven_from(base, section), run_, recorder_);
+    map_->take_flow(std::move(flow));
     if (close(at_section, section, period_)) return true;
     if (shot_.interrupted) return false;
   }
@@ -184,7 +186,8 @@ void Search::stability() {
   const Eigen::MatrixXd again = next.done() && next.end_rates.size() == pass.end_rates.size()
                                     ? monodromy(model, next)
                                     : Eigen::MatrixXd();
-  const std::size_t ones = count_ones(phi), of_time = orbit_.autonomous ? 1 : 0;
+  const Multipliers all = multipliers_of(phi);
+  const std::size_t ones = count_ones(all), of_time = orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
   for (std::size_t c = 0; c < pass.held.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -194,7 +197,7 @@ void Search::stability() {
     --families;
   }
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
-  set_multipliers(phi, again, orbit_.families.size() + of_time, orbit_);
+  set_multipliers(all, phi, again, orbit_.families.size() + of_time, orbit_);
 }
 
 /// The run from the orbit's time 0.

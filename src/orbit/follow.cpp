@@ -1,8 +1,7 @@
 // follow(): pseudo-arclength continuation of orbits over a key.
 //
-//   y = y0 + ds t,   t: the direction of the branch, |t| = 1 in a norm in which the amplitude and the range count as 1
-//   [ dG/dy ]        [ -G ]
-//   [  t^T  ] dy  =  [  0 ]         Newton's method across t, so that folds are passed
+//   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
+//   (special_points.hpp)
 //
 // Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
 #include <fmt/format.h>
@@ -10,9 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/eigen_dense.hpp"
 #include "model/rescale.hpp"
-#include "orbit/branch_map.hpp"
+#include "orbit/branch_newton.hpp"
 #include "orbit/multipliers.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/shooting.hpp"
@@ -21,24 +19,11 @@
 namespace signorini {
 namespace {
 
-constexpr double shortest_step = 1e-5;  // of the range
-constexpr int most_corrections = 10, quick = 4;
-constexpr double corrected_to = 1e-11,
-                 corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
-constexpr double singular = 1e-9;           // as in shooting.cpp
-constexpr double amplitudes_a_range =
-    5.0;                               // in which the state may change as far as the parameter in its range
-constexpr double restart_step = 2e-3;  // of the range
-
-/// What a correction ended with.
-struct Corrected {
-  bool done = false;
-  std::string reason;
-  BranchState state;
-  OrbitPass pass;
-  double residual = 0.0;
-  int iterations = 0;
-};
+constexpr double shortest_step = 1e-7;  // in the norm
+constexpr int quick = 4;                // corrections, after which the next step may be longer
+constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
+constexpr double restart_step = 2e-3;   // of the range
+constexpr double shortest_part = 1e-6;  // of the range: so closely changes of the sequence are located
 
 class BranchWalk {
  public:
@@ -48,124 +33,52 @@ class BranchWalk {
   [[nodiscard]] Branch follow();
 
  private:
-  [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
-  [[nodiscard]] Corrected correct(BranchState guess, const Vector& t) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass) const;
-  [[nodiscard]] Vector direction(const Corrected& at, const Vector& before) const;
-  [[nodiscard]] BranchState moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const;
-  [[nodiscard]] Eigen::Index size(const OrbitPass& pass) const {
-    return OrbitSection(map_.model(), pass.begin).size() + (map_.autonomous() ? 2 : 1);
-  }
-  /// Along the parameter alone.
-  [[nodiscard]] Vector upwards(const OrbitPass& pass, double sign) const {
-    Vector t = Vector::Zero(size(pass));
-    t[t.size() - 1] = sign;
-    return t;
-  }
   [[nodiscard]] bool begin(Corrected& here);
+  void walk(Corrected here);
   [[nodiscard]] Corrected step(const Corrected& here, const Vector& t, double ds, bool last) const;
+  [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
   [[nodiscard]] bool restart(Corrected& here, double sign);
   void cut_anew(Corrected& here);
   bool add(const Corrected& here, const std::string& special);
+  /// A point between two others, and where.
+  struct Located {
+    double part = 0.0;  // of the step
+    std::string kind;
+    Corrected at;
+  };
+  [[nodiscard]] std::vector<Located> located(const Corrected& here, const Corrected& next, const Vector& t,
+                                             double ds) const;
+  [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
+                                               const Corrected& next, const Vector& t, double ds) const;
+  [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
+                                                       const Vector& t, double ds) const;
+  [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
+  [[nodiscard]] double value(const Corrected& at) const { return map_.parameter(at.state.s); }
 
   const BranchOptions& options_;
   BranchMap map_;
+  BranchNewton newton_{map_};
   const std::function<void(const BranchPoint&)>& seen_;
   Branch branch_;
-  double amplitude_ = 1.0;  // of x, in scales: what counts as 1 in the norm
+  bool located_ = false;  // the last point is a located one
 };
-
-BranchState BranchWalk::moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const {
-  const OrbitSection section(map_.model(), pass.begin);
-  BranchState to = from;
-  to.state = section.moved(orbit_state(pass.begin), amplitude_ * dy.head(section.size()));
-  to.s += dy[dy.size() - 1];
-  to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
-  return to;
-}
-
-/// dG/dy, columns in the norm: x by the amplitude, T by itself. With the phase condition where T is unknown.
-Eigen::MatrixXd BranchWalk::jacobian(const BranchState& state, const OrbitPass& pass) const {
-  const OrbitSection section(map_.model(), pass.begin);
-  const Eigen::MatrixXd& B = section.basis();
-  const Eigen::Index n = section.size(), extra = map_.autonomous() ? 1 : 0;
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + extra, n + extra + 1);
-  J.topLeftCorner(n, n) = B.transpose() * pass.end_rates - Eigen::MatrixXd::Identity(n, n);
-  J.block(0, n + extra, n, 1) = B.transpose() * map_.by_parameter(state, pass) / amplitude_;
-  if (extra == 1) {
-    J.block(0, n, n, 1) = B.transpose() * section.rates(pass.end) * state.duration / amplitude_;
-    Vector along = B.transpose() * section.rates(pass.begin);
-    J.block(n, 0, 1, n) = (along / along.norm()).transpose();
-  }
-  return J;
-}
-
-/// Why a pass is no step of the branch; empty: it is one.
-std::string BranchWalk::refusal(const OrbitPass& pass, Eigen::Index unknowns) const {
-  if (!pass.done()) return "the run over one period stopped: " + pass.outcome.reason;
-  if (pass.end_rates.size() == 0) return "the state after one period has no derivative: " + pass.reason;
-  return size(pass) != unknowns ? "the contact state at the section changes" : "";
-}
-
-Corrected BranchWalk::correct(BranchState guess, const Vector& t) const {
-  Corrected c;
-  c.state = std::move(guess);
-  double before = 0.0;
-  for (c.iterations = 0; c.iterations <= most_corrections; ++c.iterations) {
-    c.pass = map_.pass(c.state);
-    c.reason = refusal(c.pass, t.size());
-    if (!c.reason.empty()) return c;
-    c.residual = orbit_residual(map_.model(), c.pass);
-    const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= corrected_at_last;
-    if (c.residual <= corrected_to || stands) {
-      c.done = true;
-      return c;
-    }
-    before = c.residual;
-    const OrbitSection section(map_.model(), c.pass.begin);
-    Eigen::MatrixXd A(t.size(), t.size());
-    A << jacobian(c.state, c.pass), t.transpose();
-    Vector b = Vector::Zero(t.size());
-    b.head(section.size()) = -section.basis().transpose() *
-                             (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)) /
-                             amplitude_;
-    const Vector dy = shortest_solution(A, b, singular);
-    if (!(dy.cwiseAbs().maxCoeff() < 1.0)) {
-      c.reason = "Newton's method leaves the branch";
-      return c;
-    }
-    c.state = moved(c.state, c.pass, dy);
-  }
-  c.reason = fmt::format("Newton's method does not converge: a residual of {:.2g} of the amplitude is left",
-                         c.residual);
-  return c;
-}
-
-/// Along the branch, towards where `before` pointed.
-Vector BranchWalk::direction(const Corrected& at, const Vector& before) const {
-  Eigen::MatrixXd A(before.size(), before.size());
-  A << jacobian(at.state, at.pass), before.transpose();
-  Vector b = Vector::Zero(before.size());
-  b[b.size() - 1] = 1.0;
-  const Vector t = shortest_solution(A, b, singular);
-  return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
-}
 
 /// Without a branch: a little further on, after a transient.
 bool BranchWalk::restart(Corrected& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
   if (next.s < 0.0 || next.s > 1.0 || map_.autonomous()) return false;
   next.duration = map_.period(next.s);
-  const PeriodMap at = map_.at(next.s);
-  const OrbitPass transient = at.pass({next.state, restart_periods * next.duration, false});
+  const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
+  const OrbitPass transient = at->pass({next.state, restart_periods * next.duration, false});
   if (!transient.done()) return false;
   next.state = orbit_state(transient.end);
-  const Shot shot = shoot(at, {next.state, next.duration, false, 0.0}, corrected_to);
+  const Shot shot = shoot(*at, {next.state, next.duration, false, 0.0}, corrected_to);
   if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
   here.state = {shot.state, next.duration, next.s};
   here.pass = shot.pass;
   here.residual = shot.residual;
+  here.by_s = {};
   return true;
 }
 
@@ -175,45 +88,105 @@ void BranchWalk::cut_anew(Corrected& here) {
   const double T = here.state.duration;
   const double later = section_away_from(here.pass.instants, T);
   if (later == 0.0) return;
-  const OrbitPass to = map_.at(here.state.s).pass({here.state.state, later, false});
+  const OrbitPass to = map_.at(here.state.s)->pass({here.state.state, later, false});
   if (!to.done()) return;
   const double before = map_.section();
   map_.move_section(std::fmod(before + later / T, 1.0));
   Corrected moved = here;
   moved.state.state = orbit_state(to.end);
   moved.pass = map_.pass(moved.state);
+  moved.by_s = {};
   if (moved.pass.done() && moved.pass.end_rates.size() > 0)
     here = std::move(moved);
   else
     map_.move_section(before);
 }
 
-int BranchWalk::number_of_sequence(const OrbitPass& pass) {
+/// It begins where it is least in alphabetical order: the section may move.
+std::string BranchWalk::sequence_of(const OrbitPass& pass) const {
   std::vector<std::string> list;
   for (const Event& e : pass.events)
     list.push_back(map_.model().contacts[static_cast<std::size_t>(e.contact)].name + " " + to_string(e.type));
-  // It begins where it is least in alphabetical order: the section may move.
   std::vector<std::string> least = list;
   for (std::size_t k = 1; k < list.size(); ++k) {
     std::rotate(list.begin(), list.begin() + 1, list.end());
     least = std::min(least, list);
   }
-  const std::string text = least.empty() ? "none" : fmt::format("{}", fmt::join(least, ", "));
+  return least.empty() ? "none" : fmt::format("{}", fmt::join(least, ", "));
+}
+
+int BranchWalk::number_of_sequence(const OrbitPass& pass) {
+  const std::string text = sequence_of(pass);
   const auto found = std::find(branch_.sequences.begin(), branch_.sequences.end(), text);
   const auto number = static_cast<int>(found - branch_.sequences.begin()) + 1;
   if (found == branch_.sequences.end()) branch_.sequences.push_back(text);
   return number;
 }
 
+/// Where a test function is zero on the step from here to next.
+std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
+                                                       const Corrected& next, const Vector& t,
+                                                       double ds) const {
+  const double a = here.tests.*kind.value, b = next.tests.*kind.value;
+  if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // that is what a fold does
+  Located point{0.0, kind.name, {}};
+  const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
+    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
+    if (!c.done) return std::nullopt;
+    newton_.examine(c, t, here.ones);
+    point.at = std::move(c);
+    return point.at.tests.*kind.value;
+  });
+  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
+  point.part = *part;
+  return point;
+}
+
+/// The last point with the sequence of here.
+std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
+                                                               const Vector& t, double ds) const {
+  const std::string sequence = sequence_of(here.pass);
+  if (sequence == sequence_of(next.pass)) return std::nullopt;
+  Located point{0.0, "sequence", {}};
+  double other = 1.0;
+  while ((other - point.part) * ds > shortest_part) {
+    const double middle = 0.5 * (point.part + other);
+    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, middle * ds * t), t, here.by_s);
+    if (!c.done || sequence_of(c.pass) != sequence) {
+      other = middle;
+      continue;
+    }
+    point.part = middle;
+    point.at = std::move(c);
+  }
+  if (!point.at.done) return std::nullopt;
+  newton_.examine(point.at, t, here.ones);
+  return point;
+}
+
+std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, const Corrected& next,
+                                                     const Vector& t, double ds) const {
+  std::vector<Located> all;
+  const auto take = [&](std::optional<Located> point) {
+    if (point) all.push_back(std::move(*point));
+  };
+  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, ds));
+  take(end_of_sequence(here, next, t, ds));
+  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
+  return all;
+}
+
 /// False: nobody wants more.
 bool BranchWalk::add(const Corrected& here, const std::string& special) {
   const Model& model = map_.model();
   Orbit orbit;
-  const Eigen::MatrixXd phi = monodromy(model, here.pass);
-  const OrbitPass next = map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s});
+  const OrbitPass next =
+      map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
   const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
-  set_multipliers(phi, known ? monodromy(model, next) : Eigen::MatrixXd(),
-                  std::max<std::size_t>(count_ones(phi), map_.autonomous() ? 1 : 0), orbit);
+  set_multipliers(here.multipliers, here.monodromy, known ? monodromy(model, next) : Eigen::MatrixXd(),
+                  here.ones, orbit);
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;
@@ -225,20 +198,20 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   point.residual = here.residual;
   point.events = static_cast<long>(here.pass.events.size());
   point.sequence = number_of_sequence(here.pass);
-  if (!model.outputs.empty())
-    for (const OutputExtremes& x :
-         map_.at(here.state.s, true).rows(here.state.state, here.state.duration).report.response) {
-      point.minima.push_back(x.minimum);
-      point.maxima.push_back(x.maximum);
-    }
+  for (const OutputExtremes& x : next.response) {
+    point.minima.push_back(x.minimum);
+    point.maxima.push_back(x.maximum);
+  }
+  const bool point_is_located = !special.empty() && special != "restart";
   std::vector<std::string> what;
   if (!special.empty()) what.push_back(special);
-  if (!branch_.points.empty()) {
+  if (!branch_.points.empty() && !located_ && !point_is_located) {
     const BranchPoint& last = branch_.points.back();
     if (last.stable != point.stable) what.emplace_back("stability");
     if (last.sequence != point.sequence) what.emplace_back("sequence");
   }
   point.special = fmt::format("{}", fmt::join(what, "+"));
+  located_ = point_is_located;
   branch_.points.push_back(point);
   if (seen_) seen_(branch_.points.back());
   branch_.interrupted = here.pass.interrupted || next.interrupted;
@@ -250,64 +223,109 @@ bool BranchWalk::begin(Corrected& here) {
   here.state = map_.start();
   here.pass = map_.pass(here.state);
   cut_anew(here);
-  amplitude_ = amplitudes_a_range * std::sqrt(static_cast<double>(size(here.pass))) *
-               (here.pass.u_amplitude > 0.0 ? here.pass.u_amplitude : 1.0);
-  here = correct(here.state, upwards(here.pass, 1.0));
+  newton_.measure(here.pass);
+  here = newton_.correct(here.state, newton_.upwards(here.pass, 1.0), {});
   if (!here.done) branch_.end = "the first orbit could not be followed: " + here.reason;
-  return here.done && add(here, "");
+  return here.done;
 }
 
 /// To the next point, or to the end of the range where it is nearer.
 Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bool last) const {
-  if (!last) return correct(moved(here.state, here.pass, ds * t), t);
-  BranchState end = moved(here.state, here.pass, ds * t);
+  if (!last) return newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, here.by_s);
+  BranchState end = newton_.moved(here.state, here.pass, ds * t);
   end.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
+  end.state = map_.fitted(std::move(end.state), here.pass.begin.mode, end.s);
   if (!map_.autonomous()) end.duration = map_.period(end.s);
-  return correct(std::move(end), upwards(here.pass, 1.0));
+  return newton_.correct(std::move(end), newton_.upwards(here.pass, 1.0), here.by_s);
 }
 
-Branch BranchWalk::follow() {
-  Corrected here;
-  if (!begin(here)) return std::move(branch_);
-  Vector t = upwards(here.pass, 1.0);
+/// The orbit is the same for all values of the key, but shifted in time: at the end of the range, too.
+bool BranchWalk::only_shifts(const Corrected& here, const Vector& t) const {
+  const std::optional<double> shift = newton_.shift(here, t);
+  if (!shift) return false;
+  const double T = here.state.duration;
+  double time = std::fmod(*shift * (1.0 - here.state.s), T);
+  if (time < 0.0) time += T;
+  BranchState end{here.state.state, map_.period(1.0), 1.0};
+  if (time > 0.0) {
+    const OrbitPass to = map_.at(here.state.s)->pass({here.state.state, time, false});
+    if (!to.done()) return false;
+    end.state = orbit_state(to.end);
+  }
+  const OrbitPass pass = map_.pass(end, false);
+  return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
+}
+
+/// From the first point on; branch_.end stays empty where it ends for what the caller wants.
+void BranchWalk::walk(Corrected here) {
+  Vector t = newton_.examine(here, newton_.upwards(here.pass, 1.0));
+  if (!add(here, "")) return;
+  if (only_shifts(here, t)) {
+    branch_.end = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
+                              options_.path);
+    return;
+  }
   double ds = 0.25 * options_.step;
   while (static_cast<int>(branch_.points.size()) < options_.most_points) {
-    if (t.size() != size(here.pass)) t = upwards(here.pass, t[t.size() - 1] < 0.0 ? -1.0 : 1.0);
-    const Vector d = direction(here, t);
-    const bool fold = branch_.points.size() > 1 && d[d.size() - 1] * t[t.size() - 1] < 0.0;
-    t = d;
     const double along = t[t.size() - 1];
     const double left = along > 0.0   ? (1.0 - here.state.s) / along
                         : along < 0.0 ? here.state.s / -along
                                       : 2.0 * ds;
     const bool last = left <= ds;
-    Corrected next = step(here, t, std::min(ds, left), last);
-    if (next.pass.interrupted) {
-      branch_.interrupted = true;
-      break;
-    }
-    std::string special = fold ? "fold" : "";
-    if (!next.done) {
-      ds = 0.5 * std::min(ds, left);
+    const double length = std::min(ds, left);
+    Corrected next = step(here, t, length, last);
+    branch_.interrupted = next.pass.interrupted;
+    if (branch_.interrupted) return;
+    std::string special;
+    if (next.done) {
+      newton_.examine(next, t);
+      if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
+      for (const Located& point : located(here, next, t, length))
+        if (!add(point.at, point.kind)) return;
+    } else {
+      ds = 0.5 * length;
       if (ds >= shortest_step) continue;
+      const std::string why = next.reason;
       next = here;
       special = "restart";
       if (!restart(next, along < 0.0 ? -1.0 : 1.0)) {
-        branch_.end = fmt::format("at {} = {:.9g} no step is short enough, and no orbit is found beyond",
-                                  options_.path, map_.parameter(here.state.s));
-        break;
+        branch_.end = fmt::format("at {} = {:.9g} no step is short enough, and no orbit is found beyond: {}",
+                                  options_.path, value(here), why);
+        return;
       }
       ds = 0.25 * options_.step;
-    } else if (next.iterations <= quick) {
-      ds = std::min(1.5 * ds, options_.step);
     }
+    cut_anew(next);
+    const Vector before =
+        t.size() == newton_.size(next.pass) ? t : newton_.upwards(next.pass, along < 0.0 ? -1.0 : 1.0);
     here = std::move(next);
-    cut_anew(here);
-    if (!add(here, special)) break;
-    branch_.complete = last && special != "restart";
+    t = before;
+    newton_.measure(here.pass, &t);
+    t = newton_.examine(here, t);
+    if (!add(here, special)) return;
+    branch_.complete = last && special.empty();
     if (!branch_.complete) continue;
-    branch_.end = fmt::format("reached {} = {:.9g}", options_.path, map_.parameter(here.state.s));
-    break;
+    branch_.end = fmt::format("reached {} = {:.9g}", options_.path, value(here));
+    return;
+  }
+}
+
+/// What a scene refuses on the way ends the branch, which keeps its points.
+Branch BranchWalk::follow() {
+  Corrected here;
+  if (!begin(here)) return std::move(branch_);
+  const auto refused = [&](const Error& error) {
+    branch_.end = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
+                              branch_.points.back().parameter, error.what());
+  };
+  try {
+    walk(std::move(here));
+  } catch (const SceneError& error) {
+    if (branch_.points.size() < 2) throw;
+    refused(error);
+  } catch (const UsageError& error) {
+    if (branch_.points.size() < 2) throw;
+    refused(error);
   }
   if (branch_.end.empty())
     branch_.end = branch_.interrupted

@@ -9,21 +9,9 @@
 namespace signorini {
 namespace {
 
-using Multipliers = std::vector<std::complex<double>>;
 // A multiplier is 1, to the rounding of Phi and of a double eigenvalue. Chosen: a disturbance that needs 1e7 periods to
 // die out is said to stay.
 constexpr double one = 1e-7;
-
-Multipliers multipliers_of(const Eigen::MatrixXd& phi) {
-  if (phi.size() == 0) return {};
-  const Eigen::VectorXcd values = general_eigenvalues(phi);
-  Multipliers all(values.data(), values.data() + values.size());
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
-    return a.imag() > b.imag();
-  });
-  return all;
-}
 
 /// The greatest distance from a multiplier to the nearest of the others.
 double apart(const Multipliers& a, const Multipliers& b) {
@@ -34,15 +22,6 @@ double apart(const Multipliers& a, const Multipliers& b) {
     greatest = std::max(greatest, nearest);
   }
   return greatest;
-}
-
-/// Without the `count` that are nearest to 1.
-Multipliers without_ones(Multipliers all, std::size_t count) {
-  for (; count > 0 && !all.empty(); --count)
-    all.erase(std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-      return std::abs(a - 1.0) < std::abs(b - 1.0);
-    }));
-  return all;
 }
 
 OrbitLoss loss_of(std::complex<double> mu, double error) {
@@ -66,15 +45,33 @@ const char* to_string(OrbitLoss loss) {
   return "";
 }
 
-std::size_t count_ones(const Eigen::MatrixXd& phi) {
-  const Multipliers all = multipliers_of(phi);
+Multipliers multipliers_of(const Eigen::MatrixXd& phi) {
+  if (phi.size() == 0) return {};
+  const Eigen::VectorXcd values = general_eigenvalues(phi);
+  Multipliers all(values.data(), values.data() + values.size());
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    if (std::abs(a) != std::abs(b)) return std::abs(a) > std::abs(b);
+    return a.imag() > b.imag();
+  });
+  return all;
+}
+
+Multipliers without_ones(Multipliers all, std::size_t count) {
+  for (; count > 0 && !all.empty(); --count)
+    all.erase(std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return std::abs(a - 1.0) < std::abs(b - 1.0);
+    }));
+  return all;
+}
+
+std::size_t count_ones(const Multipliers& all) {
   return static_cast<std::size_t>(
       std::count_if(all.begin(), all.end(), [](const auto& mu) { return std::abs(mu - 1.0) <= one; }));
 }
 
-void set_multipliers(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again, std::size_t ones,
-                     Orbit& orbit) {
-  orbit.multipliers = multipliers_of(phi);
+void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again,
+                     std::size_t ones, Orbit& orbit) {
+  orbit.multipliers = all;
   const double size = phi.size() == 0 ? 0.0 : phi.cwiseAbs().maxCoeff();
   orbit.multiplier_error = static_cast<double>(phi.rows()) * rounding::eps * size;
   if (again.size() > 0) orbit.multiplier_error += apart(orbit.multipliers, multipliers_of(again));

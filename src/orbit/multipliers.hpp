@@ -13,12 +13,20 @@
 
 namespace signorini {
 
-/// Puts multipliers, their error, stability and loss into the orbit. again: Phi from the image of the state, or empty;
-/// ones: how many multipliers are 1 for reasons of their own.
-void set_multipliers(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again, std::size_t ones,
-                     Orbit& orbit);
+using Multipliers = std::vector<std::complex<double>>;
+
+/// Eigenvalues of Phi, by magnitude, descending.
+[[nodiscard]] Multipliers multipliers_of(const Eigen::MatrixXd& phi);
 
 /// Multipliers that are 1 within the rounding of Phi.
-[[nodiscard]] std::size_t count_ones(const Eigen::MatrixXd& phi);
+[[nodiscard]] std::size_t count_ones(const Multipliers& all);
+
+/// Without the `count` that are nearest to 1.
+[[nodiscard]] Multipliers without_ones(Multipliers all, std::size_t count);
+
+/// Puts multipliers, their error, stability and loss into the orbit. all: those of phi; again: Phi from the image of the
+/// state, or empty; ones: how many multipliers are 1 for reasons of their own.
+void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again,
+                     std::size_t ones, Orbit& orbit);
 
 }  // namespace signorini

@@ -9,7 +9,8 @@
 namespace signorini {
 namespace {
 
-constexpr int rows_a_period = 24;  // of which amplitudes are made; chosen
+constexpr int fewest_in_modes = 6;  // below, series are as fast. Chosen.
+constexpr int rows_a_period = 24;   // of which amplitudes are made; chosen
 
 /// Amplitudes, events.
 class CycleRecorder final : public Recorder {
@@ -85,7 +86,9 @@ ModelDerivative still(const Model& model) {
 /// The tangents of all columns of a section's basis, and of a parameter.
 class Bundle {
  public:
-  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, const ModelDerivative* parameter)
+  /// flow: null, or what the columns cross stretches by.
+  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, const ModelDerivative* parameter,
+         StateFlow* flow)
       : section_(model, begin) {
     for (Eigen::Index k = 0; k < section_.size(); ++k) {
       const OrbitState column = section_.unscaled(section_.basis().col(k));
@@ -102,6 +105,7 @@ class Bundle {
     }
     sizes_.assign(columns_.size(), 1.0);
     tangents_.emplace(model, run, columns_, sizes_, listener_);
+    if (flow != nullptr && parameter == nullptr) tangents_->cross_by(*flow);
   }
 
   [[nodiscard]] TangentRun& run() { return *tangents_; }
@@ -135,15 +139,15 @@ class Bundle {
 /// Keeps what a pass is made of, and leads the tangents along.
 class Follower final : public MotionObserver {
  public:
-  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass)
-      : model_(model), run_(run), leg_(leg), pass_(pass) {}
+  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow)
+      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow) {}
 
   void begin(const ObservedInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
     if (!leg_.tangents) return;
-    bundle_.emplace(model_, run_, pass_.begin, leg_.parameter);
+    bundle_.emplace(model_, run_, pass_.begin, leg_.parameter, flow_);
     bundle_->run().begin(start);
   }
   void step(const ObservedStep& step) override {
@@ -172,6 +176,7 @@ class Follower final : public MotionObserver {
   const RunSpec& run_;
   const OrbitLeg& leg_;
   OrbitPass& pass_;
+  StateFlow* flow_;
   std::optional<Bundle> bundle_;
 };
 
@@ -183,10 +188,9 @@ Energy change(const Energy& from, const Energy& to) {
 
 }  // namespace
 
-PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder, bool outputs)
+PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder)
     : model_(std::move(model)), run_(run), recorder_(recorder) {
   model_.machine = {};  // it is in those units already
-  if (!outputs) model_.outputs.clear();
   model_.reaction_sums.clear();
   model_.warnings.clear();
   run_.certify = Certify::no;
@@ -196,17 +200,22 @@ PeriodMap::PeriodMap(Model model, const RunSpec& run, Recorder* recorder, bool o
 
 OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   OrbitPass pass;
-  const Model model = begun_at(model_, leg.start);
+  Model model = begun_at(model_, leg.start);
+  if (!leg.outputs) model.outputs.clear();
   RunSpec run = run_;
   run.t_end = leg.duration;
   run.output_dt = leg.duration / rows_a_period;
   RunSpec bare = run;  // tangents want no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
-  Follower follower(model, bare, leg, pass);
+  if (leg.tangents && leg.parameter == nullptr && model_.size() >= fewest_in_modes &&
+      (!flow_ || !flow_->fits(model_)))
+    flow_ = modes_uncouple(model_) ? std::make_shared<StateFlow>(model_) : nullptr;
+  Follower follower(model, bare, leg, pass, flow_.get());
   const Report report = simulate(model, run, recorder, follower);
   pass.outcome = report.outcome;
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
+  pass.response = report.response;
   pass.cycle = change(report.audit.initial, report.audit.final);
   if (pass.done()) follower.finish();
   return pass;
@@ -216,7 +225,9 @@ Result PeriodMap::rows(const OrbitState& start, double duration) const {
   RunSpec run = run_;
   run.t_end = duration;
   run.output_dt = duration;
-  return simulate(begun_at(model_, start), run);
+  Model model = begun_at(model_, start);
+  model.outputs.clear();
+  return simulate(model, run);
 }
 
 }  // namespace signorini

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "orbit/orbit_state.hpp"
-#include "sensitivity/model_derivative.hpp"
+#include "sensitivity/state_flow.hpp"
 
 namespace signorini {
 
@@ -23,7 +23,8 @@ struct OrbitPass {
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
   Vector parameter_rates;     ///< of the end by the parameter, where there is one
   std::string reason;         ///< why they are not known
-  std::vector<bool> held;     ///< contacts that never changed their state, closed and not slipping
+  std::vector<OutputExtremes> response;
+  std::vector<bool> held;  ///< contacts that never changed their state, closed and not slipping
   bool interrupted = false;
 
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
@@ -34,24 +35,30 @@ struct OrbitLeg {
   const OrbitState& start;
   double duration;
   bool tangents = true;
+  bool outputs = false;                        ///< their extremes
   const ModelDerivative* parameter = nullptr;  ///< of the model, the state aside
 };
 
 class PeriodMap {
  public:
-  /// model, run: in the machine's units; recorder: for progress, or null; outputs: they are of use.
-  PeriodMap(Model model, const RunSpec& run, Recorder* recorder, bool outputs = false);
+  /// model, run: in the machine's units; recorder: for progress, or null.
+  PeriodMap(Model model, const RunSpec& run, Recorder* recorder);
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] OrbitPass pass(const OrbitLeg& leg) const;
   /// The row at the end, and all rows before: for last_state().
   [[nodiscard]] Result rows(const OrbitState& start, double duration) const;
   [[nodiscard]] const RunSpec& run() const { return run_; }
+  /// What tangents cross stretches by, where modes can: of this structure, kept and handed on from map to map. Null: not
+  /// made yet, or there is none.
+  [[nodiscard]] const std::shared_ptr<StateFlow>& flow() const { return flow_; }
+  void take_flow(std::shared_ptr<StateFlow> flow) { flow_ = std::move(flow); }
 
  private:
   Model model_;
   RunSpec run_;
   Recorder* recorder_;
+  mutable std::shared_ptr<StateFlow> flow_;
 };
 
 }  // namespace signorini

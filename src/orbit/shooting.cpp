@@ -42,7 +42,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
 
 /// One step, halved until the residual falls; trials have no tangents, which cost far more than a run. False: it does not
 /// fall, or rounding is reached.
-bool damped_step(const PeriodMap& map, const ShootingStart& start, double tolerance, Shot& shot) {
+bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
   const Vector x = newton_step(model, shot.pass, start.free_period);
@@ -66,7 +66,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, double tolera
       shot.residual = residual;
       return true;
     }
-    if (shot.residual <= tolerance) return false;
+    if (shot.residual <= closed_at_last) return false;  // rounding decides: shorter steps end there, too
   }
   return false;
 }
@@ -108,8 +108,13 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
       return shot;
     }
     if (shot.residual <= reached * tolerance) break;
-    fell = damped_step(map, start, tolerance, shot);
+    const double before = shot.residual;
+    fell = damped_step(map, start, shot);
     if (shot.interrupted) return shot;
+    if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
+      if (fell) shot.pass = map.pass({shot.state, shot.duration});
+      break;
+    }
     if (fell) shot.pass = map.pass({shot.state, shot.duration});
   }
   shot.steps.push_back({shot.residual, 0.0});

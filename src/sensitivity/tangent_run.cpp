@@ -49,7 +49,8 @@ TangentRun::TangentRun(const Model& model, const RunSpec& run,
       data_(pointers_to(derivatives)),
       losses_(losses),
       series_(model, systems_, data_, losses),
-      followed_(model, structure_, systems_, run) {
+      followed_(model, structure_, systems_, run),
+      engine_(run.engine) {
   states_.reserve(derivatives.size());
   for (std::size_t p = 0; p < derivatives.size(); ++p) {
     states_.emplace_back(model, structure_, systems_, derivatives[p], sizes[p], run.t_end);
@@ -110,7 +111,23 @@ bool TangentRun::starts_in_modes(const ObservedStep& step) {
   return modal_->start(*modes, from, step.forcing, std::move(sources));
 }
 
+/// Of tangents by the state alone.
+bool TangentRun::crosses(const ObservedStep& step) {
+  if (flow_ == nullptr || engine_ != Engine::exact || !flow_->knows(step.decision.mode)) return false;
+  crossed_ = step.decision.mode;
+  foreign_ = false;
+  return true;
+}
+
+/// The stretch up to t, in closed form.
+void TangentRun::cross(double t) {
+  if (way_ != Way::closed || !(t > begin_)) return;
+  flow_->advance(crossed_, t - begin_, states_);
+  begin_ = t;
+}
+
 TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
+  if (crosses(step)) return Way::closed;
   const bool knew = !foreign_;
   foreign_ = step.modes == nullptr && step.expansion.series == nullptr;
   // Stretches that the engine's own series told of have passed by the motion that is followed.
@@ -129,7 +146,8 @@ TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
 void TangentRun::step(const ObservedStep& step) {
   if (way_ == Way::unknown) {
     way_ = way_of(step);
-    ++(way_ == Way::modes || way_ == Way::own_modes ? stretches_.modes : stretches_.series);
+    const bool in_modes = way_ == Way::modes || way_ == Way::own_modes || way_ == Way::closed;
+    ++(in_modes ? stretches_.modes : stretches_.series);
     if (is_followed()) ++stretches_.followed;
   }
   if (way_ == Way::series || way_ == Way::modes) observe(step);
@@ -166,6 +184,7 @@ void TangentRun::follow(double t) {
 /// The tangents just before the instant at t.
 void TangentRun::arrive(double t) {
   follow(t);
+  cross(t);
   if (way_ != Way::modes && way_ != Way::own_modes) return;
   TangentsAt at = modal_->at(t, true);
   end_ = std::move(at.motion);
@@ -283,7 +302,7 @@ void TangentRun::instant(const ObservedInstant& instant) {
     follow_instant(instant);
   } else {
     arrive(instant.t);
-    if (is_followed()) end_ = just_before(instant);
+    if (is_followed() || way_ == Way::closed) end_ = just_before(instant);
     pass(instant);
   }
   way_ = Way::unknown;
@@ -310,7 +329,10 @@ Stretches TangentRun::stretches() const {
   return all;
 }
 
-void TangentRun::end(double t) { follow(t); }
+void TangentRun::end(double t) {
+  follow(t);
+  cross(t);
+}
 
 void TangentRun::pass(const ObservedInstant& instant) {
   const Jet& jet = instant.after.jet;
@@ -350,6 +372,7 @@ void TangentRun::pass(const ObservedInstant& instant) {
   }
   listener_.instant(motion, states_);
   rows_at(instant, after);
+  begin_ = instant.t;
   end_ = after;
 }
 

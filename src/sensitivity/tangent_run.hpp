@@ -7,7 +7,8 @@
 //
 // An engine whose steps are no series (`ida`, `newmark`) is followed when a stretch has ended: the motion is
 // computed once more, to rounding, with the tangents beside it, and the event's time with it (followed_motion.hpp).
-// A stretch of `exact` in modes that tangents cannot follow there is followed along series.
+// A stretch of `exact` in modes that tangents cannot follow there is followed along series. Tangents by the initial state
+// alone cross a stretch of `exact` in closed form where they are asked to (state_flow.hpp).
 //
 // Works and losses are integrals along the way (work_rates.hpp): where they are wanted every stretch is followed
 // along series.
@@ -18,6 +19,7 @@
 #include "sensitivity/followed_motion.hpp"
 #include "sensitivity/modal_tangents.hpp"
 #include "sensitivity/series_tangents.hpp"
+#include "sensitivity/state_flow.hpp"
 #include "signorini/sensitivity.hpp"
 
 namespace signorini {
@@ -27,6 +29,9 @@ class TangentRun final : public MotionObserver {
   /// model, run: in the machine's units. All but sizes must outlive it.
   TangentRun(const Model& model, const RunSpec& run, const std::vector<ModelDerivative>& derivatives,
              const std::vector<double>& sizes, TangentListener& listener, bool losses = false);
+  /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` knows are crossed in closed form,
+  /// whatever drives them. No rows are told on the way, instants are. It must outlive this.
+  void cross_by(StateFlow& flow) { flow_ = &flow; }
 
   void begin(const ObservedInstant& start) override;
   void step(const ObservedStep& step) override;
@@ -38,13 +43,15 @@ class TangentRun final : public MotionObserver {
 
  private:
   /// What the stretch after an instant is followed by; the last two: once its end is known.
-  enum class Way { unknown, series, modes, own_series, own_modes };
+  enum class Way { unknown, series, modes, own_series, own_modes, closed };
   [[nodiscard]] Way way_of(const ObservedStep& step);
   [[nodiscard]] bool starts_in_modes(const ObservedStep& step);
   void observe(const ObservedStep& step);
   void observe_modes(const ObservedStep& step);
   void observe_series(const ObservedStep& step);
+  [[nodiscard]] bool crosses(const ObservedStep& step);
   void follow(double t);
+  void cross(double t);
   void arrive(double t);
   [[nodiscard]] bool is_followed() const { return way_ == Way::own_series || way_ == Way::own_modes; }
   void follow_instant(const ObservedInstant& instant);
@@ -72,6 +79,10 @@ class TangentRun final : public MotionObserver {
   bool foreign_ = false;  ///< the engine makes no series
   Stretches stretches_;
   SeriesPoint end_;  ///< the motion just before the next instant
+  StateFlow* flow_ = nullptr;
+  Mode crossed_;        ///< of the stretch that flow_ crosses
+  double begin_ = 0.0;  ///< of the stretch
+  Engine engine_;
 };
 
 }  // namespace signorini

@@ -248,6 +248,80 @@ TEST_CASE("a disturbed run leaves or returns by its multipliers") {
   CHECK(std::abs(phi.determinant() - product(orbit)) <= 1e-7);
 }
 
+TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes against differences of runs") {
+  // Damping alpha M, alpha 0.1; so many unknowns that stretches are crossed in closed form.
+  const auto text = [](const char* amplitude) {
+    std::string mass, stiffness, damping;
+    for (int i = 0; i < 8; ++i) {
+      std::string m, k, c;
+      for (int j = 0; j < 8; ++j) {
+        m += fmt::format("{}{}", j > 0 ? ", " : "", i == j ? 1.0 + 0.1 * i : 0.0);
+        c += fmt::format("{}{:.17g}", j > 0 ? ", " : "", i == j ? 0.1 * (1.0 + 0.1 * i) : 0.0);
+        k += fmt::format("{}{}", j > 0 ? ", " : "",
+                         i == j                 ? (i == 7 ? 15.5 : 17.0 + 2.0 * i)
+                         : std::abs(i - j) == 1 ? -(8.0 + 0.5 * (i + j))
+                                                : 0.0);
+      }
+      mass += (i > 0 ? ", [" : "[") + m + "]";
+      stiffness += (i > 0 ? ", [" : "[") + k + "]";
+      damping += (i > 0 ? ", [" : "[") + c + "]";
+    }
+    return matrix_scene(
+        "t_end = 40.0", "mass = [" + mass + "]\nstiffness = [" + stiffness + "]\ndamping = [" + damping + "]",
+        "law = \"compliant\"\nnormal = { d7 = -1.0 }\ntangent = { d6 = 1.0 }\ngap = 0.05\n"
+        "normal_stiffness = 40.0\ntangential_stiffness = 30.0\nfriction = 0.3\n"
+        "[[contacts]]\nname = \"j\"\nlaw = \"slider\"\ntangent = { d2 = 0.8, d3 = 0.6 }\nnormal_force = 1.0\n"
+        "friction = 0.4\ntangential_stiffness = 20.0",
+        std::string("[[loads]]\ndirection = { d7 = 1.0, d1 = 0.5 }\namplitude = ") + amplitude +
+            "\nhistory = { type = \"harmonic\", omega = 0.9 }\n");
+  };
+  {  // nothing slips or closes: multipliers are exp of what the linear chain with the element's spring has
+    const Orbit still = orbit_of(text("0.02"));
+    CAPTURE(still.reason);
+    REQUIRE(still.found);
+    REQUIRE(still.families.size() == 1);
+    CHECK(std::abs(product(still) - std::exp(-0.8 * still.period)) <= 1e-11 * std::exp(-0.8 * still.period));
+  }
+  const std::string scene = text("2.5");
+  const Orbit orbit = orbit_of(scene);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  REQUIRE(orbit.sequence.size() >= 4);
+  const SavedState start = orbit_scene(reader_of_text(scene), orbit).initial.saved.value();
+  std::vector<std::size_t> shears;  // of contacts that stick at the section: states that a run begins with
+  for (std::size_t c = 0; c < start.shears.size(); ++c)
+    if (start.shears[c].second != 0.0 && start.slips[c].second == 0) shears.push_back(c);
+  const std::size_t size = 16 + shears.size();
+  REQUIRE(orbit.multipliers.size() == size);
+  const double h = 1e-6;
+  Eigen::MatrixXd phi(size, size);
+  for (std::size_t j = 0; j < size; ++j) {
+    Eigen::VectorXd ends[2];
+    for (int side = 0; side < 2; ++side) {
+      Scene moved = orbit_scene(reader_of_text(scene), orbit);
+      SavedState& saved = *moved.initial.saved;
+      const double step = side == 0 ? -h : h;
+      if (j >= 16) saved.shears[shears[j - 16]].second += step;
+      const std::string name = fmt::format("d{}.{}", j % 8, j < 8 ? "u" : "v");
+      for (auto& [of, value] : saved.motions)
+        if (j < 16 && of == name) value += step;
+      const Result run = simulate(moved);
+      ends[side].resize(static_cast<Eigen::Index>(size));
+      ends[side].head(16) << run.rows.back().u, run.rows.back().v;
+      for (std::size_t c = 0; c < shears.size(); ++c)
+        ends[side][static_cast<Eigen::Index>(16 + c)] = run.rows.back().contacts[shears[c]].T;
+    }
+    phi.col(static_cast<Eigen::Index>(j)) = (ends[1] - ends[0]) / (2.0 * h);
+  }
+  std::complex<double> sum = 0.0, squares = 0.0;
+  for (const auto& mu : orbit.multipliers) {
+    sum += mu;
+    squares += mu * mu;
+  }
+  CHECK(std::abs(phi.trace() - sum.real()) <= 1e-7);
+  CHECK(std::abs((phi * phi).trace() - squares.real()) <= 1e-7);
+}
+
 TEST_CASE("scenes without an orbit say why") {
   const auto text = [](const std::string& loads, const std::string& run = "") {
     return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",
@@ -304,6 +378,90 @@ TEST_CASE("a branch over the frequency passes both folds of a one-sided spring's
   CHECK(branch.points.back().parameter == 0.4);
 }
 
+TEST_CASE("a branch locates the flip of an impact oscillator where the closed form has it") {
+  // m = k = 1 at a wall where the spring is slack, one hit a cycle of cos(w t): Phi from hit to hit has
+  //   det = e^2,   tr = -2 e C + (1 + e)^2 (1 + C) (1 - w^2)/2,   C = cos(2 pi/w);   flip: 1 + tr + det = 0
+  const double e = 0.8;
+  const auto flips = [&](double w) {
+    const double C = std::cos(2.0 * pi / w);
+    return 1.0 + e * e - 2.0 * e * C + 0.5 * (1.0 + e) * (1.0 + e) * (1.0 + C) * (1.0 - w * w);
+  };
+  double below = 2.6, above = 2.7;
+  REQUIRE(flips(below) * flips(above) < 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (below + above);
+    ((flips(middle) < 0.0) == (flips(below) < 0.0) ? below : above) = middle;
+  }
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 2.6;
+  options.to = 2.7;
+  options.step = 0.1;
+  const Branch branch = follow(
+      reader_of_text(matrix_scene("t_end = 100.0\nengine = \"exact\"",
+                                  "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
+                                  "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
+                                  "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
+                                  "\"harmonic\", omega = 2.6, phase = 1.5707963267948966 }\n")),
+      options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  long found = 0;
+  for (const BranchPoint& p : branch.points) {
+    if (p.special == "flip") {
+      ++found;
+      CHECK(std::abs(p.parameter - below) <= 1e-10);
+      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-9);
+    } else if (std::abs(p.parameter - below) > 1e-6) {
+      CHECK(p.stable == (p.parameter < below));
+    }
+  }
+  CHECK(found == 1);
+}
+
+TEST_CASE(
+    "a branch of stick-slip orbits over the belt's speed v: period pi + 2 atan 2 v + 1/v at each point") {
+  BranchOptions options;
+  options.path = "contacts.1.surface_velocity";
+  options.from = 0.2;
+  options.to = 0.5;
+  options.step = 0.2;
+  const Branch branch = follow(
+      reader_of_text(matrix_scene("t_end = 60.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                                  "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
+                                  "friction = { static = 1.0, kinetic = 0.5 }\nsurface_velocity = 0.2")),
+      options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  REQUIRE(branch.points.size() >= 4);
+  for (const BranchPoint& p : branch.points) {
+    const double v = p.parameter;
+    CHECK(std::abs(p.period - (pi + 2.0 * std::atan(2.0 * v) + 1.0 / v)) <= 1e-9);
+    CHECK(p.stable.value_or(false));
+  }
+}
+
+TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {
+  BranchOptions options;
+  options.path = "loads.1.history.phase";
+  options.from = 0.5;
+  options.to = 1.0;
+  const Branch shifted = follow(reader_of_text(jenkins()), options);
+  CHECK(!shifted.complete);
+  CHECK(shifted.points.size() == 1);
+  CHECK(shifted.end.find("only shifts the motion in time") != std::string::npos);
+  options.path = "contacts.1.friction";
+  options.from = 0.9;
+  options.to = -0.1;
+  options.step = 0.1;
+  const Branch refused = follow(reader_of_text(jenkins()), options);
+  CAPTURE(refused.end);
+  CHECK(!refused.complete);
+  CHECK(refused.points.size() > 3);
+  CHECK(refused.end.find("the scene is refused") != std::string::npos);
+  CHECK(refused.points.back().parameter < 0.3);
+}
+
 TEST_SUITE_END();
 
 TEST_SUITE_BEGIN("slow/orbits");
@@ -317,13 +475,17 @@ TEST_CASE("the resonance of a one-sided spring bends over, its middle part is un
   const Branch branch = follow(reader_of_text(chain("0.62")), options);
   CAPTURE(branch.end);
   CHECK(branch.complete);
-  long folds = 0, unstable = 0;
+  long folds = 0, flips = 0, unstable = 0;
   for (const BranchPoint& p : branch.points) {
-    folds += p.special.find("fold") != std::string::npos ? 1 : 0;
+    flips += p.special == "flip" ? 1 : 0;
+    if (p.special == "fold" || p.special == "flip" || p.special == "neimark-sacker")
+      CHECK(std::abs(p.max_multiplier - 1.0) <= 1e-5);  // that of time and those of families aside
+    folds += p.special == "fold" ? 1 : 0;
     unstable += p.stable.value_or(true) ? 0 : 1;
     CHECK(p.residual <= 1e-9);
   }
   CHECK(folds == 2);
+  CHECK(flips == 2);
   CHECK(unstable > 0);
 }
 

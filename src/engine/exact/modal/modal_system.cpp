@@ -21,8 +21,7 @@ ForceLaw force_law(const Contact& contact, const ContactState& state, double pre
 /// Of works: they divide by (l_k - l_i)^2 + 2 alpha^2 (l_k + l_i) (modal_works.hpp), so eps (omega/alpha)^2 of them is lost.
 constexpr double most_lost = 1e-12;
 
-std::string proportional_refusal(const Model& model) {
-  if (!stands_still(model)) return "loads or surfaces that change other than in jumps";
+std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
     if (contact.takes_impulses()) return "rigid contacts";
@@ -36,12 +35,19 @@ std::string proportional_refusal(const Model& model) {
   if (!is_symmetric(model.mass) || !is_symmetric(model.stiffness)) return "matrices that are not symmetric";
   if (!has_narrow_band(model.mass, model.stiffness)) return "matrices with a wide band";
   const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
-  if (!(alpha > 0.0)) return "no damping proportional to the mass";
-  if (!(alpha * alpha * most_lost >= rounding::eps * model.omega1 * model.omega1))
-    return "so little damping that works of two modes lose their digits";
   const SparseMatrix rest = model.damping - alpha * model.mass;
   if (!(rest.norm() <= rounding::of_many * model.damping.norm()))
     return "damping that is not proportional to the mass";
+  return {};
+}
+
+std::string proportional_refusal(const Model& model) {
+  if (!stands_still(model)) return "loads or surfaces that change other than in jumps";
+  if (std::string why = coupling_refusal(model); !why.empty()) return why;
+  const double alpha = model.damping.coeff(0, 0) / model.mass.coeff(0, 0);
+  if (!(alpha > 0.0)) return "no damping proportional to the mass";
+  if (!(alpha * alpha * most_lost >= rounding::eps * model.omega1 * model.omega1))
+    return "so little damping that works of two modes lose their digits";
   return {};
 }
 

@@ -30,6 +30,8 @@ struct ForceLaw {
 /// pressing: of a slider, constant.
 [[nodiscard]] ForceLaw force_law(const Contact& contact, const ContactState& state, double pressing);
 
+/// Why damping or contacts couple the modes of contact states; empty: neither does.
+[[nodiscard]] std::string coupling_refusal(const Model& model);
 /// Why a scene cannot be followed in modes without coupling; empty: it can.
 [[nodiscard]] std::string proportional_refusal(const Model& model);
 /// Springs of a state in which all contacts are closed and stick.

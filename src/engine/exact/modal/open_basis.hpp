@@ -31,6 +31,8 @@ class OpenBasis {
 
   /// Phi, by rows.
   [[nodiscard]] const RowMatrix& shapes() const { return shapes_; }
+  /// Phi^T M
+  [[nodiscard]] const Eigen::MatrixXd& projection() const { return projection_; }
   [[nodiscard]] Vector amplitudes(const Vector& u) const { return projection_ * u; }
   /// What the modes show of a form or a direction of the structure.
   [[nodiscard]] Vector amplitudes_of_form(const Vector& form) const { return shapes_.transpose() * form; }

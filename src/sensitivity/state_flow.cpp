@@ -1,0 +1,219 @@
+#include "sensitivity/state_flow.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "base/rounding.hpp"
+#include "sensitivity/contact_rates.hpp"
+#include "sensitivity/listed_modes.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t most_bytes_of_modes = std::size_t{1}
+                                            << 28;  // of modes; beyond, all are forgotten. Chosen.
+constexpr double longest_decay_at_once = 4.0;       // alpha t at once, as Oscillators::advance asks
+
+/// Matrices of many columns, one for displacements and one for their rates, in flat amplitudes.
+struct ModalBundle {
+  Eigen::MatrixXd z, rate;
+};
+
+bool alike(const SparseMatrix& a, const SparseMatrix& b) {
+  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() && (a - b).norm() == 0.0;
+}
+
+bool alike(const Contact& a, const Contact& b) {
+  const auto friction = [](const Friction& f) { return std::pair{f.static_, f.kinetic}; };
+  return a.law == b.law && a.normal.terms == b.normal.terms && a.tangent.terms == b.tangent.terms &&
+         a.normal_stiffness == b.normal_stiffness && a.tangential_stiffness == b.tangential_stiffness &&
+         friction(a.friction) == friction(b.friction) && a.own == b.own;
+}
+
+/// z and rate of each mode some time later, of a motion that begins with these amplitudes in every mode.
+ModalPoint mode_response(const Oscillators& oscillators, const Amplitudes& zero, double z, double rate,
+                         double force, double time) {
+  const auto all = [&](double value) {
+    Amplitudes a = zero;
+    std::fill(a.real.begin(), a.real.end(), value);
+    std::fill(a.pair.begin(), a.pair.end(), Complex(value));
+    return a;
+  };
+  ModalPoint from{all(z), all(rate), {}, 0.0}, to;
+  oscillators.advance(from, all(force), time, to);
+  return to;
+}
+
+/// out += factor x, mode by mode.
+void add_modewise(const Amplitudes& factor, const Eigen::MatrixXd& x, Eigen::MatrixXd& out) {
+  const auto reals = static_cast<Eigen::Index>(factor.real.size());
+  const auto pairs = static_cast<Eigen::Index>(factor.pair.size());
+  const Eigen::Map<const Vector> real(factor.real.data(), reals);
+  out.topRows(reals) += real.asDiagonal() * x.topRows(reals);
+  for (Eigen::Index k = 0; k < pairs; ++k) {
+    const Complex f = factor.pair[static_cast<std::size_t>(k)];
+    const Eigen::Index re = reals + k, im = reals + pairs + k;
+    out.row(re) += f.re * x.row(re) - f.im * x.row(im);
+    out.row(im) += f.re * x.row(im) + f.im * x.row(re);
+  }
+}
+
+ModalBundle moved_modes(const Oscillators& oscillators, const Amplitudes& zero, const ModalBundle& from,
+                        const Eigen::MatrixXd& force, double time) {
+  ModalBundle to{Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols()),
+                 Eigen::MatrixXd::Zero(from.z.rows(), from.z.cols())};
+  const ModalPoint c = mode_response(oscillators, zero, 1.0, 0.0, 0.0, time),
+                   s = mode_response(oscillators, zero, 0.0, 1.0, 0.0, time),
+                   h = mode_response(oscillators, zero, 0.0, 0.0, 1.0, time);
+  for (const auto& [by, x] : {std::pair{&c, &from.z}, {&s, &from.rate}, {&h, &force}}) {
+    add_modewise(by->z, *x, to.z);
+    add_modewise(by->rate, *x, to.rate);
+  }
+  return to;
+}
+
+}  // namespace
+
+bool modes_uncouple(const Model& model) {
+  const auto bows = [](const Contact& contact) { return contact.bowl.has_value() || contact.own; };
+  return coupling_refusal(model).empty() && std::none_of(model.contacts.begin(), model.contacts.end(), bows);
+}
+
+StateFlow::StateFlow(const Model& model) : model_(model), basis_(model_) {
+  if (basis_.failure().empty()) system_.emplace(model_, basis_);
+  felt_ = contact_dofs(model_, {});
+}
+
+bool StateFlow::fits(const Model& model) const {
+  return alike(model.mass, model_.mass) && alike(model.damping, model_.damping) &&
+         alike(model.stiffness, model_.stiffness) &&
+         std::equal(model.contacts.begin(), model.contacts.end(), model_.contacts.begin(),
+                    model_.contacts.end(), [](const Contact& a, const Contact& b) { return alike(a, b); });
+}
+
+void StateFlow::make(Modes& modes) const {
+  const Spectrum& spectrum = modes.state->spectrum;
+  const Eigen::Index n = model_.size();
+  const auto flat = static_cast<Eigen::Index>(spectrum.real().size() + 2 * spectrum.pairs().size());
+  Eigen::MatrixXd in(flat, n), out(n, flat);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Amplitudes a;
+    spectrum.to_modes(Vector::Unit(n, k), a);
+    in.col(k) = flat_modes(a);
+  }
+  const auto reals = static_cast<Eigen::Index>(spectrum.real().size());
+  const auto pairs = static_cast<Eigen::Index>(spectrum.pairs().size());
+  for (Eigen::Index k = 0; k < flat; ++k) {
+    Amplitudes unit = spectrum.zero();
+    if (k < reals)
+      unit.real[static_cast<std::size_t>(k)] = 1.0;
+    else if (k < reals + pairs)
+      unit.pair[static_cast<std::size_t>(k - reals)] = Complex(1.0);
+    else
+      unit.pair[static_cast<std::size_t>(k - reals - pairs)] = Complex(0.0, 1.0);
+    Vector q;
+    spectrum.from_modes({&unit}, {&q});
+    out.col(k) = q;
+  }
+  modes.in = in * basis_.projection();
+  modes.out = basis_.shapes() * out;
+  modes.seen.resize(static_cast<Eigen::Index>(felt_.size()), flat);
+  for (std::size_t i = 0; i < felt_.size(); ++i)
+    modes.seen.row(static_cast<Eigen::Index>(i)) = modes.out.row(felt_[i]);
+  modes.from_tangent.resize(flat, static_cast<Eigen::Index>(model_.contacts.size()));
+  for (std::size_t c = 0; c < model_.contacts.size(); ++c)
+    modes.from_tangent.col(static_cast<Eigen::Index>(c)) = flat_modes(modes.state->from_tangent[c]);
+}
+
+const StateFlow::Modes& StateFlow::modes_of(const Mode& mode) {
+  const std::vector<State> states = states_of(mode);
+  if (const auto found = known_.find(states); found != known_.end()) return found->second;
+  Modes modes;
+  if (system_) {
+    modes.state = system_->state(mode);
+    modes.good = modes.state->spectrum.failure().empty();
+  }
+  if (modes.good) {
+    modes.oscillators = Oscillators(modes.state->spectrum, system_->alpha());
+    make(modes);
+  }
+  const auto bytes = static_cast<std::size_t>(modes.in.size() + modes.out.size()) * sizeof(double);
+  if (bytes_ + bytes > most_bytes_of_modes) {
+    known_.clear();
+    bytes_ = 0;
+  }
+  bytes_ += bytes;
+  return known_.insert_or_assign(states, std::move(modes)).first->second;
+}
+
+bool StateFlow::knows(const Mode& mode) { return modes_of(mode).good; }
+
+void StateFlow::advance(const Mode& mode, double time, std::vector<TangentState>& states) {
+  const Modes& modes = modes_of(mode);
+  std::vector<const Tangent*> starts;
+  for (const TangentState& state : states)
+    if (state.alive) starts.push_back(&state.now.start);
+  const Eigen::Index n = model_.size(), columns = static_cast<Eigen::Index>(starts.size());
+  Eigen::MatrixXd W(n, 2 * columns);
+  Eigen::MatrixXd held =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model_.contacts.size()), columns);  // kt p
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const Tangent& start = *starts[static_cast<std::size_t>(j)];
+    W.col(j) = start.u;
+    W.col(columns + j) = start.v;
+    for (std::size_t c = 0; c < mode.size(); ++c)
+      if (const auto& kt = model_.contacts[c].tangential_stiffness; kt && mode[c].state == State::stick)
+        held(static_cast<Eigen::Index>(c), j) = *kt * start.anchors[c];
+  }
+  const Eigen::MatrixXd Z = modes.in * W, force = modes.from_tangent * held;
+  ModalBundle now{Z.leftCols(columns), Z.rightCols(columns)};
+  const Amplitudes zero = modes.state->spectrum.zero();
+  const double alpha = system_->alpha();
+  const double longest =
+      alpha > 0.0 ? longest_decay_at_once / alpha : std::numeric_limits<double>::infinity();
+  for (double done = 0.0; done < time;) {
+    const double part = std::min(longest, time - done);
+    now = moved_modes(modes.oscillators, zero, now, force, part);
+    done = part < longest ? time : done + part;
+  }
+  Eigen::MatrixXd second = force - alpha * now.rate, pulled = Eigen::MatrixXd::Zero(force.rows(), columns);
+  Amplitudes square = zero;
+  square.real = modes.oscillators.real();
+  square.pair = modes.oscillators.pairs();
+  add_modewise(square, now.z, pulled);
+  second -= pulled;
+  Eigen::MatrixXd all(force.rows(), 2 * columns);
+  all << now.z, now.rate;
+  tell(mode, modes.out * all, modes.seen * second, states);
+}
+
+/// What contacts feel of it.
+void StateFlow::tell(const Mode& mode, const Eigen::MatrixXd& moved, const Eigen::MatrixXd& seen,
+                     std::vector<TangentState>& states) const {
+  const Eigen::Index columns = seen.cols();
+  Eigen::Index j = 0;
+  for (TangentState& state : states) {
+    if (!state.alive) continue;
+    SeriesPoint& w = state.now.point;
+    w.u = state.now.start.u = moved.col(j);
+    w.v = state.now.start.v = moved.col(columns + j);
+    w.a = Vector::Zero(model_.size());
+    for (std::size_t i = 0; i < felt_.size(); ++i) w.a[felt_[i]] = seen(static_cast<Eigen::Index>(i), j);
+    w.forces = w.force_rates = Vector::Zero(static_cast<Eigen::Index>(2 * mode.size()));
+    for (std::size_t c = 0; c < mode.size(); ++c) {
+      const Contact& contact = model_.contacts[c];
+      const ForceLaw law = force_law(contact, mode[c], 0.0);
+      const auto slot = static_cast<Eigen::Index>(normal_slot(c));
+      w.forces[slot] = law.N_rate(contact.normal.dot(w.u));
+      w.forces[slot + 1] = law.T_rate(contact.normal.dot(w.u), contact.tangent.dot(w.u));
+      if (contact.tangential_stiffness && mode[c].state == State::stick)
+        w.forces[slot + 1] -= *contact.tangential_stiffness * state.now.start.anchors[c];
+      w.force_rates[slot] = law.N_rate(contact.normal.dot(w.v));
+      w.force_rates[slot + 1] = law.T_rate(contact.normal.dot(w.v), contact.tangent.dot(w.v));
+    }
+    ++j;
+  }
+}
+
+}  // namespace signorini

@@ -18,7 +18,7 @@ import tempfile
 
 PHASES = [
     ("decide", [r"Decider::decide\("]),
-    ("factor", [r"SystemMatrix::set\("]),
+    ("factor", [r"SystemMatrix::set\(", r"CondensedMatrix::set\("]),
     ("series", [r"Taylor::level_any\(", r"Taylor::level_dense"]),
     ("guards", [r"ExactEngine::earliest_fall\(", r"NewmarkEngine::weigh\(", r"NewmarkEngine::earliest\(", r"Watch::check\("]),
     ("works", [r"(Exact|Newmark|Ida)Engine::integrate\("]),

@@ -514,6 +514,7 @@ Refusal Decider::held_at_rest(const Course& course) const {
 Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before, const Forcing& after) {
   const std::size_t count = model_.contacts.size();
   Course course{instant, after, {}, {}, {}, {}, {}, {}, Findings(count), {}};
+  course.jets = std::move(room_);
   course.decision.visited.assign(count, false);
   course.decision.jumped.assign(count, false);
   course.decision.crossings.resize(count);
@@ -523,6 +524,7 @@ Decider::Attempt Decider::attempt(const Instant& instant, const Forcing& before,
     course.decision.refusal = held_at_rest(course);
     course.decision.consistent = !course.decision.refusal;
   }
+  room_ = std::move(course.jets);
   return {std::move(course.decision), course.found.grounded, course.found.slowest};
 }
 

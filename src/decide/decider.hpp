@@ -77,6 +77,7 @@ class Decider {
   Touching touching_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> block_of_;  // one a contact
+  std::vector<MotionJet> room_;        // of the last decision, for the next one
   RoundListener listener_;
 };
 

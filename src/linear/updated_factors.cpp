@@ -1,11 +1,15 @@
 #include "linear/updated_factors.hpp"
 
+#include <algorithm>
+
 #include "base/eigen_dense.hpp"
 
 namespace signorini {
 namespace {
 
-// What 1 + D Y may lose: three digits, as much as pivots that are kept for another length (linear/klu.cpp).
+// What 1 + D Y may lose: three digits, as much as pivots that are kept for another length (linear/klu.cpp). By its
+// inverse as many as its condition has; and where D Y is great, the rows in force are small differences of x and Y times
+// what they are shares of.
 constexpr double least_quality = 1e-3;
 // Columns of Y that are kept: rows come and go.
 constexpr std::size_t most_columns = 4 * UpdatedFactors::most_rows;
@@ -54,7 +58,8 @@ bool UpdatedFactors::set(std::vector<ChangedRow> rows) {
   if (m == 0) return true;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(m, m);
   inverse_ = solve_dense(one + added, one);
-  return least_quality * (1.0 + norm(added)) * norm(inverse_) <= 1.0;  // false where it is no number
+  const double size = 1.0 + norm(added);
+  return least_quality * size * std::max(1.0, norm(inverse_)) <= 1.0;  // false where it is no number
 }
 
 void UpdatedFactors::solve(double* b, double* work) {

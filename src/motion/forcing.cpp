@@ -44,6 +44,8 @@ Forcing::Forcing(const Model& model, double t, Side side) : Forcing(model) {
     still_pressing_.push_back(pressing_.back()->value(t));
     drives_.push_back(moves_.back() || presses_.back());
     varies_ = varies_ || drives_.back();
+    if (!vanishes(*pressing_.back())) pressed_.push_back(pressing_.size() - 1);
+    if (!vanishes(*surface_.back())) carried_.push_back(surface_.size() - 1);
     lifted_.push_back(contact.is_pressed() && vanishes(*pressing_.back()));
   }
   varies_ = varies_ || !varying_.empty();
@@ -73,18 +75,24 @@ Forcing Forcing::none(const Model& model) {
 }
 
 void Forcing::expand(double t, double scale, std::size_t count, ForcingSeries& out) const {
+  const auto clear = [&](std::vector<double>& rows, const std::vector<std::size_t>& held) {
+    if (out.count != count || rows.size() != pressing_.size() * count)
+      rows.assign(pressing_.size() * count, 0.0);
+    else
+      for (const std::size_t k : held) std::fill_n(rows.data() + k * count, count, 0.0);
+  };
+  clear(out.pressing, out.pressed);
+  clear(out.surface, out.carried);
+  out.pressed = pressed_;
+  out.carried = carried_;
   out.count = count;
   out.loads.resize(varying_.size() * count);
-  out.pressing.assign(pressing_.size() * count, 0.0);
-  out.surface.assign(surface_.size() * count, 0.0);
   out.rounding.resize(surface_.size());
   for (std::size_t k = 0; k < surface_.size(); ++k) out.rounding[k] = surface_rounding(k, t);
   for (std::size_t i = 0; i < varying_.size(); ++i)
     varying_[i].second->taylor(t, scale, count, out.loads.data() + i * count);
-  for (std::size_t k = 0; k < pressing_.size(); ++k) {
-    if (!vanishes(*pressing_[k])) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
-    if (!vanishes(*surface_[k])) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
-  }
+  for (const std::size_t k : pressed_) pressing_[k]->taylor(t, scale, count, out.pressing.data() + k * count);
+  for (const std::size_t k : carried_) surface_[k]->taylor(t, scale, count, out.surface.data() + k * count);
 }
 
 void Forcing::add_load(const ForcingSeries& series, std::size_t k, double* P) const {

@@ -17,6 +17,8 @@ struct ForcingSeries {
   std::size_t count = 0;
   std::vector<double> loads, pressing, surface;
   std::vector<double> rounding;  ///< of each surface's velocity
+  /// Contacts whose rows may hold more than zeros.
+  std::vector<std::size_t> pressed, carried;
 };
 
 class Forcing {
@@ -70,6 +72,7 @@ class Forcing {
   std::vector<std::pair<std::size_t, const Piece*>> varying_;  // load, its piece
   std::vector<const Piece*> pressing_, surface_;
   std::vector<bool> lifted_, moves_, presses_, drives_;
+  std::vector<std::size_t> pressed_, carried_;  // contacts whose compression, whose surface is not zero
   std::vector<double> still_pressing_, still_surface_;  // where nothing changes
   bool varies_ = false, loaded_ = false;
 };

@@ -46,8 +46,10 @@ double size_of(const Model& model, const Combination& form, const double* x) {
   return size_by(model, form, [x](int dof) { return x[dof]; });
 }
 
-/// From a series of scale 1: derivatives are k! times the coefficients. Those that orders 0 .. last of a motion reach.
-void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, Derivatives& d) {
+/// From a series of scale 1: derivatives are k! times the coefficients. Those that orders 0 .. last of a motion reach;
+/// the sizes of their terms where they are wanted.
+void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, bool with_terms,
+          Derivatives& d) {
   const Contact& contact = model.contacts[c];
   const auto n = static_cast<std::size_t>(series.u.rows()),
              forces = static_cast<std::size_t>(series.forces.rows());
@@ -58,8 +60,10 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
     const double* u = series.u.data() + k * n;
     d.gap[k] = factorial * gap_coefficient(contact, series, k);
     d.ut[k] = factorial * ut_coefficient(contact, c, series, k);
-    d.gap_terms[k] = factorial * size_of(model, contact.normal, u);
-    d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
+    if (with_terms) {
+      d.gap_terms[k] = factorial * size_of(model, contact.normal, u);
+      d.ut_terms[k] = factorial * (size_of(model, contact.tangent, u) + std::abs(f.surface[c * f.count + k]));
+    }
     if (k > last) continue;
     d.N[k] = factorial * series.forces.data()[k * forces + normal_slot(c)];
     d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
@@ -157,7 +161,7 @@ JetMaker::Balance JetMaker::balance_of(const Contact& contact, double factorial,
 /// Orders first .. last of a motion, without their noise.
 void JetMaker::rates(std::size_t c, std::size_t first, std::size_t last, MotionJet& result) const {
   Derivatives a;
-  fill(model_, c, series_, last, a);
+  fill(model_, c, series_, last, false, a);
   const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
   double factorial = 1.0;
   for (std::size_t k = 0; k <= last; ++k) {
@@ -175,8 +179,8 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
   };
   Derivatives a, b;
   const Rows& rows = system.rows()[c];
-  fill(model_, c, series_, last, a);
-  fill(model_, c, disturbed_, last, b);
+  fill(model_, c, series_, last, true, a);
+  fill(model_, c, disturbed_, last, false, b);
   const double* pressing = series_.forcing.pressing.data() + c * series_.forcing.count;
   double factorial = 1.0;
   for (std::size_t k = 0; k <= last; ++k) {

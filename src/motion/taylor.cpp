@@ -241,9 +241,12 @@ void Taylor::measure_rows(std::size_t c, int order, const Series& series, double
 void Taylor::disturb(const Forcing& forcing, int order, const Disturbance& disturbance) {
   const Series& motion = disturbance.motion;
   if (order == 0) {
-    terms_.setZero(static_cast<Eigen::Index>(x_.size()), motion.levels + 1);
-    sizes_ = motion.u.cwiseAbs();
+    terms_.resize(static_cast<Eigen::Index>(x_.size()), motion.levels + 1);
+    sizes_.resize(motion.u.rows(), motion.u.cols());
+    sizes_.leftCols(2) = motion.u.leftCols(2).cwiseAbs();
   }
+  sizes_.col(order + 2) = motion.u.col(order + 2).cwiseAbs();
+  terms_.col(order).setZero();
   double* terms = terms_.col(order).data();
   measure_equations(forcing, order, motion, terms);
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) measure_forces(c, order, motion, terms);
@@ -299,7 +302,7 @@ void Taylor::level_any(const Forcing& forcing, int order, Series& series, const 
     const Contact& contact = model_.contacts[c];
     const Form &normal = system_->rows()[c].normal, &tangent = system_->rows()[c].tangent;
     double r = 0.0, q = 0.0;
-    known_of_rows(c, order, series, r, q);
+    if (order == 0 || forcing.drives(c)) known_of_rows(c, order, series, r, q);
     if (normal.gap != 0.0) r += normal.gap * contact.normal.dot(known_u_.data());
     if (normal.vn != 0.0) r += normal.vn * contact.normal.dot(known_v_.data());
     if (tangent.ut != 0.0) q += tangent.ut * contact.tangent.dot(known_u_.data());

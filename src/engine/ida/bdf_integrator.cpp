@@ -195,8 +195,8 @@ struct BdfIntegrator::Memory {
     counted.error_test_failures = error_fails;
     counted.convergence_failures = convergence_fails;
     counted.solves = iterations;
-    c.factorisations = problem.linear().klu().factorisations;
-    c.refactorisations = problem.linear().klu().refactorisations;
+    c.factorisations = problem.linear().factorisations();
+    c.refactorisations = problem.linear().refactorisations();
     c.guard_evaluations = guard_evaluations;
     for (std::size_t order = 0; order < steps_by_order.size(); ++order) {
       if (steps_by_order[order] == 0) continue;

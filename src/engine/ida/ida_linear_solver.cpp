@@ -15,7 +15,10 @@ IdaLinearSolver::IdaLinearSolver(const Model& model, const Structure& structure,
       layout_(layout),
       matrix_(model, structure),
       weights_(static_cast<std::size_t>(layout.dofs)),
-      rhs_(static_cast<std::size_t>(matrix_.size())) {}
+      rhs_(static_cast<std::size_t>(matrix_.size())) {
+  if (is_economical(model, structure, matrix_.shared_rows())) condensed_.emplace(model, structure);
+  if (condensed_ && !condensed_->narrow()) condensed_.reset();
+}
 
 void IdaLinearSolver::set_mode(const Mode& mode) {
   rows_ = rows_of(model_, mode);
@@ -25,6 +28,8 @@ void IdaLinearSolver::set_mode(const Mode& mode) {
 }
 
 bool IdaLinearSolver::factor() {
+  on_band_ = condensed_ && condensed_->set(rows_, {cj_, 1.0, 1.0 / cj_});
+  if (on_band_) return true;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     weights_[i] = layout_.velocity[i] >= 0 ? Weights{cj_, 1.0, 1.0 / cj_} : Weights{0.0, cj_, 1.0};
   const bool ok = matrix_.set(rows_, weights_, fresh_);
@@ -47,7 +52,7 @@ void IdaLinearSolver::solve(const double* b, double* x) {
     held_[i] =
         (p.normal * rhs_[at.normal(p.contact)] + p.tangent * rhs_[at.tangent(p.contact)]) / (cj_ * p.divisor);
   }
-  matrix_.solve(rhs_.data());
+  on_band_ ? condensed_->solve(rhs_.data()) : matrix_.solve(rhs_.data());
   for (std::size_t i = 0; i < held_.size(); ++i) rhs_[pinned_[i].dof] = held_[i];
   const double step = 1.0 / cj_;
   if (all_massive) {

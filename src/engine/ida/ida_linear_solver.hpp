@@ -5,12 +5,16 @@
 //   | rows of contacts | |dF|   |r3|        rows of the contacts likewise
 //
 // The residual comes with r1/cj already in r2 and r3 (engine/ida/ida_problem.hpp), so the right side is at
-// hand. One matrix of the size of the structure plus two rows a contact, instead of twice that.
+// hand. One matrix of the size of the structure plus two rows a contact, instead of twice that; of large structures with
+// compliant contacts and a narrow band one of the size of the structure (linear/condensed_matrix.hpp).
 #pragma once
 
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include <optional>
+
+#include "linear/condensed_matrix.hpp"
 #include "linear/pinned.hpp"
 #include "linear/system_matrix.hpp"
 #include "linear/unknowns.hpp"
@@ -44,7 +48,10 @@ class IdaLinearSolver {
   [[nodiscard]] const SharedRows& shared_rows() const { return matrix_.shared_rows(); }
   /// Replaces a row by its tangent where it is not linear.
   void linearise(std::size_t contact, const Form& tangent) { rows_[contact].tangent = tangent; }
-  [[nodiscard]] const Klu& klu() const { return matrix_.klu(); }
+  [[nodiscard]] long factorisations() const {
+    return matrix_.klu().factorisations + (condensed_ ? condensed_->factorisations : 0);
+  }
+  [[nodiscard]] long refactorisations() const { return matrix_.klu().refactorisations; }
 
   /// SUNDIALS' view of it; the solver must outlive both.
   SUNMatrix make_matrix(SUNContext context);
@@ -54,6 +61,8 @@ class IdaLinearSolver {
   const Model& model_;
   const Layout& layout_;
   SystemMatrix matrix_;
+  std::optional<CondensedMatrix> condensed_;  // where it is of use
+  bool on_band_ = false;                      // the last factors are its
   std::vector<Rows> rows_;
   std::vector<Weights> weights_;
   // A held degree of freedom keeps its acceleration exactly, not to the roundoff of an elimination.

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_halvings = 60;
-constexpr double spare = 1.0 / 16.0;  // doubling: of the tolerance, below which steps grow again
+constexpr double rounding_of_guard = 1.0 / 16.0;  // of the bound that the decision uses
+constexpr int most_tangents = 4;                  // a fall that these do not find is bracketed
+constexpr double spare = 1.0 / 16.0;              // doubling: of the tolerance, below which steps grow again
 constexpr const char* singular = "the matrix of a step is singular; another dt may help";
 constexpr double least_part = 1e-12;  // doubling: of dt
 constexpr double forcing_step = 0.5;  // doubling: rad of a load's oscillation
@@ -67,7 +69,7 @@ void NewmarkEngine::start(const Segment& segment) {
 bool NewmarkEngine::rates_known(std::size_t slot) const {
   const std::size_t k = contact_of_guard(slot);
   const Form& form = segment_.decision->guards[slot].form;
-  const Rows rows = signorini::rows(model_.contacts[k], segment_.decision->mode[k]);
+  const Rows& rows = segment_.decision->system->rows()[k];
   const bool through_T = form.T != 0.0, through_N = form.N != 0.0 || (through_T && rows.tangent.N != 0.0);
   if (form.an != 0.0 || form.at != 0.0) return false;
   if (through_N && (rows.normal.N != 1.0 || rows.normal.an != 0.0)) return false;
@@ -142,7 +144,22 @@ bool NewmarkEngine::take(double h, double t, bool kept, Point& to) {
 double NewmarkEngine::value_after(std::size_t slot, double h) {
   ++counters.guard_evaluations;
   inner_time_ = nan;
-  return take(h, t0_ + h, false, inner_) ? value_of(slot, t0_ + h, inner_) : nan;
+  tried_ = 0.0;
+  if (!take(h, t0_ + h, false, inner_)) return nan;
+  tried_ = h;
+  return value_of(slot, t0_ + h, inner_);
+}
+
+/// Contacts without an element have forces that follow accelerations, and what is left of a gap, a slip rate or a force of
+/// theirs the decision takes out at once: modes above the step keep that blow, and blows make the next events.
+bool NewmarkEngine::is_soft(std::size_t slot) const {
+  const Contact& contact = model_.contacts[contact_of_guard(slot)];
+  return !contact.takes_impulses() && !contact.sticks_rigidly();
+}
+
+/// Up to this value a guard is zero: a search for its fall would follow its rounding.
+double NewmarkEngine::zero_of(std::size_t slot) const {
+  return is_soft(slot) ? rounding_of_guard * watched_[slot].level : 0.0;
 }
 
 double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi) {
@@ -151,13 +168,14 @@ double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, dou
     if (h == lo) return g_lo;
     if (h == hi) return g_hi;
     const double g = value_after(slot, h);
+    if (std::abs(g) <= zero_of(slot)) return 0.0;
     return last = std::isfinite(g) ? g : last;
   };
   return root_between(value, lo, hi, 0.25 * resolution_at(t0_ + hi, hi));
 }
 
 /// The fall of a guard that holds at the beginning of the step and not at its end: looked for first where its values and
-/// rates at both ends say, then on as far again as its slope there asks for.
+/// rates at both ends say, from there along tangents and secants.
 double NewmarkEngine::fall_near(std::size_t slot, double h) {
   const Watched& w = watched_[slot];
   double lo = 0.0, g_lo = w.g0, hi = h, g_hi = w.g1;
@@ -174,20 +192,24 @@ double NewmarkEngine::fall_near(std::size_t slot, double h) {
     return g;
   };
   const GuardPath path{w.g0, w.g1, h * w.rate0, h * w.rate1};
-  if (const auto fall = w.has_rate ? path.fall() : std::nullopt) {
-    const double g = narrow(fall->x * h);
-    if (g != 0.0 && fall->slope < 0.0) (void)narrow(h * (fall->x - 2.0 * g / fall->slope));
+  const auto fall = w.has_rate ? path.fall() : std::nullopt;
+  double at = fall ? fall->x * h : nan, slope = fall ? fall->slope / h : nan, before = nan, g_before = nan;
+  const int most = is_soft(slot) ? most_tangents : 1;
+  for (int i = 0; i < most && slope < 0.0; ++i) {
+    const double g = narrow(at);
+    if (std::abs(g) <= zero_of(slot)) return at;
+    if (i > 0) slope = (g - g_before) / (at - before);
+    if (is_soft(slot) && std::abs(g / slope) <= 0.25 * resolution_at(t0_ + h, h)) return at;
+    before = at;
+    g_before = g;
+    at -= g / slope;
   }
+  if (slope < 0.0 && g_before != 0.0)
+    (void)narrow(before - 2.0 * g_before / slope);  // to the other side of the fall
   return fall_between(slot, lo, g_lo, hi, g_hi);
 }
 
-/// Contacts without an element have forces that follow accelerations, and what interpolation leaves of a gap,
-/// a slip rate or a force of theirs the decision takes out at once: modes above the step keep that blow, and
-/// blows make the next events.
-bool NewmarkEngine::interpolates(std::size_t slot) const {
-  const Contact& contact = model_.contacts[contact_of_guard(slot)];
-  return linear_ && !contact.takes_impulses() && !contact.sticks_rigidly();
-}
+bool NewmarkEngine::interpolates(std::size_t slot) const { return linear_ && is_soft(slot); }
 
 /// The paper's single interpolation. If the guard has not fallen there, the event would not fire: on by
 /// twice the next interpolation, until it has.
@@ -307,6 +329,18 @@ double NewmarkEngine::doubled(double remaining) {
   }
 }
 
+/// The step ends after h instead: where it was tried last, as a rule.
+bool NewmarkEngine::end_after(double h) {
+  t1_ = t0_ + h;
+  if (tried_ == h)
+    std::swap(end_, inner_);
+  else if (!take(h, t1_, false, end_))
+    return false;
+  tried_ = 0.0;
+  weigh(end_, t1_);
+  return true;
+}
+
 Step NewmarkEngine::advance() {
   // What began the last step is the one before now; its vectors take the new end.
   std::swap(a_before_, begin_.a);
@@ -323,6 +357,7 @@ Step NewmarkEngine::advance() {
   const double remaining = segment_.end - t0_;
   double h = doubling_ ? doubled(remaining) : dt_;
   inner_time_ = nan;
+  tried_ = 0.0;
   const bool last = remaining <= h * (1.0 + same_length);
   if (last) h = remaining;
   if (h != counted_length_) {
@@ -346,11 +381,7 @@ Step NewmarkEngine::advance() {
     const bool known = std::exchange(event, true);
     slot = c.slot;
     counted_length_ = 0.0;
-    if (h < longer) {
-      t1_ = t0_ + h;
-      if (!take(h, t1_, false, end_)) return failed(singular);
-      weigh(end_, t1_);
-    }
+    if (h < longer && !end_after(h)) return failed(singular);
     if (known && longer - h <= resolution_at(t1_, h)) break;  // the same instant
   }
   h_ = h;

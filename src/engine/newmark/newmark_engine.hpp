@@ -70,12 +70,15 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] double value_of(std::size_t slot, double t, const Point& point) const;
   [[nodiscard]] double value_after(std::size_t slot, double h);
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
+  [[nodiscard]] bool is_soft(std::size_t slot) const;
+  [[nodiscard]] double zero_of(std::size_t slot) const;
   [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
   [[nodiscard]] double fall_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
   /// Narrows the step to the candidate. False: it is none.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
+  [[nodiscard]] bool end_after(double h);
   [[nodiscard]] bool rates_known(std::size_t slot) const;
   [[nodiscard]] double doubled(double remaining);
   Step failed(std::string reason) const;
@@ -95,6 +98,7 @@ class NewmarkEngine final : public Stepper {
   Point begin_, end_, inner_, fine_, coarse_;
   Vector a_before_;                  // at the beginning of the step before; empty: there was none
   double inner_time_ = 0.0;          // of inner_; NaN: it holds nothing
+  double tried_ = 0.0;               // length of the step that inner_ is the end of; 0: of none
   double t0_ = 0.0, t1_ = 0.0;       // the last step
   double h_ = 0.0, h_before_ = 0.0;  // its length, that of the one before (0: none)
   double regular_ = 0.0;             // length of steps without events

@@ -14,9 +14,6 @@ namespace {
 // bytes as much as mode systems may take (motion/mode_systems.hpp).
 constexpr CacheBounds most_kept{32, std::size_t{8} << 20};
 
-// Unknowns from which a factorisation is worth avoiding: of 200 it takes some 30 us. Chosen: unit/engine/newmark tests
-// both sides.
-constexpr Eigen::Index economical_from = 200;
 // A factorisation of a banded matrix, with all that is read of it, over a solve: 0.64 + 0.3 ms over 0.045 at 3000
 // unknowns.
 constexpr double solves_a_factorisation = 20.0;
@@ -28,7 +25,7 @@ constexpr double left_of_rounding = rounding::eps / 16.0;  // of what a refined 
 
 }  // namespace
 
-NewmarkStep::NewmarkStep(const Model& model, const Structure& structure)
+NewmarkStep::NewmarkStep(const Model& model, const Structure& structure, std::size_t widest_band)
     : model_(model),
       structure_(structure),
       own_kinds_(dof_kinds(model, structure)),
@@ -37,14 +34,14 @@ NewmarkStep::NewmarkStep(const Model& model, const Structure& structure)
       workshop_(model, structure),
       kept_(most_kept),
       odd_(model, structure),
-      economical_(!massless_ &&
-                  structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()) >= economical_from &&
-                  odd_.shared_rows().groups().empty()),
+      economical_(is_economical(model, structure, odd_.shared_rows())),
       weights_(static_cast<std::size_t>(structure.size)) {
   u_.setZero(structure.size);
   v_ = none_ = u_;
   x_.setZero(structure.size + 2 * static_cast<Eigen::Index>(model.contacts.size()));
   work_ = x_;
+  if (economical_) condensed_.emplace(model, structure, widest_band);
+  if (condensed_ && !condensed_->narrow()) condensed_.reset();
 }
 
 void NewmarkStep::set(Key key, std::vector<Rows> rows) {
@@ -52,6 +49,7 @@ void NewmarkStep::set(Key key, std::vector<Rows> rows) {
   rows_ = std::move(rows);
   if (massless_) in_rows_ = kinds_in_mode(own_kinds_, model_, rows_);
   last_ = nullptr;
+  condensed_h_ = 0.0;
   updates_ = false;
   spent_ = 0.0;
 }
@@ -106,6 +104,19 @@ bool NewmarkStep::update(double h) {
   const double factorisation =
       solves_a_factorisation * static_cast<double>(updated_.base()->bytes()) / bytes_a_number;
   return updates_ = updates_ && spent_ <= factorisation;
+}
+
+/// x_ := A^-1 x_ by factors of a band. False: there are none, and x_ is as it was.
+bool NewmarkStep::solve_condensed(double h) {
+  if (!condensed_) return false;
+  if (condensed_h_ != h) {
+    condensed_h_ = h;
+    condenses_ = condensed_->set(rows_, {1.0, 0.5 * h, 0.25 * h * h});
+  }
+  if (!condenses_) return false;
+  condensed_->solve(x_.data());
+  ++solves_;
+  return true;
 }
 
 /// x_ := A^-1 x_, A of a length that will come again.
@@ -267,10 +278,12 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
     x_.data()[n + normal_slot(k)] = -rows_[k].normal.value(m);
     x_.data()[n + tangent_slot(k)] = -rows_[k].tangent.value(m);
   }
-  if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
-  if (economical_) {
-    if (!kept) odd_x_ = x_;
-    know_motion(from, h);  // refining has used its room
+  if (!solve_condensed(h)) {
+    if (!(kept ? solve_kept(h) : solve_odd(h))) return false;
+    if (economical_) {
+      if (!kept) odd_x_ = x_;
+      know_motion(from, h);  // refining has used its room
+    }
   }
 
   read_motion(from, h, to);
@@ -286,7 +299,8 @@ bool NewmarkStep::take(const Forcing& forcing, const Point& from, double t1, dou
 
 void NewmarkStep::count(Counters& counters) const {
   counters.solves = solves_ + updated_.solves();
-  counters.factorisations = odd_.klu().factorisations + workshop_.klu().factorisations;
+  counters.factorisations = odd_.klu().factorisations + workshop_.klu().factorisations +
+                            (condensed_ ? condensed_->factorisations : 0);
   counters.refactorisations = odd_.klu().refactorisations + workshop_.klu().refactorisations;
 }
 

@@ -8,13 +8,17 @@
 // The unknown of a degree of freedom is a1, v1 where it has a damper but no mass, u1 where it has neither:
 // nothing is divided by h, so a step may be as short as the clock tells.
 //
-// Factorisations of large structures (`economical_from`):
+// Large structures (`economical_from`) with compliant contacts and a narrow band are factorised anew for each state and
+// length (linear/condensed_matrix.hpp). Factorisations of others:
 //   after a change of state at the full length   an update of low rank of the last one (linear/updated_factors.hpp), until
 //                                                its solves have cost as much as a factorisation
 //   at a length near the last odd one            x += A_odd^-1 (b - A x), until rounding is left
 #pragma once
 
+#include <optional>
+
 #include "base/bounded_cache.hpp"
+#include "linear/condensed_matrix.hpp"
 #include "linear/system_matrix.hpp"
 #include "linear/undamped_motion.hpp"
 #include "linear/updated_factors.hpp"
@@ -33,7 +37,9 @@ class NewmarkStep {
   /// Names what of the rows stands in the matrix: equal keys, equal matrices.
   using Key = std::vector<int>;
 
-  NewmarkStep(const Model& model, const Structure& structure);
+  /// widest_band: up to which a matrix is factorised as a band.
+  NewmarkStep(const Model& model, const Structure& structure,
+              std::size_t widest_band = CondensedMatrix::widest);
 
   /// Puts rows in force.
   void set(Key key, std::vector<Rows> rows);
@@ -48,6 +54,7 @@ class NewmarkStep {
 
  private:
   using Factors = std::shared_ptr<const TriangularFactors>;
+  [[nodiscard]] bool solve_condensed(double h);
   [[nodiscard]] bool solve_kept(double h);
   [[nodiscard]] bool solve_odd(double h);
   [[nodiscard]] bool factor(SystemMatrix& matrix, double h, bool fresh);
@@ -74,8 +81,11 @@ class NewmarkStep {
   Factors last_;        // of a length that is kept, used last; null after a change of rows
   double last_h_ = 0.0;
   const bool economical_;
-  UpdatedFactors updated_;       // of rows in force from base_rows_, both at base_h_
-  std::vector<Rows> base_rows_;  // of its base
+  std::optional<CondensedMatrix> condensed_;  // where the band is narrow
+  double condensed_h_ = 0.0;                  // of its factors; 0: of none
+  bool condenses_ = false;                    // it has factors for that length
+  UpdatedFactors updated_;                    // of rows in force from base_rows_, both at base_h_
+  std::vector<Rows> base_rows_;               // of its base
   double base_h_ = 0.0;
   bool updates_ = false;           // it is in force, for last_h_
   double spent_ = 0.0;             // numbers that its solves took since rows changed

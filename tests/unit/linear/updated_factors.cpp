@@ -75,6 +75,9 @@ TEST_CASE("too many rows, and rows that make the matrix singular, are refused") 
   std::vector<ChangedRow> many;
   for (std::size_t r = 0; r <= UpdatedFactors::most_rows; ++r) many.push_back({r, {{r, 0.1}}});
   CHECK_FALSE(updated.set(many));
+  // Regular, but what the row says would be a difference of numbers ten thousand times as great.
+  CHECK_FALSE(updated.set({{5, {{5, 1e5}}}}));
+  CHECK(updated.set({{5, {{5, 1e2}}}}));
   // Row 7 becomes row 8.
   ChangedRow same{7, {}};
   for (Eigen::Index j = 0; j < n; ++j)

@@ -1,0 +1,126 @@
+#include "linear/condensed_matrix.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "linear/band_order.hpp"
+#include "unit/linear/rubbing_row.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// S, H, R and B as linear/condensed_matrix.hpp names them.
+Eigen::MatrixXd dense(const Model& model, const std::vector<Rows>& rows, const Weights& w) {
+  const Eigen::Index n = model.size(), size = n + 2 * static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
+  a.topLeftCorner(n, n) =
+      w.acceleration * model.mass + w.velocity * model.damping + w.displacement * model.stiffness;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Eigen::Index N = n + 2 * static_cast<Eigen::Index>(k), T = N + 1;
+    const Contact& contact = model.contacts[k];
+    const auto couple = [&](Eigen::Index row, const Form& form) {
+      for (const auto& [dof, factor] : contact.normal.terms) a(row, dof) += entry_of(form, factor, 0.0, w);
+      for (const auto& [dof, factor] : contact.tangent.terms) a(row, dof) += entry_of(form, 0.0, factor, w);
+      a(row, N) += form.N;
+      a(row, T) += form.T;
+    };
+    couple(N, rows[k].normal);
+    couple(T, rows[k].tangent);
+    for (const auto& [dof, factor] : contact.normal.terms) a(dof, N) += factor;
+    for (const auto& [dof, factor] : contact.tangent.terms) a(dof, T) += factor;
+  }
+  return a;
+}
+
+/// The same with degrees of freedom in another order: number i becomes 7 i + 3 modulo n.
+Model shuffled(const Model& model) {
+  Model other = model;
+  const int n = model.size();
+  const auto place = [n](auto i) { return static_cast<int>((7 * i + 3) % n); };
+  for (auto [from, to] : {std::pair(&model.mass, &other.mass), std::pair(&model.damping, &other.damping),
+                          std::pair(&model.stiffness, &other.stiffness)}) {
+    to->setZero();
+    for (int j = 0; j < n; ++j)
+      for (SparseMatrix::InnerIterator it(*from, j); it; ++it)
+        to->coeffRef(place(it.row()), place(j)) = it.value();
+  }
+  for (Contact& contact : other.contacts)
+    for (Combination* form : {&contact.normal, &contact.tangent})
+      for (auto& term : form->terms) term.first = place(term.first);
+  return other;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("unit/linear/condensed_matrix");
+
+TEST_CASE("solutions are those of the whole matrix, in every state, at every length, in every order") {
+  for (const bool turned : {false, true}) {
+    const Model row = rubbing_row(33), model = turned ? shuffled(row) : row;
+    const Structure structure(model);
+    CondensedMatrix condensed(model, structure);
+    REQUIRE(condensed.narrow());
+    for (const int number : {0, 1, 2, 3, 27, 1000})
+      for (const double h : {1e-12, 1e-3, 0.1, 30.0}) {
+        CAPTURE(turned);
+        CAPTURE(number);
+        CAPTURE(h);
+        const std::vector<Rows> rows = rows_of(model, rubbing_mode(model, number));
+        const Weights weights{1.0, 0.5 * h, 0.25 * h * h};
+        const Eigen::MatrixXd a = dense(model, rows, weights);
+        const Vector b = Vector::LinSpaced(a.rows(), -1.0, 2.3), expected = a.fullPivLu().solve(b);
+        REQUIRE(condensed.set(rows, weights));
+        Vector x = b;
+        condensed.solve(x.data());
+        const Eigen::Index n = model.size();
+        CHECK((x - expected).head(n).cwiseAbs().maxCoeff() < 1e-12 * expected.head(n).cwiseAbs().maxCoeff());
+        CHECK((x - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff());
+      }
+  }
+}
+
+TEST_CASE("rows that hold an acceleration, and wide bands, are left to others") {
+  Model model = rubbing_row(9);
+  const Structure structure(model);
+  CHECK_FALSE(CondensedMatrix(model, structure, 1).narrow());
+  model.contacts[4].law = Law::rigid;
+  model.contacts[4].tangential_stiffness.reset();
+  CondensedMatrix condensed(model, structure);
+  REQUIRE(condensed.narrow());
+  Mode mode = rubbing_mode(model, 0);
+  mode[4].state = State::open;
+  CHECK(condensed.set(rows_of(model, mode), {1.0, 0.1, 0.01}));
+  mode[4].state = State::stick;
+  CHECK_FALSE(condensed.set(rows_of(model, mode), {1.0, 0.1, 0.01}));
+}
+
+TEST_CASE(
+    "a row has the band of its neighbours whatever its numbers, a ring twice that; each place is taken "
+    "once") {
+  const Model row = rubbing_row(50);
+  CHECK(band_order(row, Structure(row)).width <= 3);  // two of a mass, and one mass further
+  const Model model = shuffled(row);
+  const BandOrder order = band_order(model, Structure(model));
+  CHECK(order.width <= 3);
+  CHECK(std::set<int>(order.place.begin(), order.place.end()).size() == 100);
+  CHECK(*std::max_element(order.place.begin(), order.place.end()) == 99);
+  Model ring = row;
+  for (const int i : {0, 1}) ring.stiffness.coeffRef(i, 98 + i) = ring.stiffness.coeffRef(98 + i, i) = -9.0;
+  CHECK(band_order(ring, Structure(ring)).width <= 7);
+  Model apart = row;
+  for (const int i : {49, 50, 48, 51})
+    for (const int j : {i - 2, i + 2})
+      if ((i < 50) != (j < 50))
+        for (SparseMatrix* a : {&apart.mass, &apart.damping, &apart.stiffness}) a->coeffRef(i, j) = 0.0;
+  for (SparseMatrix* a : {&apart.mass, &apart.damping, &apart.stiffness}) a->prune(0.0);
+  const BandOrder parts = band_order(apart, Structure(apart));
+  CHECK(parts.width <= 3);
+  CHECK(std::set<int>(parts.place.begin(), parts.place.end()).size() == 100);
+}
+
+TEST_SUITE_END();

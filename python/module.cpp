@@ -1,7 +1,8 @@
 // module.cpp: the library for Python: the part of the package `signorini` that is compiled.
 //
 //   check(text, file, settings)                 -> JSON of `signorini check`
-//   run(text, file, settings, directory)        -> tables as arrays, summary.json as text
+//   run(text, file, settings, directory, force, stop)
+//                                               -> tables as arrays, summary.json as text; stop: a Stop, or None
 //   compare(reference, other)                   -> differences of two directories of runs
 //   sensitivity(text, file, paths, settings, losses, discrete)
 //                                               -> derivatives of events, columns and figures by keys
@@ -12,6 +13,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -40,10 +42,15 @@ std::vector<Override> overrides(const Settings& settings) {
   return list;
 }
 
+/// Ends the runs that have it, from another thread: Python tells interrupts to its main thread only.
+struct Stop {
+  std::atomic<bool> asked = false;
+};
+
 /// Keeps the rows, hands them to a directory where there is one, and asks Python for interrupts.
 class Kept : public Result {
  public:
-  explicit Kept(RunDirectory* directory) : directory_(directory) {}
+  Kept(RunDirectory* directory, const Stop* stop) : directory_(directory), stop_(stop) {}
   void event(const Event& event) override {
     Result::event(event);
     if (directory_) directory_->event(event);
@@ -72,6 +79,7 @@ class Kept : public Result {
   }
   /// Asked often; Python is asked twenty times a second.
   bool go_on() {
+    if (stop_ && stop_->asked) interrupted_ = true;
     const auto now = std::chrono::steady_clock::now();
     if (interrupted_ || now - asked_ < std::chrono::milliseconds(50)) return !interrupted_;
     asked_ = now;
@@ -83,6 +91,7 @@ class Kept : public Result {
 
  private:
   RunDirectory* directory_;
+  const Stop* stop_;
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
   bool interrupted_ = false;
 };
@@ -205,7 +214,7 @@ py::dict history_units(const Model& model) {
 }
 
 py::dict run(const std::string& text, const std::string& file, const Settings& settings,
-             const std::optional<std::string>& path, bool force) {
+             const std::optional<std::string>& path, bool force, const Stop* stop) {
   const Scene scene = parse_scene(text, file, overrides(settings));
   std::optional<Model> model;
   std::optional<RunDirectory> directory;
@@ -216,11 +225,14 @@ py::dict run(const std::string& text, const std::string& file, const Settings& s
     const py::gil_scoped_release free;
     model = build_model(scene);
     if (path) directory.emplace(*path, scene, *model, RunDirectoryOptions{force, {"python"}});
-    kept.emplace(directory ? &*directory : nullptr);
+    kept.emplace(directory ? &*directory : nullptr, stop);
     report = simulate_certified(*model, scene.run, *kept, {{}, [&] { return kept->go_on(); }});
     summary = directory ? directory->finish(report) : summary_json(scene, *model, report, {"python"});
   }
-  if (kept->interrupted()) throw py::error_already_set();
+  if (kept->interrupted()) {
+    if (PyErr_Occurred() == nullptr) PyErr_SetString(PyExc_KeyboardInterrupt, "");
+    throw py::error_already_set();
+  }
   py::dict result;
   result["events"] = event_table(contact_names(*model), kept->events);
   if (report.certificate) {
@@ -288,7 +300,7 @@ py::dict sensitivity(const std::string& text, const std::string& file, const std
     all.insert(all.end(), changes.begin(), changes.end());
     return parse_scene(text, file, all);
   };
-  Kept kept(nullptr);
+  Kept kept(nullptr, nullptr);
   std::optional<Sensitivities> s;
   {
     const py::gil_scoped_release free;
@@ -362,6 +374,7 @@ PYBIND11_MODULE(_signorini, module) {
       PyErr_SetObject(failure.ptr(), thrown.ptr());
     }
   });
+  py::class_<Stop>(module, "Stop").def(py::init<>()).def("ask", [](Stop& stop) { stop.asked = true; });
   module.attr("version") = version;
   module.def("run", &run);
   module.def("check", &check_scene);

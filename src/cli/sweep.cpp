@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "cli/command.hpp"
 #include "cli/gnuplot.hpp"
 #include "cli/settings.hpp"
+#include "cli/sweep_tasks.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/terminal.hpp"
 #include "cli/workers.hpp"
@@ -41,6 +41,9 @@ struct SweepOptions : OutputOptions {
   std::optional<std::string> share;
   std::optional<long> jobs;
   bool keep = false;
+  std::string strobe;
+  std::optional<double> settle;
+  bool carry = false, back = false;
 };
 
 std::optional<std::string> environment(const char* name) {
@@ -86,6 +89,44 @@ void vary_keys(const SweepOptions& options, SweepSpec& spec) {
       fmt::format("{} {}, seed {}", count_of(sample.count, "sample"), options.sequence, sample.seed);
 }
 
+/// How runs go on from each other, before any scene is read.
+void carry_on(const SweepOptions& options, SweepSpec& spec) {
+  if (options.back && !options.carry)
+    throw UsageError("--back: has no meaning without --carry, which lets runs go on from each other");
+  if (!options.carry) return;
+  const auto refuse = [](bool given, const char* option, const char* why) {
+    if (given) throw UsageError(fmt::format("--carry: cannot be combined with {}: {}", option, why));
+  };
+  refuse(!options.samples.empty(), "--sample", "drawn values have no order");
+  refuse(options.share.has_value(), "--share", "a row needs the row before it");
+  refuse(options.keep, "--keep", "the state that a run begins with is in no file");
+  spec.carry = {true, options.back};
+  if (!options.back) return;
+  const int group = spec.vary.back().group;
+  for (Vary& vary : spec.vary) {
+    if (&vary != &spec.vary.back() && (group == 0 || vary.group != group)) continue;
+    const std::vector<std::string> there = vary.values;
+    vary.values.insert(vary.values.end(), there.rbegin(), there.rend());
+  }
+}
+
+/// What points a stroboscopic sweep has.
+void specify_strobe(const SweepOptions& options, const Scene& scene, const Model& model, SweepSpec& spec) {
+  const Strobe strobe = parse_strobe(options.strobe, model);
+  spec.strobe = {options.strobe, strobe.period, options.settle, strobe_columns(model)};
+  const double t_end = scene.run.t_end;
+  if (options.settle && !(*options.settle >= 0.0 && *options.settle < t_end))
+    throw UsageError(fmt::format("--settle {:g}: expected 0 to t_end, {:g}", *options.settle, t_end));
+  if (strobe.period > t_end)
+    throw UsageError(fmt::format("--strobe {}: is longer than the run, t_end = {:g}", options.strobe, t_end));
+  const double periods = strobe.period > 0.0 ? t_end / strobe.period : 0.0;
+  if (options.carry && std::abs(periods - std::round(periods)) > 1e-9 * periods)
+    throw UsageError(
+        fmt::format("--carry: t_end = {:g} is {:g} times the period of --strobe, expected a whole "
+                    "number: the next run's loads begin anew",
+                    t_end, periods));
+}
+
 /// The state that the runs go on from, which stands in the files of another run.
 std::string text_of_state(const Scene& scene) {
   std::string text;
@@ -114,6 +155,8 @@ SweepSpec specify(const SweepOptions& options) {
   spec.scene = options.scene;
   spec.settings = options.settings;
   vary_keys(options, spec);
+  carry_on(options, spec);
+  if (options.settle && options.strobe.empty()) throw UsageError("--settle: has no meaning without --strobe");
   if (options.share) spec.share = parse_share(*options.share, environment);
   constexpr std::size_t most_tried = 200;  // of as many, one should have been right
   std::optional<Error> first;
@@ -127,8 +170,9 @@ SweepSpec specify(const SweepOptions& options) {
       spec.fingerprint = fingerprint_of(scene.resolved + text_of_state(scene));
       spec.title = scene.title;
       spec.units = scene.units;
-      if (options.responses.empty()) return spec;
+      if (options.responses.empty() && options.strobe.empty()) return spec;
       const Model model = build_model(scene);
+      if (!options.strobe.empty()) specify_strobe(options, scene, model, spec);
       for (const std::string& text : options.responses) {
         const ResponseQuery query = parse_query(text, model);
         if (std::find(spec.responses.begin(), spec.responses.end(), text) != spec.responses.end())
@@ -204,48 +248,21 @@ class Progress {
   std::chrono::steady_clock::time_point next_;
 };
 
-std::vector<std::string> values_of(const std::vector<Override>& point) {
-  std::vector<std::string> values;
-  for (const Override& change : point) values.push_back(change.value);
-  return values;
-}
-
 /// Ends with a row for every task, unless interrupted. False: interrupted.
-bool run_rows(SweepDirectory& directory, const SweepOptions& options, const std::vector<std::size_t>& tasks,
-              const std::vector<std::string>& command_line) {
-  const std::vector<Override> settings = overrides_of(options.settings);
-  const auto work = [&](std::size_t index) {
-    RowTask task{options.scene, settings, index, values_of(directory.points()[index]), {}, command_line};
-    const auto& point = directory.points()[index];
-    task.changes.insert(task.changes.end(), point.begin(), point.end());
-    task.responses = options.responses;
-    if (options.keep) task.keep = directory.run_directory(index);
-    std::string text = row_text(compute_row(task));
-    write_file(directory.row_file(index), text);
-    return text;
-  };
+bool run_rows(SweepDirectory& directory, SweepTasks& tasks, const SweepOptions& options) {
   int file_error = 0;
   const auto ended = [&](const WorkerEnd& end) {
-    if (end.code == 0 && end.signal == 0) {
-      directory.take(end.task, end.report);
-      return true;
-    }
     if (end.signal == 0 && end.code == static_cast<int>(ExitCode::file)) {
       ++file_error;  // it has said why
       return false;
     }
-    SweepRow row;
-    row.index = end.task;
-    row.values = values_of(directory.points()[end.task]);
-    row.outcome = "crashed";
-    row.reason = end.signal != 0 ? fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal))
-                                 : fmt::format("exit code {}", end.code);
-    directory.add(row);
+    tasks.take(end);
     return true;
   };
-  Progress progress(directory, directory.rows().size() + tasks.size(), !options.quiet);
-  const bool whole =
-      run_workers(tasks, jobs_of(options), work, ended, [&](std::size_t running) { progress.idle(running); });
+  Progress progress(directory, directory.rows().size() + tasks.rows(), !options.quiet);
+  const bool whole = run_workers(
+      tasks.list(), jobs_of(options), [&](std::size_t first) { return tasks.work(first); }, ended,
+      [&](std::size_t running) { progress.idle(running); });
   if (file_error > 0)
     throw Error(ExitCode::file,
                 fmt::format("the sweep stopped where a file could not be written; {} kept in {}",
@@ -270,7 +287,8 @@ void conclude(const SweepOptions& options, const SweepDirectory& directory) {
     print(sweep_text(directory.spec(), directory.rows()));
     if (!answers.empty()) print("\n" + quantile_text(directory.spec(), answers));
     print("\nresults: " + directory.path().string() + "/ (sweep.csv, results.json" +
-          (answers.empty() ? "" : ", quantiles.csv, exceedance.csv") + (options.keep ? ", runs/)\n" : ")\n"));
+          (answers.empty() ? "" : ", quantiles.csv, exceedance.csv") +
+          (options.strobe.empty() ? "" : ", strobe.csv") + (options.keep ? ", runs/)\n" : ")\n"));
   }
   const std::string drawn =
       options.no_plots
@@ -297,19 +315,22 @@ ExitCode sweep(const SweepOptions& options, const std::vector<std::string>& comm
   }
   (void)jobs_of(options);  // wrong ones are told before anything is written
   SweepDirectory directory(output_directory(options, spec.share), spec, options.force);
-  std::vector<std::size_t> tasks;
-  for (std::size_t index = 0; index < directory.points().size(); ++index)
-    if (spec.share.holds(index) && !directory.rows().contains(index)) tasks.push_back(index);
+  RowTask common{options.scene, overrides_of(options.settings), 0, {}, {}, command_line};
+  common.responses = options.responses;
+  common.strobe = options.strobe;
+  common.settle = options.settle;
+  SweepTasks tasks(directory, common, options.keep);
   const std::size_t kept = directory.rows().size();
   if (kept > 0 && options.keep && !options.quiet)
     print_note("--keep: rows that are there already keep what they have; --force computes them again");
   if (kept > 0 && !options.quiet)
-    print_note(fmt::format("{} of {} there already, {} to go", count_of(kept, "row"), kept + tasks.size(),
-                           tasks.size()));
-  if (!run_rows(directory, options, tasks, command_line)) {
+    print_note(fmt::format("{} of {} there already, {} to go", count_of(kept, "row"),
+                           directory.spec().carry.on ? directory.points().size() : kept + tasks.rows(),
+                           tasks.rows()));
+  if (!run_rows(directory, tasks, options)) {
     directory.write_table();
     print_error(fmt::format("interrupted; {} of {} kept in {}, the same command goes on",
-                            directory.rows().size(), count_of(kept + tasks.size(), "row"),
+                            directory.rows().size(), count_of(kept + tasks.rows(), "row"),
                             directory.path().string()));
     return ExitCode::interrupted;
   }
@@ -327,10 +348,10 @@ ExitCode merge(const SweepOptions& options) {
   if (!options.directory || options.directory->empty())
     throw UsageError("--merge: expected -o DIR, where the joined sweep goes");
   if (!options.scene.empty() || !options.varied.empty() || !options.settings.empty() || options.share ||
-      !options.responses.empty() || !options.samples.empty())
+      !options.responses.empty() || !options.samples.empty() || !options.strobe.empty() || options.carry)
     throw UsageError(
         "--merge: joins sweeps that are there; expected neither SCENE nor --vary, --sample, --response, "
-        "--set, --share");
+        "--strobe, --carry, --set, --share");
   std::vector<fs::path> from(options.merge.begin(), options.merge.end());
   SweepSpec spec = read_sweep_spec(from.front());
   spec.share = {};
@@ -377,6 +398,22 @@ ExitCode sweep_or_merge(const SweepOptions& given, const std::vector<std::string
   if (!options.samples.empty() && options.responses.empty())
     throw UsageError("--sample: expected --response, whose distribution is wanted");
   return sweep(options, command_line);
+}
+
+void add_strobe(CLI::App& command, SweepOptions& options, const CLI::Validator& given) {
+  command
+      .add_option("--strobe", options.strobe,
+                  "states at multiples of a period, or after every EVENT or EVENT@CONTACT: strobe.csv, and a "
+                  "bifurcation diagram")
+      ->option_text("PERIOD|EVENT");
+  command
+      .add_option("--settle", options.settle,
+                  "no state of --strobe before this time (default: half of t_end)")
+      ->option_text("T")
+      ->check(given);
+  command.add_flag("--carry", options.carry,
+                   "along the last --vary each run begins where the one before it has ended");
+  command.add_flag("--back", options.back, "with --carry: then the same values in the opposite order");
 }
 
 }  // namespace
@@ -432,6 +469,7 @@ void add_sweep(Program& program) {
       ->option_text("K/N|auto");
   command->add_option("--merge", options->merge, "join the shares in these directories into the one of -o")
       ->option_text("DIR...");
+  add_strobe(*command, *options, given);
   add_table_option(*command, options->table);
   command->add_flag("--keep", options->keep, "keep the directory of every run, in DIR/runs");
   add_output_options(*command, *options, "begin anew where there is an earlier sweep", "results.json");

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "sweep_rows.hpp"
@@ -287,6 +288,60 @@ TEST_CASE("cli sweep: what another key would overwrite is refused, under whichev
   CHECK(tried({"--vary", "contacts.floor.friction.static=0.6,0.7", "--vary",
                "contacts.*.friction.kinetic=0.1,0.2"},
               "") == 0);
+}
+
+TEST_CASE("cli sweep: a bifurcation diagram, there and back") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const std::vector<std::string> command = {"sweep", "belt.toml", "--vary", vary,      "--strobe",
+                                            "0.5",   "--settle",  "5",      "--carry", "--back",
+                                            "-o",    "out",       "--jobs", "2"};
+  const Ending ending = shell.run(command);
+  CHECK(ending.code == 0);
+  CHECK(ending.err.empty());
+  CHECK(has(ending.out, "strobe.csv"));
+  const std::string table = shell.read("out/strobe.csv");
+  CHECK(table.rfind("row,contacts.belt.friction.static,way,t,", 0) == 0);
+  CHECK(has(table, ",there,"));
+  CHECK(has(table, ",back,"));
+  const json list = rows(shell, "out");
+  REQUIRE(list.size() == 10);
+  CHECK(list[4]["values"] == list[5]["values"]);
+  CHECK(list[0]["values"] == list[9]["values"]);
+  CHECK(exists(shell, "out/plots/strobe.gp"));
+  if (on_path("gnuplot")) CHECK(shell.read("out/plots/strobe.png").size() > 2000);
+
+  // A chain that is not whole is computed anew, with the same points.
+  std::filesystem::remove(shell / "out/rows/000004.json");
+  CHECK(shell.run(command).code == 0);
+  CHECK(shell.read("out/strobe.csv") == table);
+  // Other points are another sweep.
+  std::vector<std::string> other = command;
+  other[7] = "6";
+  const Ending refused = shell.run(other);
+  CHECK(refused.code == 6);
+  CHECK(has(refused.err, "--settle"));
+}
+
+TEST_CASE("cli sweep: what stroboscopic sweeps and carried states refuse") {
+  const Shell shell;
+  shell.write("belt.toml", belt(20));
+  const auto error = [&](std::vector<std::string> options) {
+    std::vector<std::string> command = {"sweep", "belt.toml", "--vary", vary};
+    command.insert(command.end(), options.begin(), options.end());
+    const Ending ending = shell.run(command);
+    CHECK(ending.code == 2);
+    CHECK_FALSE(exists(shell, "belt-sweep"));
+    return ending.err;
+  };
+  CHECK(has(error({"--strobe", "slp"}), "slip"));
+  CHECK(has(error({"--strobe", "30"}), "longer than the run"));
+  CHECK(has(error({"--settle", "1"}), "--strobe"));
+  CHECK(has(error({"--strobe", "1", "--settle", "20"}), "--settle 20"));
+  CHECK(has(error({"--back"}), "--carry"));
+  CHECK(has(error({"--carry", "--keep"}), "--keep"));
+  CHECK(has(error({"--carry", "--share", "1/2"}), "--share"));
+  CHECK(has(error({"--carry", "--strobe", "3"}), "whole number"));
 }
 
 TEST_SUITE_END();

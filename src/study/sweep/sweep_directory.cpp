@@ -12,6 +12,7 @@
 #include "result/csv.hpp"
 #include "result/run_directory.hpp"
 #include "result/units_json.hpp"
+#include "study/sweep/strobe_files.hpp"
 #include "study/sweep/sweep_plots.hpp"
 #include "study/sweep/sweep_table.hpp"
 
@@ -38,6 +39,14 @@ Json spec_json(const SweepSpec& spec) {
                             {"sampled", vary.sampled}});
   json["responses"] = spec.responses;
   json["response_units"] = spec.response_units;
+  if (!spec.strobe.text.empty()) {
+    json["strobe"] = {{"text", spec.strobe.text}, {"period", spec.strobe.period}, {"columns", Json::array()}};
+    if (spec.strobe.settle) json["strobe"]["settle"] = *spec.strobe.settle;
+    for (const StrobeColumn& column : spec.strobe.columns)
+      json["strobe"]["columns"].push_back(
+          {{"name", column.name}, {"unit", column.unit}, {"output", column.output}});
+  }
+  if (spec.carry.on) json["carry"] = {{"back", spec.carry.back}};
   json["sampling"] = spec.sampling;
   json["share"] = spec.share.text();
   return json;
@@ -121,7 +130,8 @@ void remove_old(const fs::path& path) {
     remove_run(run);
     if (fs::is_empty(run, error)) ours.push_back(run);
   }
-  for (const char* name : {"sweep.csv", "results.json", "quantiles.csv", "exceedance.csv", "report.html"})
+  for (const char* name :
+       {"sweep.csv", "results.json", "quantiles.csv", "exceedance.csv", "strobe.csv", "report.html"})
     ours.push_back(path / name);
   for (const fs::path& file : ours) {
     fs::remove(file, error);
@@ -204,6 +214,7 @@ void SweepDirectory::write_table() const { write_file(path_ / "sweep.csv", sweep
 void SweepDirectory::write_results() const {
   write_table();
   write_file(path_ / "results.json", sweep_json(spec_, rows_));
+  if (!spec_.strobe.text.empty()) write_file(path_ / "strobe.csv", strobe_csv(spec_, rows_));
 }
 
 SweepSpec read_sweep_spec(const fs::path& directory) {
@@ -224,6 +235,13 @@ SweepSpec read_sweep_spec(const fs::path& directory) {
                            vary.at("sampled")});
     spec.responses = json.at("responses").get<std::vector<std::string>>();
     spec.response_units = json.at("response_units").get<std::vector<std::string>>();
+    if (const auto found = json.find("strobe"); found != json.end()) {
+      spec.strobe = {found->at("text"), found->at("period"), {}, {}};
+      if (found->contains("settle")) spec.strobe.settle = found->at("settle").get<double>();
+      for (const Json& column : found->at("columns"))
+        spec.strobe.columns.push_back({column.at("name"), column.at("unit"), column.at("output")});
+    }
+    if (const auto found = json.find("carry"); found != json.end()) spec.carry = {true, found->at("back")};
     spec.sampling = json.at("sampling");
     spec.share = parse_share(json.at("share").get<std::string>(),
                              [](const char*) -> std::optional<std::string> { return std::nullopt; });
@@ -249,6 +267,15 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   }
   if (was.responses != is.responses)
     return differ("--response", text_of(was.responses), text_of(is.responses));
+  const auto strobe = [](const SweepSpec& s) {
+    return (s.strobe.text.empty() ? "(none)" : s.strobe.text) +
+           (s.strobe.settle ? " --settle " + shortest(*s.strobe.settle) : "");
+  };
+  if (strobe(was) != strobe(is)) return differ("--strobe", strobe(was), strobe(is));
+  const auto carry = [](const SweepSpec& s) {
+    return std::string(!s.carry.on ? "(none)" : s.carry.back ? "there and back" : "there");
+  };
+  if (was.carry != is.carry) return differ("--carry", carry(was), carry(is));
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
     return fmt::format("the scene {} has another content now ({})", is.scene, was.scene);

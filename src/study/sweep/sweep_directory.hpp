@@ -4,6 +4,7 @@
 //   DIR/rows/000001.json  a finished row each, written whole or not at all
 //   DIR/sweep.csv         the table of the finished rows, renewed as they come
 //   DIR/results.json      the same as JSON, at the end
+//   DIR/strobe.csv        the points of a stroboscopic sweep, at the end (strobe_files.hpp)
 //   DIR/runs/000001/      the runs, with --keep
 #pragma once
 
@@ -19,6 +20,21 @@
 
 namespace signorini {
 
+/// What a stroboscopic sweep takes of every run; text empty: nothing.
+struct StrobeSpec {
+  std::string text;              ///< --strobe
+  double period = 0.0;           ///< 0: after events
+  std::optional<double> settle;  ///< --settle
+  std::vector<StrobeColumn> columns = {};
+};
+
+/// Runs along the last range that begin where the run before has ended.
+struct CarrySpec {
+  bool on = false;
+  bool back = false;  ///< the values of the last range once more, in the opposite order: its second half
+  friend bool operator==(const CarrySpec&, const CarrySpec&) = default;
+};
+
 /// What is swept. Two sweeps are the same if all but scene and share are equal.
 struct SweepSpec {
   std::string scene;                  ///< file, as given
@@ -27,6 +43,8 @@ struct SweepSpec {
   std::vector<Vary> vary;             ///< the sampled keys last
   /// What is asked of every run (response_query.hpp), and the unit of each answer.
   std::vector<std::string> responses, response_units;
+  StrobeSpec strobe;
+  CarrySpec carry;
   std::string sampling;  ///< "1000 random, seed 1"; empty where nothing is sampled
   Share share;
   std::string title;

@@ -12,7 +12,9 @@
 #include "result/table.hpp"
 #include "study/key_unit.hpp"
 #include "study/sweep/quantiles.hpp"
+#include "study/sweep/strobe_files.hpp"
 #include "study/sweep/sweep_map.hpp"
+#include "study/sweep/swept_axis.hpp"
 
 namespace signorini {
 
@@ -25,71 +27,6 @@ constexpr std::array<const char*, 12> colours = {"#1f77b4", "#d95f02", "#1b9e77"
                                                  "#c0182b", "#7f7f00", "#5e4fa2", "#1a1a1a"};
 constexpr std::size_t most_panels = 6;
 constexpr std::size_t most_curves = 24;  // as many as a legend beside the panel can name
-
-/// Rows that have all values in common but that on the axis.
-struct SweptCurve {
-  std::string name;
-  std::vector<const SweepRow*> rows;
-};
-
-struct SweptAxis {
-  std::size_t key = 0;
-  bool numbers = true;
-  const Vary* vary = nullptr;
-
-  [[nodiscard]] std::string x(const SweepRow& row) const {
-    if (numbers) return shortest(*parse_number(row.values[key]));
-    const auto& values = vary->values;
-    return std::to_string(std::find(values.begin(), values.end(), row.values[key]) - values.begin());
-  }
-};
-
-SweptAxis axis_of(const SweepSpec& spec) {
-  SweptAxis axis;
-  const auto several = std::find_if(spec.vary.begin(), spec.vary.end(),
-                                    [](const Vary& vary) { return vary.values.size() > 1; });
-  if (several != spec.vary.end()) axis.key = static_cast<std::size_t>(several - spec.vary.begin());
-  axis.vary = &spec.vary[axis.key];
-  axis.numbers = std::all_of(axis.vary->values.begin(), axis.vary->values.end(),
-                             [](const std::string& value) { return parse_number(value).has_value(); });
-  return axis;
-}
-
-/// The key of the axis, or one in step with it.
-bool moves_with(const SweepSpec& spec, const SweptAxis& axis, std::size_t key) {
-  return key == axis.key || (axis.vary->group != 0 && spec.vary[key].group == axis.vary->group);
-}
-
-std::vector<SweptCurve> group(const SweepSpec& spec, const SweepRows& rows, const SweptAxis& axis) {
-  std::vector<SweptCurve> list;
-  std::map<std::vector<std::string>, std::size_t> known;
-  for (const auto& [index, row] : rows) {
-    if (!row.ran()) continue;
-    std::vector<std::string> others = row.values;
-    for (std::size_t i = spec.vary.size(); i-- > 0;)
-      if (moves_with(spec, axis, i)) others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto [found, fresh] = known.emplace(others, list.size());
-    if (fresh) {
-      std::string name;
-      for (std::size_t i = 0; i < row.values.size(); ++i) {
-        if (moves_with(spec, axis, i) || spec.vary[i].values.size() < 2) continue;
-        name += (name.empty() ? "" : ", ") + row.values[i];
-      }
-      list.push_back({name, {}});
-    }
-    list[found->second].rows.push_back(&row);
-  }
-  return list;
-}
-
-/// What the numbers in the legend are.
-std::string other_keys(const SweepSpec& spec, const SweptAxis& axis) {
-  std::string text;
-  for (std::size_t i = 0; i < spec.vary.size(); ++i)
-    if (!moves_with(spec, axis, i) && spec.vary[i].values.size() > 1)
-      text += (text.empty() ? "; curves: " : ", ") + spec.vary[i].path;
-  return text;
-}
 
 /// curve-N.csv: a row of the sweep, its x, and figures of contacts.
 CsvTable<const SweepRow*> curve_table(const SweepSpec& spec, const SweptAxis& axis,
@@ -140,7 +77,7 @@ class SweptCurves {
     Picture picture{name, subtitle, canvas_of(look, 148.0 + 320.0 * static_cast<double>(count), false),
                     false};
     picture.space = 26.0;
-    picture.setup = "set offsets 0,0,graph 0.05,0\n" + x_range();
+    picture.setup = "set offsets 0,0,graph 0.05,0\n" + x_range(axis_);
     for (std::size_t i = 0; i < count; ++i) {
       Panel panel{panels[i].label, curves(panels[i])};
       panel.axes = panels[i].kind == Shown::Kind::answer ? "set yrange [*:*]\n" : "set yrange [0:*]\n";
@@ -159,20 +96,6 @@ class SweptCurves {
   }
 
  private:
-  /// Of all values, also where no run began: a hole at an end is seen.
-  [[nodiscard]] std::string x_range() const {
-    double first = 0.0, last = static_cast<double>(axis_.vary->values.size()) - 1.0;
-    if (axis_.numbers) {
-      first = last = *parse_number(axis_.vary->values.front());
-      for (const std::string& value : axis_.vary->values) {
-        first = std::min(first, *parse_number(value));
-        last = std::max(last, *parse_number(value));
-      }
-    }
-    const double air = last > first ? 0.03 * (last - first) : 1.0;
-    return range_of('x', first - air, last + air);
-  }
-
   [[nodiscard]] std::string tics(bool named) const {
     std::vector<std::pair<std::string, std::size_t>> names;
     for (const std::string& value : axis_.vary->values) names.emplace_back(named ? value : "", names.size());
@@ -215,11 +138,11 @@ class SweptCurves {
 
 bool is_picture_of_sweep(const fs::path& file) {
   const std::string stem = file.stem().string();
-  const bool named =
-      stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" || stem == "exceedance";
+  const bool named = stem == "motion" || stem == "forces" || stem == "losses" || stem == "responses" ||
+                     stem == "exceedance" || stem == "strobe";
   return (is_picture(file) && named) ||
          (file.extension() == ".csv" && (stem.starts_with("curve-") || stem.starts_with("exceedance-") ||
-                                         stem == "map" || stem == "borders"));
+                                         stem.starts_with("strobe-") || stem == "map" || stem == "borders"));
 }
 
 std::string labelled(const SweepSpec& spec, std::size_t query) {
@@ -325,8 +248,10 @@ PictureFiles sweep_pictures(const SweepSpec& spec, const SweepRows& rows, const 
     add_exceedances(spec, rows, run, files);
     return files;
   }
+  if (!spec.strobe.text.empty()) add_strobe_picture(spec, rows, run, files);
+  if (spec.carry.back) return files;  // two runs a value: no curve over it
   const SweptAxis axis = axis_of(spec);
-  const std::vector<SweptCurve> list = group(spec, rows, axis);
+  const std::vector<SweptCurve> list = swept_curves(spec, rows, axis);
   const std::vector<std::string> contacts = contact_names(rows);
   if (std::none_of(list.begin(), list.end(), [](const auto& c) { return c.rows.size() >= 2; })) return files;
   const SweptCurves curves(spec, axis, list, contacts);

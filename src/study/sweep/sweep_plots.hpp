@@ -5,6 +5,7 @@
 //   DIR/plots/losses.gp   friction work, and events
 //   DIR/plots/responses.gp the answers to the queries, a panel each
 //   DIR/plots/exceedance.gp of a sampled sweep, instead of all others: probabilities of more
+//   DIR/plots/strobe.gp   of a stroboscopic sweep: bifurcation diagrams (strobe_files.hpp)
 //   DIR/plots/curve-1.csv x, events, then the figures of every contact: one file a combination
 //
 // The first key with more than one value is the axis; where its values are no numbers, they stand evenly. Two

@@ -8,6 +8,8 @@
 #include "base/fingerprint.hpp"
 #include "base/input_file.hpp"
 #include "base/json.hpp"
+#include "scene/saved_state.hpp"
+#include "signorini/simulate.hpp"
 #include "study/prepared_run.hpp"
 #include "study/sweep/response_query.hpp"
 
@@ -39,20 +41,42 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.warnings = report.warnings.size();
 }
 
-/// The row's own run has a row of output at both ends only, kept or not: so it is the same, and quicker.
-Report run(const RowTask& task, const PreparedRun& prepared, Answers& answers) {
+/// Keeps the last row of a run, from which another one goes on.
+class LastRow : public Relay {
+ public:
+  explicit LastRow(Recorder& next) : Relay(&next) {}
+  void sample(const Sample& sample) override {
+    Relay::sample(sample);
+    last_.rows.clear();
+    last_.sample(sample);
+  }
+  /// Without what belongs to the run's own numbers: tolerances and damping are those of the run that goes on.
+  [[nodiscard]] SavedState state(const Model& model) const {
+    SavedState state = last_state(model, last_);
+    state.scales.reset();
+    std::erase_if(state.motions, [](const auto& motion) { return motion.first == saved_alpha; });
+    return state;
+  }
+
+ private:
+  Result last_;
+};
+
+/// The row's own run has rows of output at both ends only, and where it has points, kept or not: so it is the same, and
+/// quicker.
+Report run(const RowTask& task, const PreparedRun& prepared, Recorder& heard, const RunSpec& spec) {
   if (!task.keep.empty()) {
     remove_run(task.keep);  // what an interrupted sweep left
     RunDirectory directory(task.keep, prepared.scene, prepared.model, {false, task.command_line});
     Relay all(&directory);
     prepared.keep(directory, all);
   }
-  return prepared.ends(answers);
+  return simulate(prepared.model, spec, heard);
 }
 
 /// Outputs that no query asks for cost and tell nothing; a kept run has them all the same.
 void drop_outputs(const RowTask& task, const std::vector<ResponseQuery>& queries, Model& model) {
-  if (!task.keep.empty() ||
+  if (!task.keep.empty() || !task.strobe.empty() ||
       std::any_of(queries.begin(), queries.end(), [](const ResponseQuery& q) { return q.of_output(); }))
     return;
   model.outputs.clear();
@@ -74,21 +98,40 @@ std::optional<double> SweepRow::response(std::size_t i) const {
   return known ? std::optional(responses[i]) : std::nullopt;
 }
 
-SweepRow compute_row(const RowTask& task) {
+namespace {
+
+PreparedRun prepared(const RowTask& task, const std::optional<SavedState>* carried) {
+  if (carried == nullptr || !*carried) return prepare_run(task.scene, task.changes);
+  Scene scene = read_scene(task.scene, task.changes);
+  scene.initial = {.saved = **carried};
+  return prepare_run(std::move(scene), std::nullopt);
+}
+
+SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {
   SweepRow row;
   row.index = task.index;
   row.values = task.values;
   try {
-    PreparedRun prepared = prepare_run(task.scene, task.changes);
+    PreparedRun prepared = signorini::prepared(task, carried);
     Model& model = prepared.model;
     std::vector<ResponseQuery> queries;
     for (const std::string& text : task.responses) queries.push_back(parse_query(text, model));
     drop_outputs(task, queries, model);
     Answers answers(queries, model);
-    const Report report = run(task, prepared, answers);
+    LastRow last(answers);
+    Report report;
+    if (task.strobe.empty()) {
+      report = run(task, prepared, last, without_rows(prepared.scene.run));
+    } else {
+      const Strobe strobe = parse_strobe(task.strobe, model);
+      StrobeRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, last);
+      report = run(task, prepared, points, strobed(prepared.scene.run, strobe));
+      row.points = points.points();
+    }
     take_report(row, model, report);
     row.responses = answers.values(report);
     row.sequence = answers.sequence();
+    if (carried != nullptr && row.outcome == "done") *carried = last.state(model);
   } catch (const FileError&) {
     throw;
   } catch (const Error& error) {
@@ -96,6 +139,14 @@ SweepRow compute_row(const RowTask& task) {
     row.reason = error.what();
   }
   return row;
+}
+
+}  // namespace
+
+SweepRow compute_row(const RowTask& task) { return computed(task, nullptr); }
+
+SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried) {
+  return computed(task, &carried);
 }
 
 namespace {
@@ -107,6 +158,14 @@ Json json_of(const SweepRow& row) {
                {"warnings", row.warnings}};
   json["sequence"] = row.sequence;
   if (!row.responses.empty()) json["responses"] = row.responses;
+  if (!row.points.empty()) {
+    json["points"] = Json::array();
+    for (const StrobePoint& point : row.points) {
+      Json values = Json::array({point.t});
+      for (const double value : point.values) values.push_back(value);
+      json["points"].push_back(std::move(values));
+    }
+  }
   json["contacts"] = Json::array();
   for (const auto& contact : row.contacts)
     json["contacts"].push_back({{"name", contact.name},
@@ -133,6 +192,12 @@ SweepRow row_of(const Json& json) {
   row.sequence = json.at("sequence");
   if (const auto found = json.find("responses"); found != json.end())
     for (const Json& value : *found) row.responses.push_back(number_or_none(value));
+  if (const auto found = json.find("points"); found != json.end())
+    for (const Json& values : *found) {
+      StrobePoint point{values.at(0).get<double>(), {}};
+      for (std::size_t i = 1; i < values.size(); ++i) point.values.push_back(number_or_none(values[i]));
+      row.points.push_back(std::move(point));
+    }
   for (const Json& contact : json.at("contacts"))
     row.contacts.push_back({contact.at("name"), number(contact, "tangential"), number(contact, "normal"),
                             number(contact, "N"), number(contact, "T"), number(contact, "friction_work")});

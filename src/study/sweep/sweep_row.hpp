@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "signorini/scene.hpp"
+#include "study/sweep/strobe.hpp"
 
 namespace signorini {
 
@@ -30,9 +31,10 @@ struct SweepRow {
     double tangential = 0.0, normal = 0.0, N = 0.0, T = 0.0, friction = 0.0;
   };
   std::vector<Contact> contacts;
-  std::vector<double> responses;  ///< one a query of the sweep; NaN: none. Empty where no run began
-  std::string sequence;           ///< of its events: equal for equal ones (response_query.hpp)
-  double wall_time = 0.0;         ///< s
+  std::vector<double> responses;    ///< one a query of the sweep; NaN: none. Empty where no run began
+  std::vector<StrobePoint> points;  ///< of a stroboscopic sweep
+  std::string sequence;             ///< of its events: equal for equal ones (response_query.hpp)
+  double wall_time = 0.0;           ///< s
   long steps = 0;
   double balance = 0.0;  ///< relative error of the energy balance
   std::size_t warnings = 0;
@@ -65,10 +67,15 @@ struct RowTask {
   std::filesystem::path keep;  ///< directory of the run; empty: only the row is kept
   std::vector<std::string> command_line;
   std::vector<std::string> responses = {};  ///< queries, as given
+  std::string strobe = {};                  ///< as given; empty: no points
+  std::optional<double> settle = {};  ///< time of the first point at the earliest; absent: half of t_end
 };
 
 /// Errors: FileError where files cannot be written.
 [[nodiscard]] SweepRow compute_row(const RowTask& task);
+/// The same from the state in which the row before ended, where there is one. `carried` becomes the state at the end of
+/// this run; it stays where no run began.
+[[nodiscard]] SweepRow compute_row(const RowTask& task, std::optional<SavedState>& carried);
 
 [[nodiscard]] std::string row_json(const SweepRow& row);
 /// The same as a file: with a checksum, so that what somebody has altered is not taken for a result.

@@ -1,0 +1,72 @@
+// strobe.hpp: states of a run at the same instant of every period, or after every event of a kind: the points of a
+// bifurcation diagram.
+//
+//   0.5             t_k = k 0.5 after the start, k = 1, 2, ...
+//   slip@block      after every event `slip` of the contact `block`; without @block after those of all contacts
+//
+//   point = (t, columns of history.csv, outputs),  t >= settle
+//
+// Where an instant has two sides a point is after it. Units: those of the scene.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/relay.hpp"
+
+namespace signorini {
+
+struct Strobe {
+  std::string text;     ///< as given
+  double period = 0.0;  ///< time; 0: of events
+  EventType event{};
+  std::string contact;  ///< empty: all
+};
+/// Errors: UsageError, naming what the model has instead.
+[[nodiscard]] Strobe parse_strobe(const std::string& text, const Model& model);
+
+/// Names and units of the values of a point.
+struct StrobeColumn {
+  std::string name, unit;
+  bool output = false;  ///< an [[output]]
+};
+[[nodiscard]] std::vector<StrobeColumn> strobe_columns(const Model& model);
+
+struct StrobePoint {
+  double t = 0.0;
+  std::vector<double> values;  ///< one a column
+};
+
+/// Takes the points of a run, and passes all on.
+class StrobeRecorder : public Relay {
+ public:
+  /// All must outlive it.
+  StrobeRecorder(const Strobe& strobe, double settle, const Model& model, Recorder& next)
+      : Relay(&next), strobe_(strobe), settle_(settle), model_(model) {}
+
+  void event(const Event& event) override;
+  void sample(const Sample& sample) override;
+  void response(double t, const std::vector<double>& values) override;
+  [[nodiscard]] bool steers() const override { return strobe_.period == 0.0 || Relay::steers(); }
+  bool steer(const Sample& now, Steering& run) override;
+
+  [[nodiscard]] const std::vector<StrobePoint>& points() const { return points_; }
+
+ private:
+  void add(const Sample& now);
+  void fill_outputs(StrobePoint& point) const;
+
+  const Strobe& strobe_;
+  double settle_;
+  const Model& model_;
+  std::vector<StrobePoint> points_;
+  std::optional<double> event_;  // time of one that has no point yet
+  std::optional<double> t_outputs_;
+  std::vector<double> outputs_;
+};
+
+/// The same run with rows of output where the points are.
+[[nodiscard]] RunSpec strobed(RunSpec run, const Strobe& strobe);
+
+}  // namespace signorini

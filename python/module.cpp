@@ -2,7 +2,7 @@
 //
 //   check(text, file, settings)                 -> JSON of `signorini check`
 //   run(text, file, settings, directory, force, stop)
-//                                               -> tables as arrays, summary.json as text; stop: a Stop, or None
+//                                               -> a Run: tables as arrays, summary.json as text; stop: a Stop, or None
 //   compare(reference, other)                   -> differences of two directories of runs
 //   sensitivity(text, file, paths, settings, losses, discrete)
 //                                               -> derivatives of events, columns and figures by keys
@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "base/version.hpp"
@@ -213,41 +214,62 @@ py::dict history_units(const Model& model) {
   return units;
 }
 
-py::dict run(const std::string& text, const std::string& file, const Settings& settings,
-             const std::optional<std::string>& path, bool force, const Stop* stop) {
-  const Scene scene = parse_scene(text, file, overrides(settings));
-  std::optional<Model> model;
-  std::optional<RunDirectory> directory;
-  std::optional<Kept> kept;
-  CertifiedReport report;
-  std::string summary;
+/// A run that is over. Its tables become arrays when somebody asks for them: most callers of a thousand runs want one.
+class Run {
+ public:
+  Run(Scene scene, const std::optional<std::string>& path, bool force, const Stop* stop)
+      : scene_(std::move(scene)), model_(build_model(scene_)) {
+    std::optional<RunDirectory> directory;
+    if (path) directory.emplace(*path, scene_, model_, RunDirectoryOptions{force, {"python"}});
+    Kept kept(directory ? &*directory : nullptr, stop);
+    report_ = simulate_certified(model_, scene_.run, kept, {{}, [&] { return kept.go_on(); }});
+    if (directory) summary_ = directory->finish(report_);
+    interrupted_ = kept.interrupted();
+    rows_ = std::move(static_cast<Result&>(kept));
+  }
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
+
+  [[nodiscard]] py::dict events() const {
+    py::dict table = event_table(contact_names(model_), rows_.events);
+    if (report_.certificate) {
+      const auto& errors = report_.certificate->t_errors;
+      table["t_error"] = array({errors.begin(), errors.end()});
+    }
+    return table;
+  }
+  [[nodiscard]] py::dict history() const { return history_table(model_, rows_.rows); }
+  [[nodiscard]] py::dict contacts() const { return contact_tables(model_, rows_.rows); }
+  [[nodiscard]] py::dict energy() const { return energy_table(rows_.rows); }
+  [[nodiscard]] py::dict response() const { return response_table(model_, rows_.responses); }
+  [[nodiscard]] py::dict units() const {
+    py::dict units = response_units(model_);
+    units.attr("update")(history_units(model_));
+    return units;
+  }
+  [[nodiscard]] std::string summary() const {
+    return summary_.empty() ? summary_json(scene_, model_, report_, {"python"}) : summary_;
+  }
+  [[nodiscard]] const std::string& toml() const { return scene_.resolved; }
+
+ private:
+  Scene scene_;
+  Model model_;
+  CertifiedReport report_;
+  std::string summary_;  // of the directory
+  bool interrupted_ = false;
+  Result rows_;
+};
+
+std::unique_ptr<Run> run(const std::string& text, const std::string& file, const Settings& settings,
+                         const std::optional<std::string>& path, bool force, const Stop* stop) {
+  std::unique_ptr<Run> ran;
   {
     const py::gil_scoped_release free;
-    model = build_model(scene);
-    if (path) directory.emplace(*path, scene, *model, RunDirectoryOptions{force, {"python"}});
-    kept.emplace(directory ? &*directory : nullptr, stop);
-    report = simulate_certified(*model, scene.run, *kept, {{}, [&] { return kept->go_on(); }});
-    summary = directory ? directory->finish(report) : summary_json(scene, *model, report, {"python"});
+    ran = std::make_unique<Run>(parse_scene(text, file, overrides(settings)), path, force, stop);
   }
-  if (kept->interrupted()) {
-    if (PyErr_Occurred() == nullptr) PyErr_SetString(PyExc_KeyboardInterrupt, "");
-    throw py::error_already_set();
-  }
-  py::dict result;
-  result["events"] = event_table(contact_names(*model), kept->events);
-  if (report.certificate) {
-    const auto& errors = report.certificate->t_errors;
-    result["events"]["t_error"] = array({errors.begin(), errors.end()});
-  }
-  result["history"] = history_table(*model, kept->rows);
-  result["contacts"] = contact_tables(*model, kept->rows);
-  result["energy"] = energy_table(kept->rows);
-  result["history_units"] = history_units(*model);
-  result["response"] = response_table(*model, kept->responses);
-  result["response_units"] = response_units(*model);
-  result["summary"] = summary;
-  result["toml"] = scene.resolved;
-  return result;
+  if (!ran->interrupted()) return ran;
+  if (PyErr_Occurred() == nullptr) PyErr_SetString(PyExc_KeyboardInterrupt, "");
+  throw py::error_already_set();
 }
 
 /// Derivatives of landings by one parameter.
@@ -376,6 +398,15 @@ PYBIND11_MODULE(_signorini, module) {
   });
   py::class_<Stop>(module, "Stop").def(py::init<>()).def("ask", [](Stop& stop) { stop.asked = true; });
   module.attr("version") = version;
+  py::class_<Run>(module, "Run")
+      .def("events", &Run::events)
+      .def("history", &Run::history)
+      .def("contacts", &Run::contacts)
+      .def("energy", &Run::energy)
+      .def("response", &Run::response)
+      .def("units", &Run::units)
+      .def("summary", &Run::summary)
+      .def("toml", &Run::toml);
   module.def("run", &run);
   module.def("check", &check_scene);
   module.def("compare", &compare);

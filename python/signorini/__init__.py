@@ -73,6 +73,10 @@ def _settings(settings) -> list[tuple[str, str]]:
     return [(path, to_toml(value)) for path, value in (settings or {}).items()]
 
 
+def _table(columns) -> dict:
+    return {name: numpy.asarray(values) for name, values in columns.items()}
+
+
 class Result:
     """What a run yields. Tables are dicts of NumPy arrays; texts (contact, event, state) are arrays of strings.
 
@@ -83,19 +87,37 @@ class Result:
     toml                       the scene with every default filled in
     """
 
-    def __init__(self, raw):
-        def table(columns):
-            return {name: numpy.asarray(values) for name, values in columns.items()}
+    _parts = ("events", "history", "energy", "contacts", "response", "units", "summary", "toml")
 
-        self.events = table(raw["events"])
-        self.history = table(raw["history"])
-        self.energy = table(raw["energy"])
-        self.contacts = {name: table(columns) for name, columns in raw["contacts"].items()}
-        self.response = table(raw["response"])
-        self.units = {**raw["response_units"], **raw["history_units"]}
-        self.summary = json.loads(raw["summary"])
-        self.scene_units = self.summary["units"]
-        self.toml = raw["toml"]
+    def __init__(self, run):
+        self._run = run
+
+    def __getattr__(self, name):
+        # Only what is asked for is converted, once: of a thousand runs one figure each is wanted.
+        if name not in self._parts:
+            raise AttributeError(f"'Result' object has no attribute '{name}'")
+        value = getattr(self._run, name)()
+        if name == "summary":
+            value = json.loads(value)
+        elif name == "contacts":
+            value = {contact: _table(columns) for contact, columns in value.items()}
+        elif name not in ("units", "toml"):
+            value = _table(value)
+        setattr(self, name, value)
+        return value
+
+    def __getstate__(self):
+        return {name: getattr(self, name) for name in self._parts}
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._parts]
+
+    @property
+    def scene_units(self) -> dict:
+        return self.summary["units"]
 
     @property
     def outcome(self) -> str:

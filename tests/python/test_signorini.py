@@ -6,6 +6,7 @@ import contextlib
 import io
 import os
 import pathlib
+import pickle
 import re
 import signal
 import tempfile
@@ -111,6 +112,19 @@ class Run(unittest.TestCase):
         back = tomllib.loads("x = " + signorini.to_toml(value))["x"]
         self.assertEqual(back['a"b'][:8], ["\\", "\n\t\x7f", "é\U0001f600", -0.0, 1e-300, True, 7, 0.5])
         self.assertEqual(back['a"b'][8], [0, 1])
+
+
+class Kept(unittest.TestCase):
+    def test_a_result_survives_pickling_and_has_its_parts_by_name(self):
+        result = signorini.run(push)
+        again = pickle.loads(pickle.dumps(result))
+        self.assertEqual(again.outcome, "done")
+        np.testing.assert_array_equal(again.history["block.ux"], result.history["block.ux"])
+        self.assertEqual(again.toml, result.toml)
+        self.assertIs(result.events, result.events)
+        self.assertIn("events", dir(result))
+        with self.assertRaises(AttributeError):
+            result.evens
 
 
 class Others(unittest.TestCase):

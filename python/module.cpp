@@ -1,7 +1,8 @@
 // module.cpp: the library for Python: the part of the package `signorini` that is compiled.
 //
 //   check(text, file, settings)                 -> JSON of `signorini check`
-//   run(text, file, settings, directory)        -> tables as arrays, summary.json as text
+//   run(text, file, settings, directory, force, stop)
+//                                               -> a Run: tables as arrays, summary.json as text; stop: a Stop, or None
 //   compare(reference, other)                   -> differences of two directories of runs
 //   sensitivity(text, file, paths, settings, losses, discrete)
 //                                               -> derivatives of events, columns and figures by keys
@@ -12,9 +13,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "base/version.hpp"
@@ -40,10 +43,15 @@ std::vector<Override> overrides(const Settings& settings) {
   return list;
 }
 
+/// Ends the runs that have it, from another thread: Python tells interrupts to its main thread only.
+struct Stop {
+  std::atomic<bool> asked = false;
+};
+
 /// Keeps the rows, hands them to a directory where there is one, and asks Python for interrupts.
 class Kept : public Result {
  public:
-  explicit Kept(RunDirectory* directory) : directory_(directory) {}
+  Kept(RunDirectory* directory, const Stop* stop) : directory_(directory), stop_(stop) {}
   void event(const Event& event) override {
     Result::event(event);
     if (directory_) directory_->event(event);
@@ -72,6 +80,7 @@ class Kept : public Result {
   }
   /// Asked often; Python is asked twenty times a second.
   bool go_on() {
+    if (stop_ && stop_->asked) interrupted_ = true;
     const auto now = std::chrono::steady_clock::now();
     if (interrupted_ || now - asked_ < std::chrono::milliseconds(50)) return !interrupted_;
     asked_ = now;
@@ -83,6 +92,7 @@ class Kept : public Result {
 
  private:
   RunDirectory* directory_;
+  const Stop* stop_;
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
   bool interrupted_ = false;
 };
@@ -204,38 +214,62 @@ py::dict history_units(const Model& model) {
   return units;
 }
 
-py::dict run(const std::string& text, const std::string& file, const Settings& settings,
-             const std::optional<std::string>& path, bool force) {
-  const Scene scene = parse_scene(text, file, overrides(settings));
-  std::optional<Model> model;
-  std::optional<RunDirectory> directory;
-  std::optional<Kept> kept;
-  CertifiedReport report;
-  std::string summary;
+/// A run that is over. Its tables become arrays when somebody asks for them: most callers of a thousand runs want one.
+class Run {
+ public:
+  Run(Scene scene, const std::optional<std::string>& path, bool force, const Stop* stop)
+      : scene_(std::move(scene)), model_(build_model(scene_)) {
+    std::optional<RunDirectory> directory;
+    if (path) directory.emplace(*path, scene_, model_, RunDirectoryOptions{force, {"python"}});
+    Kept kept(directory ? &*directory : nullptr, stop);
+    report_ = simulate_certified(model_, scene_.run, kept, {{}, [&] { return kept.go_on(); }});
+    if (directory) summary_ = directory->finish(report_);
+    interrupted_ = kept.interrupted();
+    rows_ = std::move(static_cast<Result&>(kept));
+  }
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
+
+  [[nodiscard]] py::dict events() const {
+    py::dict table = event_table(contact_names(model_), rows_.events);
+    if (report_.certificate) {
+      const auto& errors = report_.certificate->t_errors;
+      table["t_error"] = array({errors.begin(), errors.end()});
+    }
+    return table;
+  }
+  [[nodiscard]] py::dict history() const { return history_table(model_, rows_.rows); }
+  [[nodiscard]] py::dict contacts() const { return contact_tables(model_, rows_.rows); }
+  [[nodiscard]] py::dict energy() const { return energy_table(rows_.rows); }
+  [[nodiscard]] py::dict response() const { return response_table(model_, rows_.responses); }
+  [[nodiscard]] py::dict units() const {
+    py::dict units = response_units(model_);
+    units.attr("update")(history_units(model_));
+    return units;
+  }
+  [[nodiscard]] std::string summary() const {
+    return summary_.empty() ? summary_json(scene_, model_, report_, {"python"}) : summary_;
+  }
+  [[nodiscard]] const std::string& toml() const { return scene_.resolved; }
+
+ private:
+  Scene scene_;
+  Model model_;
+  CertifiedReport report_;
+  std::string summary_;  // of the directory
+  bool interrupted_ = false;
+  Result rows_;
+};
+
+std::unique_ptr<Run> run(const std::string& text, const std::string& file, const Settings& settings,
+                         const std::optional<std::string>& path, bool force, const Stop* stop) {
+  std::unique_ptr<Run> ran;
   {
     const py::gil_scoped_release free;
-    model = build_model(scene);
-    if (path) directory.emplace(*path, scene, *model, RunDirectoryOptions{force, {"python"}});
-    kept.emplace(directory ? &*directory : nullptr);
-    report = simulate_certified(*model, scene.run, *kept, {{}, [&] { return kept->go_on(); }});
-    summary = directory ? directory->finish(report) : summary_json(scene, *model, report, {"python"});
+    ran = std::make_unique<Run>(parse_scene(text, file, overrides(settings)), path, force, stop);
   }
-  if (kept->interrupted()) throw py::error_already_set();
-  py::dict result;
-  result["events"] = event_table(contact_names(*model), kept->events);
-  if (report.certificate) {
-    const auto& errors = report.certificate->t_errors;
-    result["events"]["t_error"] = array({errors.begin(), errors.end()});
-  }
-  result["history"] = history_table(*model, kept->rows);
-  result["contacts"] = contact_tables(*model, kept->rows);
-  result["energy"] = energy_table(kept->rows);
-  result["history_units"] = history_units(*model);
-  result["response"] = response_table(*model, kept->responses);
-  result["response_units"] = response_units(*model);
-  result["summary"] = summary;
-  result["toml"] = scene.resolved;
-  return result;
+  if (!ran->interrupted()) return ran;
+  if (PyErr_Occurred() == nullptr) PyErr_SetString(PyExc_KeyboardInterrupt, "");
+  throw py::error_already_set();
 }
 
 /// Derivatives of landings by one parameter.
@@ -288,7 +322,7 @@ py::dict sensitivity(const std::string& text, const std::string& file, const std
     all.insert(all.end(), changes.begin(), changes.end());
     return parse_scene(text, file, all);
   };
-  Kept kept(nullptr);
+  Kept kept(nullptr, nullptr);
   std::optional<Sensitivities> s;
   {
     const py::gil_scoped_release free;
@@ -362,7 +396,17 @@ PYBIND11_MODULE(_signorini, module) {
       PyErr_SetObject(failure.ptr(), thrown.ptr());
     }
   });
+  py::class_<Stop>(module, "Stop").def(py::init<>()).def("ask", [](Stop& stop) { stop.asked = true; });
   module.attr("version") = version;
+  py::class_<Run>(module, "Run")
+      .def("events", &Run::events)
+      .def("history", &Run::history)
+      .def("contacts", &Run::contacts)
+      .def("energy", &Run::energy)
+      .def("response", &Run::response)
+      .def("units", &Run::units)
+      .def("summary", &Run::summary)
+      .def("toml", &Run::toml);
   module.def("run", &run);
   module.def("check", &check_scene);
   module.def("compare", &compare);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [calculix] [install] [cluster];
+# What is too long to run at every change. deep.sh [clang] [tidy] [threads] [kill] [names] [fuzz] [schema] [page] [python] [wheel] [calculix] [install] [cluster];
 # without arguments all of them.
 #   clang    builds everything with clang, warnings are errors, and runs the fast tests
 #   tidy     clang-tidy over all sources (.clang-tidy)
@@ -10,6 +10,7 @@
 #   schema   scenes against the schema, by Debian's jsonschema
 #   page     the pages of `report` in a headless Chromium; screenshots in build/page, to be looked at
 #   python   the Python package by pip, its tests and its tutorial
+#   wheel    the wheel on a bare Debian 12 without a compiler (needs root)
 #   calculix CalculiX computes the matrices of models/calculix again, and its frequencies are compared with ours
 #   install  the Debian package on a bare Debian 12 (needs root)
 #   cluster  sweeps under GNU parallel, mpirun, and an array of a Slurm of one node that is started for it (needs root)
@@ -77,6 +78,13 @@ python_package() {
   PYTHONPATH=build/pip /usr/bin/python3 -B tests/python/test_signorini.py
 }
 
+wheel() {
+  scripts/setup.sh debootstrap
+  rm -rf build/wheel
+  scripts/wheel.sh build/wheel
+  tests/install/wheel.sh build/wheel/signorini-*.whl
+}
+
 calculix() {
   scripts/setup.sh calculix-ccx python3
   build_program signorini_program
@@ -96,7 +104,7 @@ cluster() {
 }
 
 scripts/setup.sh
-[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python calculix install cluster
+[[ $# -gt 0 ]] || set -- clang tidy threads kill names fuzz schema page python wheel calculix install cluster
 for what in "$@"; do
   printf '\n== %s (%d s)\n' "$what" "$SECONDS"
   case "$what" in
@@ -108,10 +116,11 @@ for what in "$@"; do
     schema) scene_schema ;;
     page) page ;;
     python) python_package ;;
+    wheel) wheel ;;
     calculix) calculix ;;
     install) installed ;;
     cluster) cluster ;;
-    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, calculix, install, cluster" >&2; exit 2 ;;
+    *) echo "deep.sh: no part is called '$what': clang, tidy, threads, kill, names, fuzz, schema, page, python, wheel, calculix, install, cluster" >&2; exit 2 ;;
   esac
 done
 printf '\n== done (%d s)\n' "$SECONDS"

@@ -29,7 +29,13 @@ install(EXPORT signorini-targets NAMESPACE signorini:: DESTINATION ${config_dir}
 configure_package_config_file(scripts/signorini-config.cmake.in signorini-config.cmake
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(signorini-config-version.cmake COMPATIBILITY SameMinorVersion)
+# The headers that the library is built with, as they are when it is installed.
+install(CODE "include(\"${PROJECT_SOURCE_DIR}/scripts/interface.cmake\")
+interface_of(\"${PROJECT_SOURCE_DIR}\" interface)
+file(WRITE \"${PROJECT_BINARY_DIR}/signorini-interface.cmake\" \"set(signorini_INTERFACE \${interface})\\n\")"
+        COMPONENT development)
 install(FILES ${PROJECT_BINARY_DIR}/signorini-config.cmake ${PROJECT_BINARY_DIR}/signorini-config-version.cmake
+              ${PROJECT_BINARY_DIR}/signorini-interface.cmake
         DESTINATION ${config_dir} COMPONENT development)
 # The tree may be moved: the prefix is seen from the folder of the .pc file.
 file(RELATIVE_PATH from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)

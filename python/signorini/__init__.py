@@ -25,7 +25,7 @@ from . import _signorini
 from ._signorini import Error
 
 __version__ = _signorini.version
-__all__ = ["Error", "Result", "check", "compare", "run", "schema", "sensitivity", "sweep", "to_toml"]
+__all__ = ["Error", "Result", "check", "columns", "compare", "run", "schema", "sensitivity", "sweep", "to_toml"]
 
 
 def _quoted(text: str) -> str:
@@ -73,6 +73,10 @@ def _settings(settings) -> list[tuple[str, str]]:
     return [(path, to_toml(value)) for path, value in (settings or {}).items()]
 
 
+def _table(columns) -> dict:
+    return {name: numpy.asarray(values) for name, values in columns.items()}
+
+
 class Result:
     """What a run yields. Tables are dicts of NumPy arrays; texts (contact, event, state) are arrays of strings.
 
@@ -83,19 +87,37 @@ class Result:
     toml                       the scene with every default filled in
     """
 
-    def __init__(self, raw):
-        def table(columns):
-            return {name: numpy.asarray(values) for name, values in columns.items()}
+    _parts = ("events", "history", "energy", "contacts", "response", "units", "summary", "toml")
 
-        self.events = table(raw["events"])
-        self.history = table(raw["history"])
-        self.energy = table(raw["energy"])
-        self.contacts = {name: table(columns) for name, columns in raw["contacts"].items()}
-        self.response = table(raw["response"])
-        self.units = {**raw["response_units"], **raw["history_units"]}
-        self.summary = json.loads(raw["summary"])
-        self.scene_units = self.summary["units"]
-        self.toml = raw["toml"]
+    def __init__(self, run):
+        self._run = run
+
+    def __getattr__(self, name):
+        # Only what is asked for is converted, once: of a thousand runs one figure each is wanted.
+        if name not in self._parts:
+            raise AttributeError(f"'Result' object has no attribute '{name}'")
+        value = getattr(self._run, name)()
+        if name == "summary":
+            value = json.loads(value)
+        elif name == "contacts":
+            value = {contact: _table(columns) for contact, columns in value.items()}
+        elif name not in ("units", "toml"):
+            value = _table(value)
+        setattr(self, name, value)
+        return value
+
+    def __getstate__(self):
+        return {name: getattr(self, name) for name in self._parts}
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._parts]
+
+    @property
+    def scene_units(self) -> dict:
+        return self.summary["units"]
 
     @property
     def outcome(self) -> str:
@@ -118,8 +140,13 @@ class Result:
 def run(scene, settings=None, *, directory=None, force=False) -> Result:
     """Computes a scene. settings: {"run.rtol": 1e-10, "contacts.*.friction": 0.5}. With a directory, all files of
     `signorini run` but pictures are written, too. A run that stops early is a result; what cannot be run is an Error."""
+    return _run(scene, settings, directory, force, None)
+
+
+def _run(scene, settings, directory, force, stop) -> Result:
     text, file = _text(scene)
-    return Result(_signorini.run(text, file, _settings(settings), None if directory is None else os.fspath(directory), force))
+    folder = None if directory is None else os.fspath(directory)
+    return Result(_signorini.run(text, file, _settings(settings), folder, force, stop))
 
 
 def check(scene, settings=None) -> dict:
@@ -141,18 +168,37 @@ def compare(scene, engines, settings=None) -> dict:
 
 def sweep(scene, vary, settings=None, *, workers=None) -> list[tuple[dict, Result | Error]]:
     """Runs a scene for all combinations of {"PATH": values}, the last one fastest, several at a time. A run that is refused
-    is its Error in the list."""
+    is its Error in the list. Ctrl-C ends the runs in progress at their next step, and starts no other."""
     points = [dict(zip(vary, values)) for values in itertools.product(*vary.values())]
     scene = copy.deepcopy(scene) if isinstance(scene, dict) else scene
+    stop = _signorini.Stop()
 
     def one(point):
         try:
-            return run(scene, {**(settings or {}), **point, "run.certify": False})
+            return _run(scene, {**(settings or {}), **point, "run.certify": False}, None, False, stop)
         except Error as error:
             return error
 
-    with ThreadPoolExecutor(workers or os.cpu_count()) as pool:
+    pool = ThreadPoolExecutor(workers or os.cpu_count())
+    try:
         return list(zip(points, pool.map(one, points)))
+    except BaseException:
+        stop.ask()
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def columns(rows, **of) -> dict[str, numpy.ndarray]:
+    """The rows of a sweep as arrays, one value a row: each key that varies, `outcome` ("done", "stopped" or "refused"), and
+    what each of the functions `of` says about a Result. Where a run was refused that is nan."""
+    table = {path: numpy.asarray([point[path] for point, _ in rows]) for path in (rows[0][0] if rows else {})}
+    table["outcome"] = numpy.asarray(["refused" if isinstance(r, Error) else r.outcome for _, r in rows], dtype=str)
+    for name, function in of.items():
+        if name in table:
+            raise ValueError(f"{name}: is the name of a column already")
+        table[name] = numpy.asarray([math.nan if isinstance(r, Error) else function(r) for _, r in rows])
+    return table
 
 
 def sensitivity(scene, parameters, settings=None, *, losses=False, discrete=False) -> dict:

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Literal, Mapping, Sequence, TypedDict
+from typing import Any, Callable, Literal, Mapping, Sequence, TypedDict
 
 import numpy
 import pandas
@@ -39,6 +39,7 @@ def compare(scene: Scene, engines: Sequence[Engine], settings: Settings | None =
 def sweep(
     scene: Scene, vary: Mapping[str, Sequence[Any]], settings: Settings | None = None, *, workers: int | None = None
 ) -> list[tuple[dict[str, Any], Result | Error]]: ...
+def columns(rows: Sequence[tuple[dict[str, Any], Result | Error]], **of: Callable[[Result], Any]) -> Table: ...
 def sensitivity(
     scene: Scene,
     parameters: str | Sequence[str],

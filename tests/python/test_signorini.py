@@ -6,6 +6,7 @@ import contextlib
 import io
 import os
 import pathlib
+import pickle
 import re
 import signal
 import tempfile
@@ -113,6 +114,19 @@ class Run(unittest.TestCase):
         self.assertEqual(back['a"b'][8], [0, 1])
 
 
+class Kept(unittest.TestCase):
+    def test_a_result_survives_pickling_and_has_its_parts_by_name(self):
+        result = signorini.run(push)
+        again = pickle.loads(pickle.dumps(result))
+        self.assertEqual(again.outcome, "done")
+        np.testing.assert_array_equal(again.history["block.ux"], result.history["block.ux"])
+        self.assertEqual(again.toml, result.toml)
+        self.assertIs(result.events, result.events)
+        self.assertIn("events", dir(result))
+        with self.assertRaises(AttributeError):
+            result.evens
+
+
 class Others(unittest.TestCase):
     def test_check(self):
         facts = signorini.check(push)
@@ -130,6 +144,19 @@ class Others(unittest.TestCase):
         self.assertEqual([point["contacts.plate.friction"] for point, _ in rows], [0.3, 0.3, 0.5, 0.5, -1.0, -1.0])
         self.assertAlmostEqual(rows[1][1].history["block.ux"][-1], 0.75, places=9)
         self.assertIsInstance(rows[4][1], signorini.Error)
+
+    def test_columns_of_a_sweep(self):
+        rows = signorini.sweep(push, {"contacts.plate.friction": [0.3, 0.5, -1.0]}, {"run.engine": "exact"}, workers=2)
+        table = signorini.columns(rows, way=lambda result: result.history["block.ux"][-1])
+        self.assertEqual(list(table["contacts.plate.friction"]), [0.3, 0.5, -1.0])
+        self.assertEqual(list(table["outcome"]), ["done", "done", "refused"])
+        # x = 0.075 (6 - 10 f) / f
+        self.assertAlmostEqual(table["way"][0], 0.75, places=9)
+        self.assertAlmostEqual(table["way"][1], 0.15, places=9)
+        self.assertTrue(np.isnan(table["way"][2]))
+        self.assertEqual(signorini.columns([])["outcome"].size, 0)
+        with self.assertRaises(ValueError):
+            signorini.columns(rows, outcome=len)
 
     def test_sensitivity_by_hand(self):
         # a = 6 - 10 f for 0.5 s, then -10 f: it stops at 1 + 0.5 (6 - 10 f) / (10 f) = 0.5 + 0.3 / f.
@@ -169,6 +196,15 @@ class Manners(unittest.TestCase):
         with self.assertRaises(KeyboardInterrupt):
             signorini.run(self.belt, self.long)
         self.assertLess(time.monotonic() - start, 10.0)
+
+    def test_an_interrupt_ends_a_sweep_and_starts_no_other_run(self):
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        timer = threading.Timer(0.4, lambda: os.kill(os.getpid(), signal.SIGINT))
+        start = time.monotonic()
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            signorini.sweep(self.belt, {"contacts.belt.friction.static": [1.2, 1.3, 1.4, 1.5, 1.6]}, self.long, workers=2)
+        self.assertLess(time.monotonic() - start, 10.0)  # each of the five takes minutes
 
     def test_others_go_on_while_a_run_computes(self):
         counts = []

@@ -52,6 +52,7 @@ class Doubts {
     another_structure();
     pulses();
     sudden_supports();
+    sudden_heat();
     growth();
     for (std::string& doubt : hanger_doubts(model_)) found_.push_back(std::move(doubt));
     runs_away();
@@ -70,7 +71,8 @@ class Doubts {
       const bool idle =
           std::all_of(terms.begin(), terms.end(), [](const auto& t) { return t.second == 0.0; });
       if (idle && magnitude(load.history, scene_.run.t_end) > 0.0)
-        found_.push_back(load.name + " acts only along directions that supports fix: it has no effect");
+        found_.push_back(load.name +
+                         " acts only along directions that supports or rigid bodies hold: it moves nothing");
     }
   }
 
@@ -207,6 +209,23 @@ class Doubts {
                         order == 0 ? "motion" : "velocity", load.name));
         break;
       }
+    }
+  }
+
+  /// Static and frictional starts are without histories that are not constant; heat that is there from the start is meant.
+  void sudden_heat() {
+    if (scene_.initial.saved || !scene_.initial.stages.empty()) return;
+    if (!scene_.initial.is_static && !scene_.initial.is_frictional) return;
+    for (const Load& load : model_.loads) {
+      if (load.kind != LoadKind::temperature || load.history.is_constant() || load.history.value(0.0) == 0.0)
+        continue;
+      found_.push_back(
+          fmt::format("{} comes suddenly at t = 0, since its history is not constant: the static start is "
+                      "without it, and "
+                      "the structure will oscillate. With initial = \"frictional\" a stage in [[run.stages]] "
+                      "with loads = "
+                      "[\"temperature\"] starts in equilibrium with it",
+                      load.name));
     }
   }
 

@@ -87,6 +87,11 @@ void read_hanger(Table& table, Spring& spring) {
                fmt::format("the stiffness would be {:.6g}, expected > 0: the load falls where the node moves "
                            "against direction (travel > 0)",
                            spring.stiffness));
+  if (!(spring.preload >= 0.0))
+    hanger.fail("travel",
+                fmt::format("the load while nothing has moved would be {:.6g}, expected >= 0: it is "
+                            "hot + stiffness travel",
+                            spring.preload));
   hanger.finish();
   table.record("hanger", hanger.record().inline_table());
 }

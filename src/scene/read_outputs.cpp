@@ -241,7 +241,7 @@ void read_outputs(Table& top, Scene& scene, RecordedScene& record) {
     if (space.matrices && of_nodes_only(output.kind))
       table.fail("kind", fmt::format("found \"{}\", which has no meaning with [matrices]", kind));
     read_by_kind(table, output, scene, space);
-    table.finish(fmt::format("has no meaning for a {}", kind));
+    table.finish(fmt::format("has no meaning with kind = \"{}\"", kind));
     scene.outputs.push_back(std::move(output));
     record.add("output", "[[output]]", table.record());
   }

@@ -279,7 +279,7 @@ TEST_CASE("stresses at nodes of no body, and quantities of members there, are re
   refused("[[output]]\nname = \"o\"\nkind = \"stress\"\nat = \"strip.left\"\nquantity = \"xx\"\n",
           "strip.left");
   refused("[[output]]\nname = \"o\"\nkind = \"stress\"\nat = \"start\"\nquantity = \"xx\"\nstation = 0.5\n",
-          "has no meaning for a stress");
+          "has no meaning with kind = \"stress\"");
 }
 
 TEST_SUITE_END();

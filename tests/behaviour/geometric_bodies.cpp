@@ -112,6 +112,32 @@ TEST_CASE("an inverted pendulum on a spring: factor k/(m g h) and frequency; wit
                        doctest::Contains("0.75 times"), SceneError);
 }
 
+TEST_CASE(
+    "a spring within a body turns with it: its preload changes nothing, at any angle and in either "
+    "direction") {
+  const double m = 2.0, inertia = 0.3, g = 9.81, k = 60.0;
+  for (const double angle : {0.0, 0.7, 3.9}) {
+    const double x = std::sin(angle), y = std::cos(angle);  // the way up
+    const std::string up =
+        fmt::format("[nodes]\nA = [0.0, 0.0]\nT = [{:.17g}, {:.17g}]\nS = [0.4, -0.3]\n", 2.0 * x, 2.0 * y) +
+        fixed("A", "ux, uy") + body("b", fmt::format("[{:.17g}, {:.17g}]", x, y), "A, T, S", m, inertia) +
+        fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {}\n", k);
+    for (const double preload : {0.0, 10.0, 25.0, -10.0})
+      for (const char* other : {"T", "S"}) {
+        CAPTURE(angle);
+        CAPTURE(preload);
+        const Model model =
+            built(heavy(-g * x, -g * y, from_static) + up +
+                  fmt::format("[[springs]]\nnode = \"{}\"\nagainst = \"A\"\ndirection = [{:.17g}, "
+                              "{:.17g}]\npreload = {}\n",
+                              other, x, y, preload));
+        REQUIRE(model.geometric->load_factors.size() == 1);
+        CHECK(model.geometric->load_factors[0] == doctest::Approx(k / (m * g)).epsilon(1e-12));
+        CHECK(model.omega1 == doctest::Approx(std::sqrt((k - m * g) / (inertia + m))).epsilon(1e-12));
+      }
+  }
+}
+
 TEST_CASE("a base that accelerates from a stage on is weight the other way, at every angle") {
   const double m = 1.7, inertia = 0.23, g = 9.81, arm = 0.8, k = 21.0;
   const std::string stages =

@@ -170,7 +170,7 @@ TEST_CASE("outputs: what is wrong is said with its place") {
               output("x", "combination", "terms = { first = 1.0, g = 1.0 }")),
       "output.x.terms.g: found 'g' [m] beside 'first' [m/s], expected terms of one unit");
   has(refusal(output("x", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]\nstation = 0.5")),
-      "has no meaning for a velocity");
+      "has no meaning with kind = \"velocity\"");
   const Scene scene = parse_scene(frame(reactions + cut("M", "M", 0.3)), "test.toml", {});
   CHECK(parse_scene(scene.resolved, "test.toml", {}).resolved == scene.resolved);
   CHECK(parse_scene(scene.resolved, "test.toml", {}).outputs.size() == 5);

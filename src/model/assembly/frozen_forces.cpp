@@ -147,8 +147,18 @@ class Gathering {
             forces[static_cast<Eigen::Index>(j)];
   }
 
+  /// It turns with the body, and its two forces have no moment however the body turns.
+  [[nodiscard]] bool is_within_body(const Spring& spring) const {
+    if (spring.against.empty()) return false;
+    const auto owner = [&](const std::string& node) {
+      return map_.body[static_cast<std::size_t>(map_.mesh.by_name.at(node))];
+    };
+    return owner(spring.node) != DofMap::absent && owner(spring.node) == owner(spring.against);
+  }
+
   void add_spring(std::size_t i) {
     const Spring& spring = scene_.springs[i];
+    if (is_within_body(spring)) return;
     const Plane d = unit_of(spring.direction);
     double elongation = 0.0;
     const auto take = [&](const std::string& node, double sign) {

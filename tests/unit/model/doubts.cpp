@@ -27,7 +27,8 @@ bool says(const std::vector<std::string>& doubts, const std::string& words) {
 TEST_SUITE_BEGIN("unit/model/doubts");
 
 TEST_CASE("a load along what a support holds") {
-  CHECK(says(doubts_of("load-on-held"), "load 1 acts only along directions that supports fix"));
+  CHECK(says(doubts_of("load-on-held"),
+             "load 1 acts only along directions that supports or rigid bodies hold"));
   CHECK(doubts_of("load-on-held", {{"loads.1.amplitude", "0.0"}}).empty());
   CHECK(doubts_of("load-on-held", {{"loads.1.direction", "[1.0, 1.0]"}}).empty());
 }
@@ -132,6 +133,30 @@ TEST_CASE("supports that move at once") {
              "the velocity of 'support A.uy' jumps at t = 0"));
   CHECK(says(held("{ type = \"step\" }"), "the motion of 'support A.uy' jumps at t = 0"));
   CHECK(held("{ type = \"polynomial\", coefficients = [0.0, 0.0, 1.0] }").empty());
+}
+
+TEST_CASE("heat whose history is not constant is not in a static start") {
+  using namespace tests::parts;
+  const auto heated = [](const std::string& temperature, const std::string& initial) {
+    return build_model(
+               parse_scene(
+                   head + run_table(1.0, 0.1) + initial + section(1e5, 3e3, 0.3) +
+                       nodes({{"A", 0, 0}, {"B", 3, 1}}) +
+                       member("A, B", "mass = \"lumped\"\nthermal_expansion = 1.2e-5\ntemperature = " +
+                                          temperature + "\n") +
+                       fixed("A", "ux, uy, rz"),
+                   "test.toml"))
+        .warnings;
+  };
+  const std::string table = "{ type = \"table\", times = [0.0, 1.0], values = [20.0, 20.0], hold = true }",
+                    from_zero = "{ type = \"table\", times = [0.0, 1.0], values = [0.0, 20.0], hold = true }",
+                    start = "initial = \"static\"\n", slow = "initial = \"frictional\"\n";
+  CHECK(says(heated(table, start), "comes suddenly at t = 0"));
+  CHECK(says(heated(table, slow), "comes suddenly at t = 0"));
+  CHECK(heated(table, slow + "[[run.stages]]\nname = \"hot\"\nloads = [\"temperature\"]\n").empty());
+  CHECK(heated(from_zero, start).empty());
+  CHECK(heated("20.0", start).empty());
+  CHECK_FALSE(says(heated(table, ""), "suddenly"));
 }
 
 TEST_SUITE_END();

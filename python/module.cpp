@@ -151,8 +151,7 @@ py::dict history_table(const Model& model, const std::vector<Result::Row>& rows)
   py::dict table;
   table["t"] = column(rows, [](const auto& row) { return row.t; });
   for (const Column& c : model.columns)
-    table[c.name.c_str()] =
-        column(rows, [&](const auto& row) { return (c.velocity ? row.v : row.u)[c.dof]; });
+    table[c.name.c_str()] = column(rows, [&](const auto& row) { return c.of(row.u, row.v); });
   return table;
 }
 
@@ -207,10 +206,7 @@ py::dict response_units(const Model& model) {
 py::dict history_units(const Model& model) {
   py::dict units;
   units["t"] = model.units.time;
-  for (const Column& c : model.columns) {
-    const std::string what = model.turns(c) ? "rad" : model.units.length;
-    units[c.name.c_str()] = c.velocity ? what + "/" + model.units.time : what;
-  }
+  for (const Column& c : model.columns) units[c.name.c_str()] = model.unit_of(c);
   return units;
 }
 

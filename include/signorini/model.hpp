@@ -36,6 +36,11 @@ struct Column {
   std::string name;
   int dof = 0;  ///< physical
   bool velocity = false;
+
+  /// Its value in u and v of the physical degrees of freedom; 0 where it has none of them.
+  [[nodiscard]] double of(const Vector& u, const Vector& v) const {
+    return dof < 0 ? 0.0 : (velocity ? v : u)[dof];
+  }
 };
 
 /// What a load comes from. temperature, initial_strain: of a member; preload: of a spring; support: where one that moves is;
@@ -257,6 +262,11 @@ struct Model {
   /// Of a rotation, or of an angular velocity?
   [[nodiscard]] bool turns(const Column& column) const {
     return column.dof >= 0 && physical_dofs()[static_cast<std::size_t>(column.dof)].rotation;
+  }
+  /// "m", "rad/s"
+  [[nodiscard]] std::string unit_of(const Column& column) const {
+    const std::string of_motion = turns(column) ? "rad" : units.length;
+    return column.velocity ? of_motion + "/" + units.time : of_motion;
   }
 };
 

@@ -474,8 +474,7 @@ inline constexpr std::array all_output_kinds = {
                    "N, V or M of the piece of a member between two nodes, at a station"},
     OutputKindName{OutputKind::stress, "stress",
                    "N / area +- M / modulus of the piece of a member between two nodes, at a station; or a "
-                   "component of the "
-                   "stress at a node of a body"},
+                   "component of the stress at a node of a body"},
     OutputKindName{OutputKind::envelope, "envelope",
                    "greatest magnitude of N, V, M or stress along pieces of members"},
     OutputKindName{OutputKind::reaction, "reaction",

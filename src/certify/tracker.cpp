@@ -13,8 +13,7 @@ void Tracker::event(const Event& event) {
 void Tracker::sample(const Sample& sample) {
   rows.t.push_back(sample.t);
   for (const Column& column : model_.columns) {
-    const Vector& vector = column.velocity ? *sample.v : *sample.u;
-    rows.values.push_back(column.dof < 0 ? 0.0 : vector[column.dof]);
+    rows.values.push_back(column.of(*sample.u, *sample.v));
   }
   if (all_) {
     for (const ContactSample& contact : sample.contacts)

@@ -348,14 +348,9 @@ std::string check_text(const Scene& scene, const Model& model, const CheckReport
 }
 
 std::string column_text(const Model& model) {
-  const Units& u = model.units;
   Table table({"", ""}, {false, false});
-  table.row({"t", u.time});
-  for (const Column& column : model.columns) {
-    const Dof& dof = model.physical_dofs()[static_cast<std::size_t>(column.dof)];
-    const std::string what = dof.rotation ? "rad" : u.length;
-    table.row({column.name, column.velocity ? what + "/" + u.time : what});
-  }
+  table.row({"t", model.units.time});
+  for (const Column& column : model.columns) table.row({column.name, model.unit_of(column)});
   return "\ncolumns of history.csv:" + table.str();
 }
 

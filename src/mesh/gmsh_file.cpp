@@ -11,6 +11,7 @@
 
 #include "mesh/gmsh_words.hpp"
 #include "mesh/plane_shapes.hpp"
+#include "mesh/shared_edges.hpp"
 
 namespace signorini {
 namespace {
@@ -229,7 +230,7 @@ class BodyBuilder {
     check_used();
     add_elements(surfaces);
     check_elements(mesh_, key_);
-    find_edges();
+    add_edges(mesh_.elements, edges_);
     for (const RawElement& raw : content_.elements)
       if (raw.type->dimension < 2) add_to_groups(raw);
     check_boundaries();
@@ -289,15 +290,6 @@ class BodyBuilder {
     return own;
   }
 
-  void find_edges() {
-    for (const PlaneMesh::Element& element : mesh_.elements)
-      for (std::size_t i = 0; i < corner_count(element.shape); ++i) {
-        std::vector<int> nodes = edge_nodes(element, i);
-        const auto ends = std::minmax(nodes[0], nodes[1]);
-        ++edges_.try_emplace(ends, SharedEdge{std::move(nodes), 0}).first->second.elements;
-      }
-  }
-
   PlaneMesh::Group& group(const std::string& name) {
     for (PlaneMesh::Group& g : mesh_.groups)
       if (g.name == name) return g;
@@ -344,12 +336,7 @@ class BodyBuilder {
   const std::string &file_, &key_;
   std::vector<int> index_;
   PlaneMesh mesh_;
-  /// By its ends: the nodes, with an element to their left, and how many elements have it.
-  struct SharedEdge {
-    std::vector<int> nodes;
-    int elements = 0;
-  };
-  std::map<std::pair<int, int>, SharedEdge> edges_;
+  SharedEdges edges_;
   std::set<std::pair<std::string, const SharedEdge*>> taken_;
   std::set<std::pair<std::string, int>> in_group_;
   std::map<std::string, const RawElement*> inside_;  ///< a line of a group that lies inside of the body

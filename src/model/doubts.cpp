@@ -219,13 +219,11 @@ class Doubts {
     for (const Load& load : model_.loads) {
       if (load.kind != LoadKind::temperature || load.history.is_constant() || load.history.value(0.0) == 0.0)
         continue;
-      found_.push_back(
-          fmt::format("{} comes suddenly at t = 0, since its history is not constant: the static start is "
-                      "without it, and "
-                      "the structure will oscillate. With initial = \"frictional\" a stage in [[run.stages]] "
-                      "with loads = "
-                      "[\"temperature\"] starts in equilibrium with it",
-                      load.name));
+      found_.push_back(fmt::format(
+          "{} comes suddenly at t = 0, since its history is not constant: the static start is "
+          "without it, and the structure will oscillate. With initial = \"frictional\" a stage in "
+          "[[run.stages]] with loads = [\"temperature\"] starts in equilibrium with it",
+          load.name));
     }
   }
 

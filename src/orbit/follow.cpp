@@ -314,18 +314,12 @@ void BranchWalk::walk(Corrected here) {
 Branch BranchWalk::follow() {
   Corrected here;
   if (!begin(here)) return std::move(branch_);
-  const auto refused = [&](const Error& error) {
-    branch_.end = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
-                              branch_.points.back().parameter, error.what());
-  };
   try {
     walk(std::move(here));
-  } catch (const SceneError& error) {
-    if (branch_.points.size() < 2) throw;
-    refused(error);
-  } catch (const UsageError& error) {
-    if (branch_.points.size() < 2) throw;
-    refused(error);
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::file || branch_.points.size() < 2) throw;
+    branch_.end = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
+                              branch_.points.back().parameter, error.what());
   }
   if (branch_.end.empty())
     branch_.end = branch_.interrupted

@@ -6,10 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "report/drawn_lines.hpp"
-#include "result/csv.hpp"
+#include "report/vtk.hpp"
 #include "result/frame_data.hpp"
 #include "result/plot_folder.hpp"
 
@@ -58,42 +57,24 @@ class Grid {
     return count_++;
   }
   void cell(int type, const std::vector<std::size_t>& corners, int kind, int state = -1, int item = -1) {
-    for (const std::size_t corner : corners) connectivity_ += fmt::format("{} ", corner);
-    connectivity_ += "\n";
-    end_ += corners.size();
-    offsets_ += fmt::format("{} ", end_);
-    types_ += fmt::format("{} ", type);
+    cells_.add(type, corners);
     kinds_ += fmt::format("{} ", kind);
     states_ += fmt::format("{} ", state);
     items_ += fmt::format("{} ", item);
-    ++cells_;
   }
   [[nodiscard]] std::string text() const {
-    std::string s =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-        "byte_order=\"LittleEndian\">\n"
-        "<UnstructuredGrid>\n";
-    s += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", count_, cells_);
-    s += "<Points>\n" + array("Float64", "points", points_, 3) + "</Points>\n<Cells>\n";
-    s += array("Int64", "connectivity", connectivity_) + array("Int64", "offsets", offsets_) +
-         array("UInt8", "types", types_) + "</Cells>\n";
-    s += "<PointData Vectors=\"displacement\">\n" + array("Float64", "displacement", displacements_, 3) +
-         array("Float64", "force", forces_, 3) + "</PointData>\n";
-    s += "<CellData Scalars=\"state\">\n" + array("Int32", "kind", kinds_) +
-         array("Int32", "state", states_) + array("Int32", "item", items_) + "</CellData>\n";
-    return s + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    return vtk_grid(
+        points_, count_, cells_,
+        "<PointData Vectors=\"displacement\">\n" + vtk_array("Float64", "displacement", displacements_, 3) +
+            vtk_array("Float64", "force", forces_, 3) + "</PointData>\n<CellData Scalars=\"state\">\n" +
+            vtk_array("Int32", "kind", kinds_) + vtk_array("Int32", "state", states_) +
+            vtk_array("Int32", "item", items_) + "</CellData>\n");
   }
 
  private:
-  std::string points_, displacements_, forces_, connectivity_, offsets_, types_, kinds_, states_, items_;
-  std::size_t count_ = 0, cells_ = 0, end_ = 0;
-
-  static std::string array(std::string_view type, std::string_view name, const std::string& values,
-                           int components = 1) {
-    return fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n",
-        type, name, components, values);
-  }
+  std::string points_, displacements_, forces_, kinds_, states_, items_;
+  VtkCells cells_;
+  std::size_t count_ = 0;
 };
 
 constexpr int vertex = 1, line = 3, polyline = 4;  // VTK's numbers of cells
@@ -192,15 +173,9 @@ std::string vtu_frame(const Json& data, double t) {
 fs::path write_paraview(const fs::path& directory, const Json& data, const std::vector<double>& times) {
   const fs::path folder = directory / "paraview";
   begin_plot_folder(folder, is_paraview);
-  std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  int number = 0;
-  for (const double t : times) {
-    const std::string name = fmt::format("frame-{:04}.vtu", ++number);
-    write_file(folder / name, vtu_frame(data, t));
-    list += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", t, name);
-  }
-  write_file(folder / "run.pvd", list + "</Collection>\n</VTKFile>\n");
-  return folder / "run.pvd";
+  VtkSeries series(folder, "frame");
+  for (const double t : times) series.add(t, vtu_frame(data, t));
+  return series.finish("run.pvd");
 }
 
 }  // namespace signorini

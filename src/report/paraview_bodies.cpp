@@ -2,14 +2,15 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "mesh/plane_shapes.hpp"
-#include "result/csv.hpp"
+#include "report/vtk.hpp"
 #include "result/csv_read.hpp"
-#include "signorini/contact.hpp"
+#include "result/plot_parts.hpp"
 
 namespace signorini {
 
@@ -44,23 +45,17 @@ std::vector<BodiesAt> read_bodies_at(const TableFolder& tables) {
   return all;
 }
 
-/// Numbers of states in files for ParaView.
-int number_of_state(std::string_view name) {
-  constexpr std::array<std::string_view, 5> names = {"stick", "slip+", "slip-", "closed", "open"};
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<int>(i);
-  return -1;
-}
-
 std::vector<SeamNodeAt> read_seams_at(const TableFolder& tables) {
   std::vector<SeamNodeAt> all;
   if (!tables.has("frame_seams.csv")) return all;
   CsvReader rows = tables.open("frame_seams.csv");
   const std::size_t p = rows.column("pressure"), tau = rows.column("shear"), opening = rows.column("opening"),
                     state = rows.column("state");
+  const std::vector<std::string>& names = state_names();
   while (rows.next())
-    all.push_back({rows.t(), rows.number(p), rows.number(tau), rows.number(opening),
-                   number_of_state(rows.cell(state))});
+    all.push_back(
+        {rows.t(), rows.number(p), rows.number(tau), rows.number(opening),
+         static_cast<int>(std::find(names.begin(), names.end(), rows.cell(state)) - names.begin())});
   return all;
 }
 
@@ -79,13 +74,6 @@ int cell_type(PlaneShape shape) {
   return 23;
 }
 
-std::string data_array(std::string_view type, std::string_view name, const std::string& values,
-                       int components = 1) {
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}\n</DataArray>\n",
-      type, name, components, values);
-}
-
 /// The mesh of all bodies, and the nodes of the seams, as text that all frames share.
 class BodyCells {
  public:
@@ -100,7 +88,7 @@ class BodyCells {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       for (const PlaneMesh::Element& e : scene.bodies[i].mesh.elements)
         cell(cell_type(e.shape), e.nodes, static_cast<int>(i), -1);
-    elements_ = cells_;
+    elements_ = cells_.count();
     for (std::size_t i = 0; i < scene.seams.size(); ++i)
       for (const SeamNode& node : scene.seams[i].nodes) cell(1, {node.node}, -1, static_cast<int>(i));
   }
@@ -110,21 +98,19 @@ class BodyCells {
 
  private:
   void cell(int type, const std::vector<int>& nodes, int body, int seam) {
-    for (const int n : nodes) connectivity_ += fmt::format("{} ", point_of_[static_cast<std::size_t>(n)]);
-    connectivity_ += "\n";
-    end_ += nodes.size();
-    offsets_ += fmt::format("{} ", end_);
-    types_ += fmt::format("{} ", type);
+    std::vector<std::size_t> corners;
+    for (const int n : nodes) corners.push_back(point_of_[static_cast<std::size_t>(n)]);
+    cells_.add(type, corners);
     bodies_ += fmt::format("{} ", body);
     seams_ += fmt::format("{} ", seam);
-    ++cells_;
   }
   [[nodiscard]] std::string point_data(const BodiesAt& at, const std::vector<SeamNodeAt>& seams) const;
 
   const Scene& scene_;
-  std::string points_, connectivity_, offsets_, types_, bodies_, seams_;
+  std::string points_, bodies_, seams_;
+  VtkCells cells_;
   std::vector<std::size_t> point_of_;  // a node of the scene
-  std::size_t count_ = 0, cells_ = 0, elements_ = 0, end_ = 0;
+  std::size_t count_ = 0, elements_ = 0;
 };
 
 /// seams: rows of all seams, in their order; empty: the run has no such table.
@@ -149,9 +135,9 @@ std::string BodyCells::point_data(const BodiesAt& at, const std::vector<SeamNode
   std::string tractions;
   for (const auto& [x, y] : traction) tractions += fmt::format("{:.7g} {:.7g} 0\n", x, y);
   return "<PointData Scalars=\"mises\" Vectors=\"displacement\">\n" +
-         data_array("Float64", "displacement", displacements, 3) +
-         data_array("Float64", "stress", stresses, 3) + data_array("Float64", "mises", mises) +
-         data_array("Float64", "traction", tractions, 3) + "</PointData>\n";
+         vtk_array("Float64", "displacement", displacements, 3) +
+         vtk_array("Float64", "stress", stresses, 3) + vtk_array("Float64", "mises", mises) +
+         vtk_array("Float64", "traction", tractions, 3) + "</PointData>\n";
 }
 
 std::string BodyCells::frame(const BodiesAt& at, const std::vector<SeamNodeAt>& seams) const {
@@ -162,23 +148,16 @@ std::string BodyCells::frame(const BodiesAt& at, const std::vector<SeamNodeAt>& 
     openings += fmt::format("{:.7g} ", opening);
   };
   for (std::size_t i = 0; i < elements_; ++i) add(-1, 0.0, 0.0);
-  for (std::size_t i = elements_; i < cells_; ++i)
+  for (std::size_t i = elements_; i < cells_.count(); ++i)
     if (const std::size_t row = i - elements_; row < seams.size())
       add(seams[row].state, seams[row].pressure, seams[row].opening);
     else
       add(-1, 0.0, 0.0);
-  std::string s =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-      "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
-  s += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", count_, cells_);
-  s += "<Points>\n" + data_array("Float64", "points", points_, 3) + "</Points>\n<Cells>\n";
-  s += data_array("Int64", "connectivity", connectivity_) + data_array("Int64", "offsets", offsets_) +
-       data_array("UInt8", "types", types_) + "</Cells>\n";
-  s += point_data(at, seams) + "<CellData Scalars=\"body\">\n" + data_array("Int32", "body", bodies_) +
-       data_array("Int32", "seam", seams_) + data_array("Int32", "state", states) +
-       data_array("Float64", "pressure", pressures) + data_array("Float64", "opening", openings) +
-       "</CellData>\n";
-  return s + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return vtk_grid(points_, count_, cells_,
+                  point_data(at, seams) + "<CellData Scalars=\"body\">\n" +
+                      vtk_array("Int32", "body", bodies_) + vtk_array("Int32", "seam", seams_) +
+                      vtk_array("Int32", "state", states) + vtk_array("Float64", "pressure", pressures) +
+                      vtk_array("Float64", "opening", openings) + "</CellData>\n");
 }
 
 }  // namespace
@@ -186,22 +165,17 @@ std::string BodyCells::frame(const BodiesAt& at, const std::vector<SeamNodeAt>& 
 std::optional<fs::path> write_paraview_bodies(const fs::path& directory, const Scene& scene) {
   const TableFolder tables(directory);
   if (scene.bodies.empty() || !tables.has("frame_bodies.csv")) return std::nullopt;
-  const fs::path folder = directory / "paraview";
+  VtkSeries series(directory / "paraview", "body");
   const BodyCells cells(scene);
   const std::vector<SeamNodeAt> seams = read_seams_at(tables);
-  std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-  int number = 0;
   std::size_t row = 0;
   for (const BodiesAt& at : read_bodies_at(tables)) {
     if (at.nodes.size() != cells.points()) break;  // of a run that was killed
     std::vector<SeamNodeAt> own;
     for (; row < seams.size() && seams[row].t == at.t; ++row) own.push_back(seams[row]);
-    const std::string name = fmt::format("body-{:04}.vtu", ++number);
-    write_file(folder / name, cells.frame(at, own));
-    list += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", at.t, name);
+    series.add(at.t, cells.frame(at, own));
   }
-  write_file(folder / "bodies.pvd", list + "</Collection>\n</VTKFile>\n");
-  return folder / "bodies.pvd";
+  return series.finish("bodies.pvd");
 }
 
 }  // namespace signorini

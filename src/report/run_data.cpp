@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "base/thinned.hpp"
-#include "mesh/plane_shapes.hpp"
+#include "mesh/shared_edges.hpp"
 #include "model/element/element_kinds.hpp"
 #include "report/drawn_lines.hpp"
 #include "result/csv_read.hpp"
@@ -201,17 +201,8 @@ Json pieces_json(const Scene& scene, const Places& places) {
 /// Edges of the elements of bodies as pairs of nodes; of large meshes the boundaries alone.
 Json mesh_json(const Scene& scene) {
   constexpr std::size_t most_edges = 6000;
-  struct Drawn {
-    std::vector<int> nodes;
-    int elements = 0;
-  };
-  std::map<std::pair<int, int>, Drawn> edges;
-  for (const BodySpec& body : scene.bodies)
-    for (const PlaneMesh::Element& e : body.mesh.elements)
-      for (std::size_t i = 0; i < corner_count(e.shape); ++i) {
-        std::vector<int> nodes = edge_nodes(e, i);
-        ++edges.try_emplace(std::minmax(nodes[0], nodes[1]), Drawn{nodes, 0}).first->second.elements;
-      }
+  SharedEdges edges;
+  for (const BodySpec& body : scene.bodies) add_edges(body.mesh.elements, edges);
   Json mesh = Json::array();
   for (const auto& [ends, edge] : edges) {
     if (edges.size() > most_edges && edge.elements > 1) continue;

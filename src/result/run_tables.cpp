@@ -53,8 +53,7 @@ const CsvTable<ContactRow>& contact_table() {
 CsvTable<Sample> history_table(const Model& model) {
   CsvTable<Sample> table = {{"t", &Sample::t}};
   for (const Column& column : model.columns)
-    table.add(column.name,
-              [&column](const Sample& s) { return at(column.velocity ? *s.v : *s.u, column.dof); });
+    table.add(column.name, [&column](const Sample& s) { return column.of(*s.u, *s.v); });
   return table;
 }
 

@@ -68,8 +68,7 @@ void RateRecord::sample(const Sample& s) {
   if (recorder_) recorder_->sample(s);
   result_.times.push_back(s.t);
   std::vector<double>& row = result_.values.emplace_back();
-  for (const Column& column : model_.columns)
-    row.push_back(column.dof < 0 ? 0.0 : (column.velocity ? *s.v : *s.u)[column.dof]);
+  for (const Column& column : model_.columns) row.push_back(column.of(*s.u, *s.v));
   for (const ContactSample& c : s.contacts)
     for (const double x : {c.N, c.T, c.ut, c.slip, c.gap}) row.push_back(x);
   if (!landings_) return;
@@ -101,8 +100,7 @@ void RateRecord::add_row(const TangentSample& s) {
     const Vector u = physical(model_.physical(w.u), model_.physical_dofs(), 0, model_.unit);
     const Vector v = physical(model_.physical(w.v), model_.physical_dofs(), 1, model_.unit);
     std::size_t at = 0;
-    for (const Column& column : model_.columns)
-      row[at++] = column.dof < 0 ? 0.0 : (column.velocity ? v : u)[column.dof];
+    for (const Column& column : model_.columns) row[at++] = column.of(u, v);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c) {
       const Contact& contact = model_.contacts[c];
       const ContactRates& rates = derivatives_[p].contacts[c];

@@ -194,11 +194,21 @@ DofMap number_nodes(const Scene& scene, Mesh mesh) {
   return map;
 }
 
-bool DofMap::within_body(const FiniteElement& e) const {
-  const int owner = body[static_cast<std::size_t>(e.nodes().front())];
-  if (owner == absent || e.has_own()) return false;
-  return std::all_of(e.nodes().begin(), e.nodes().end(),
-                     [&](int node) { return body[static_cast<std::size_t>(node)] == owner; });
+bool DofMap::within_body(const FiniteElement& e) const { return !e.has_own() && in_one_body(e.nodes()); }
+
+bool DofMap::in_one_body(const std::vector<int>& nodes) const {
+  const int owner = body[static_cast<std::size_t>(nodes.front())];
+  return owner != absent && std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+           return body[static_cast<std::size_t>(node)] == owner;
+         });
+}
+
+void DofMap::tie(int node, std::size_t c, std::vector<TiedTerm> terms) {
+  number[static_cast<std::size_t>(node)][c] = size() + static_cast<int>(tied.size());
+  const PlaneComponent& component = plane_components[c];
+  const std::string name = mesh.node(node).name + ".";
+  tied.push_back({{name + component.displacement, name + component.velocity, component.rotation, false},
+                  std::move(terms)});
 }
 
 std::vector<TiedTerm> DofMap::terms(int n) const {

@@ -58,6 +58,10 @@ struct DofMap {
   [[nodiscard]] bool is_tied(int n) const { return n >= size(); }
   /// All nodes move with one rigid body, and no unknown is its own: nothing strains the element.
   [[nodiscard]] bool within_body(const FiniteElement& e) const;
+  /// All of these mesh nodes move with one rigid body.
+  [[nodiscard]] bool in_one_body(const std::vector<int>& nodes) const;
+  /// Lets component c of a mesh node follow these.
+  void tie(int node, std::size_t c, std::vector<TiedTerm> terms);
   /// What a number stands for: degrees of freedom and codes of moving supports; nothing where fixed or absent.
   [[nodiscard]] std::vector<TiedTerm> terms(int n) const;
   /// form += factor times the motion under a number; what supports move drops out.

@@ -149,11 +149,8 @@ class Gathering {
 
   /// It turns with the body, and its two forces have no moment however the body turns.
   [[nodiscard]] bool is_within_body(const Spring& spring) const {
-    if (spring.against.empty()) return false;
-    const auto owner = [&](const std::string& node) {
-      return map_.body[static_cast<std::size_t>(map_.mesh.by_name.at(node))];
-    };
-    return owner(spring.node) != DofMap::absent && owner(spring.node) == owner(spring.against);
+    return !spring.against.empty() &&
+           map_.in_one_body({map_.mesh.by_name.at(spring.node), map_.mesh.by_name.at(spring.against)});
   }
 
   void add_spring(std::size_t i) {

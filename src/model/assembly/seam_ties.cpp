@@ -69,16 +69,10 @@ void tie_seams(const Scene& scene, DofMap& map) {
   for (const TieSpec& tie : scene.ties)
     for (const std::size_t c : {std::size_t(0), std::size_t(1)}) {
       std::vector<TiedTerm> terms = followed(tie, c, map);
-      int& number = map.number[static_cast<std::size_t>(tie.node)][c];
-      if (terms.empty()) {
-        number = DofMap::fixed;
-        continue;
-      }
-      number = map.size() + static_cast<int>(map.tied.size());
-      const std::string name = map.mesh.node(tie.node).name + ".";
-      map.tied.push_back(
-          {{name + plane_components[c].displacement, name + plane_components[c].velocity, false, false},
-           std::move(terms)});
+      if (terms.empty())
+        map.number[static_cast<std::size_t>(tie.node)][c] = DofMap::fixed;
+      else
+        map.tie(tie.node, c, std::move(terms));
     }
 }
 

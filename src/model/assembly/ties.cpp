@@ -111,21 +111,16 @@ std::vector<TiedTerm> terms_of(const BodyMotion& body, int node, std::size_t c, 
 }
 
 void tie_component(const BodyMotion& body, int node, std::size_t c, DofMap& map) {
-  int& number = map.number[place_of_node(node)][c];
   int& moving = map.moving[place_of_node(node)][c];
   std::vector<TiedTerm> terms = terms_of(body, node, c, map);
   // As a node does that the support itself holds; times an arm it is another motion.
   const bool follows = body.holds[c] && body.holds[c]->moving >= 0 && terms.size() == 1;
   moving = follows ? DofMap::moving_of_code(terms[0].number) : DofMap::absent;
   if (terms.empty() || follows) {
-    number = DofMap::fixed;
+    map.number[place_of_node(node)][c] = DofMap::fixed;
     return;
   }
-  number = map.size() + static_cast<int>(map.tied.size());
-  const std::string name = map.mesh.nodes[place_of_node(node)].name + ".";
-  map.tied.push_back({{name + plane_components[c].displacement, name + plane_components[c].velocity,
-                       plane_components[c].rotation, false},
-                      std::move(terms)});
+  map.tie(node, c, std::move(terms));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+
 namespace signorini {
 namespace {
 

@@ -11,8 +11,8 @@
 // A lumped mass: t3 and q4 by sums of rows; t6 and q8 by the diagonal, scaled to the whole mass, so that none is negative.
 // Stresses are taken at Barlow's points and extended to the nodes: there their error has the order of the displacements' next to
 // a node, not that of the strains.
-// Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211; Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct.
-// Dyn. 4 (1976) 245.
+// Source: Barlow, Int. J. Numer. Meth. Eng. 10 (1976) 243; Taylor, Beresford, Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211;
+// Hinton, Rock, Zienkiewicz, Earthq. Eng. Struct. Dyn. 4 (1976) 245.
 #pragma once
 
 #include "mesh/plane_shapes.hpp"

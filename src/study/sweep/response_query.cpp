@@ -9,7 +9,6 @@
 
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
-#include "base/suggest.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -25,19 +24,6 @@ constexpr std::array words{
     Word{"max", Kind::max},     Word{"min", Kind::min},           Word{"abs", Kind::abs},
     Word{"tmax", Kind::tmax},   Word{"tmin", Kind::tmin},         Word{"end", Kind::end},
     Word{"count", Kind::count}, Word{"residual", Kind::residual}, Word{"impulse", Kind::impulse}};
-
-template <class List>
-std::vector<std::string> names_of(const List& list) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.push_back(item.name);
-  return names;
-}
-
-void check_known(const std::string& option, const char* what, const std::string& name,
-                 const std::vector<std::string>& known) {
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw UsageError(fmt::format("{}: unknown {} \"{}\"{}", option, what, name, suggestion(name, known)));
-}
 
 std::size_t index_of(const std::string& name, const Model& model) {
   std::size_t k = 0;
@@ -76,11 +62,9 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
     return query;
   }
   if (query.kind == Kind::count) {
-    check_known(option, "event", query.name, names_of(all_event_types));
-    for (const EventTypeName& type : all_event_types)
-      if (query.name == type.name) query.event = type.type;
-    query.name = behind;
-    if (at != std::string::npos) check_known(option, "contact", behind, contacts);
+    check_known(option, "event", query.name, event_names());
+    query.event = parse_event_query(option, rest, model).value();
+    query.name = query.event.contact;
     return query;
   }
   check_known(option, "contact", query.name, contacts);
@@ -100,11 +84,7 @@ Answers::Answers(const std::vector<ResponseQuery>& queries, const Model& model)
 void Answers::event(const Event& event) {
   for (std::size_t i = 0; i < queries_.size(); ++i) {
     const ResponseQuery& query = queries_[i];
-    if (query.kind != Kind::count || query.event != event.type) continue;
-    const bool here =
-        query.name.empty() ||
-        (event.contact >= 0 && model_.contacts[static_cast<std::size_t>(event.contact)].name == query.name);
-    counts_[i] += here ? 1.0 : 0.0;
+    if (query.kind == Kind::count && query.event.meets(event, model_)) counts_[i] += 1.0;
   }
   for (const int part : {event.contact, static_cast<int>(event.type), static_cast<int>(event.to)})
     sequence_ = (sequence_ ^ static_cast<std::uint64_t>(part + 1)) * 1099511628211U;

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "signorini/result.hpp"
+#include "study/sweep/event_query.hpp"
 
 namespace signorini {
 
@@ -22,7 +22,7 @@ struct ResponseQuery {
   enum class Kind { max, min, abs, tmax, tmin, end, residual, count, impulse } kind = Kind::max;
   std::string text;        ///< as given: the name of the column
   std::string name;        ///< of an output or a contact; count: empty for all
-  EventType event{};       ///< count
+  EventQuery event;        ///< count
   std::size_t number = 0;  ///< impulse: of the landing, from 1; 0: the greatest
 
   [[nodiscard]] bool of_output() const { return kind <= Kind::end; }

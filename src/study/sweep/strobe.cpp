@@ -24,31 +24,19 @@ Strobe parse_strobe(const std::string& text, const Model& model) {
     strobe.period = *period;
     return strobe;
   }
-  const std::size_t at = text.find('@');
-  const std::string name = text.substr(0, at);
-  std::vector<std::string> types, contacts;
-  for (const EventTypeName& type : all_event_types) {
-    types.emplace_back(type.name);
-    if (name == type.name) strobe.event = type.type;
-  }
-  for (const Contact& contact : model.contacts) contacts.push_back(contact.name);
-  if (std::find(types.begin(), types.end(), name) == types.end())
+  const std::optional<EventQuery> event = parse_event_query(option, text, model);
+  if (!event) {
+    const std::string name = text.substr(0, text.find('@'));
     throw UsageError(fmt::format("{}: found \"{}\", expected a period, EVENT or EVENT@CONTACT{}", option,
-                                 name, suggestion(name, types)));
-  if (at == std::string::npos) return strobe;
-  strobe.contact = text.substr(at + 1);
-  if (std::find(contacts.begin(), contacts.end(), strobe.contact) == contacts.end())
-    throw UsageError(fmt::format("{}: unknown contact \"{}\"{}", option, strobe.contact,
-                                 suggestion(strobe.contact, contacts)));
+                                 name, suggestion(name, event_names())));
+  }
+  strobe.event = *event;
   return strobe;
 }
 
 std::vector<StrobeColumn> strobe_columns(const Model& model) {
   std::vector<StrobeColumn> list;
-  for (const Column& column : model.columns) {
-    const std::string unit = model.turns(column) ? "rad" : model.units.length;
-    list.push_back({column.name, column.velocity ? unit + "/" + model.units.time : unit, false});
-  }
+  for (const Column& column : model.columns) list.push_back({column.name, model.unit_of(column), false});
   for (const Output& output : model.outputs)
     list.push_back({output.name, unit_text(output.unit, model.units), true});
   return list;
@@ -56,11 +44,7 @@ std::vector<StrobeColumn> strobe_columns(const Model& model) {
 
 void StrobeRecorder::event(const Event& event) {
   Relay::event(event);
-  if (strobe_.period > 0.0 || event.type != strobe_.event) return;
-  const bool ours = strobe_.contact.empty() ||
-                    (event.contact >= 0 &&
-                     model_.contacts[static_cast<std::size_t>(event.contact)].name == strobe_.contact);
-  if (ours) event_ = event.t;
+  if (strobe_.period == 0.0 && strobe_.event.meets(event, model_)) event_ = event.t;
 }
 
 void StrobeRecorder::sample(const Sample& sample) {
@@ -92,8 +76,7 @@ void StrobeRecorder::response(double t, const std::vector<double>& values) {
 void StrobeRecorder::add(const Sample& now) {
   if (now.t < settle_) return;
   StrobePoint point{now.t, {}};
-  for (const Column& column : model_.columns)
-    point.values.push_back((column.velocity ? *now.v : *now.u)[column.dof]);
+  for (const Column& column : model_.columns) point.values.push_back(column.of(*now.u, *now.v));
   point.values.resize(model_.columns.size() + model_.outputs.size(),
                       std::numeric_limits<double>::quiet_NaN());
   if (t_outputs_ == now.t) fill_outputs(point);

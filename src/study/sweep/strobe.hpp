@@ -14,14 +14,14 @@
 #include <vector>
 
 #include "run/relay.hpp"
+#include "study/sweep/event_query.hpp"
 
 namespace signorini {
 
 struct Strobe {
   std::string text;     ///< as given
   double period = 0.0;  ///< time; 0: of events
-  EventType event{};
-  std::string contact;  ///< empty: all
+  EventQuery event;
 };
 /// Errors: UsageError, naming what the model has instead.
 [[nodiscard]] Strobe parse_strobe(const std::string& text, const Model& model);

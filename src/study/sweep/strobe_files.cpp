@@ -45,10 +45,14 @@ std::vector<std::size_t> drawn(const std::vector<StrobeColumn>& columns) {
   return list;
 }
 
-CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweptAxis& axis) {
-  CsvTable<RowPoint> table = {{"x", [axis](const RowPoint& p) { return axis.x(*p.row); }}};
+void add_values(const SweepSpec& spec, CsvTable<RowPoint>& table) {
   for (std::size_t i = 0; i < spec.strobe.columns.size(); ++i)
     table.add(spec.strobe.columns[i].name, [i](const RowPoint& p) { return p.point->values[i]; });
+}
+
+CsvTable<RowPoint> point_table(const SweepSpec& spec, const SweptAxis& axis) {
+  CsvTable<RowPoint> table = {{"x", [axis](const RowPoint& p) { return axis.x(*p.row); }}};
+  add_values(spec, table);
   return table;
 }
 
@@ -62,8 +66,7 @@ std::string strobe_csv(const SweepSpec& spec, const SweepRows& rows) {
     return std::string_view(goes_back(spec, *p.row) ? "back" : "there");
   });
   table.add("t", [](const RowPoint& p) { return p.point->t; });
-  for (std::size_t i = 0; i < spec.strobe.columns.size(); ++i)
-    table.add(spec.strobe.columns[i].name, [i](const RowPoint& p) { return p.point->values[i]; });
+  add_values(spec, table);
   CsvBlock block;
   table.put_header(block);
   for (const auto& [index, row] : rows)

@@ -119,12 +119,13 @@ SweepRow computed(const RowTask& task, std::optional<SavedState>* carried) {
     drop_outputs(task, queries, model);
     Answers answers(queries, model);
     LastRow last(answers);
+    Recorder& heard = carried != nullptr ? static_cast<Recorder&>(last) : answers;
     Report report;
     if (task.strobe.empty()) {
-      report = run(task, prepared, last, without_rows(prepared.scene.run));
+      report = run(task, prepared, heard, without_rows(prepared.scene.run));
     } else {
       const Strobe strobe = parse_strobe(task.strobe, model);
-      StrobeRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, last);
+      StrobeRecorder points(strobe, task.settle.value_or(0.5 * prepared.scene.run.t_end), model, heard);
       report = run(task, prepared, points, strobed(prepared.scene.run, strobe));
       row.points = points.points();
     }

@@ -6,13 +6,10 @@ std::vector<ObservedColumn> observed_columns(const Model& model) {
   const Units& units = model.units;
   std::vector<ObservedColumn> list;
   for (const Column& column : model.columns) {
-    const std::string angle = "rad", per_time = "/" + units.time;
-    if (model.turns(column))
-      list.push_back({column.name, column.velocity ? "angular_velocity" : "rotation",
-                      column.velocity ? angle + per_time : angle});
-    else
-      list.push_back({column.name, column.velocity ? "velocity" : "displacement",
-                      column.velocity ? units.length + per_time : units.length});
+    const char* kind = model.turns(column) ? column.velocity ? "angular_velocity" : "rotation"
+                       : column.velocity   ? "velocity"
+                                           : "displacement";
+    list.push_back({column.name, kind, model.unit_of(column)});
   }
   for (const Contact& contact : model.contacts)
     for (const char* force : {".N", ".T"}) list.push_back({contact.name + force, "force", units.force});

@@ -1,0 +1,33 @@
+// shared_edges.hpp: the edges of a mesh, each once, and how many elements have it.
+//
+//   1: on the boundary,   2: inside
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "mesh/plane_shapes.hpp"
+
+namespace signorini {
+
+struct SharedEdge {
+  std::vector<int>
+      nodes;  ///< two ends, then the middle if there is one; the first of its elements is on the left
+  int elements = 0;
+};
+/// By the numbers of their ends, the smaller one first.
+using SharedEdges = std::map<std::pair<int, int>, SharedEdge>;
+
+/// Adds the edges of more elements.
+inline void add_edges(const std::vector<PlaneMesh::Element>& elements, SharedEdges& edges) {
+  for (const PlaneMesh::Element& element : elements)
+    for (std::size_t i = 0; i < corner_count(element.shape); ++i) {
+      std::vector<int> nodes = edge_nodes(element, i);
+      const std::pair<int, int> ends = std::minmax(nodes[0], nodes[1]);
+      ++edges.try_emplace(ends, SharedEdge{std::move(nodes), 0}).first->second.elements;
+    }
+}
+
+}  // namespace signorini

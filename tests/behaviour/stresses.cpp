@@ -336,7 +336,8 @@ TEST_CASE("what is wrong with stresses, envelopes and factors is said") {
   has(refusal(envelope("x", "gap", "[\"A\", \"B\"]")), "expected one of \"N\", \"V\", \"M\", \"stress\"");
   has(refusal(envelope("x", "M", "[\"A\", \"C\"]")), "no piece of a member joins");
   has(refusal(envelope("x", "M", "[\"A\"]")), "the names of two or more nodes");
-  has(refusal(envelope("x", "M", "[\"A\", \"B\"]", "fibre = \"left\"")), "has no meaning with kind = \"envelope\"");
+  has(refusal(envelope("x", "M", "[\"A\", \"B\"]", "fibre = \"left\"")),
+      "has no meaning with kind = \"envelope\"");
   has(refusal(envelope("e", "M", "[\"A\", \"B\"]") + output("x", "combination", "terms = { e = 1.0 }")),
       "is a greatest value");
   const auto terms = [&](const std::string& text) {

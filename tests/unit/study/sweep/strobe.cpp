@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "signorini/error.hpp"
 #include "signorini/model.hpp"
@@ -120,6 +121,50 @@ TEST_CASE("strobe: after events the block has the velocity of its belt") {
     CHECK(point.values[1] == doctest::Approx(0.2).epsilon(1e-12));
   // Stuck until the spring has the static limit: 4 N / 8 N/m.
   for (const StrobePoint& point : slips.points) CHECK(point.values[0] == doctest::Approx(0.5).epsilon(1e-11));
+}
+
+TEST_CASE("strobe: every engine that locates events, and parts that nothing couples") {
+  const std::string apart = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+run = { t_end = 6.0, dt = 1e-3, initial = { block = { ux = 0.03 } } }
+nodes = { block = [0.0, 0.0], other = [5.0, 1.0] }
+masses = [{ node = "block", mass = 2.0 }, { node = "other", mass = 1.0 }]
+supports = [{ nodes = ["block", "other"], fix = ["uy"] }]
+springs = [{ node = "block", direction = [1.0, 0.0], stiffness = 50.0 },
+           { node = "other", direction = [1.0, 0.0], stiffness = 9.0 }]
+[[contacts]]
+name = "stop"
+node = "block"
+law = "compliant"
+normal = [1.0, 0.0]
+gap = 0.01
+normal_stiffness = 1000.0
+[[contacts]]
+name = "wall"
+node = "other"
+law = "rigid"
+normal = [1.0, 0.0]
+gap = 0.004
+)";
+  const made_up::Folder folder;
+  for (const auto& [engine, tolerance] :
+       {std::pair{"exact", 1e-12}, std::pair{"ida", 1e-6}, std::pair{"newmark", 1e-5}}) {
+    CAPTURE(engine);
+    RowTask task;
+    task.scene = folder / "scene.toml";
+    made_up::spill(task.scene, apart);
+    task.changes = {{"run.engine", std::string("\"") + engine + "\""}};
+    task.strobe = "contact@stop";
+    task.settle = 0.0;
+    const SweepRow row = compute_row(task);
+    REQUIRE(row.points.size() == static_cast<std::size_t>(row.events.at("contact")));
+    // u = -0.01 with all of the energy of the start: v^2 = 25 (0.03^2 - 0.01^2).
+    for (const StrobePoint& point : row.points) {
+      CHECK(std::abs(point.values[0] + 0.01) <= tolerance * 0.01);
+      CHECK(std::abs(point.values[1] + std::sqrt(0.02)) <= tolerance * std::sqrt(0.02));
+      CHECK(point.values[2] == 0.0);
+    }
+  }
 }
 
 TEST_CASE("strobe: runs that go on from each other show the hysteresis of friction") {

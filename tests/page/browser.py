@@ -68,5 +68,11 @@ class Browser:
         element = next(iter(self.post("/element", {"using": "css selector", "value": selector}).values()))
         self.post(f"/element/{element}/click", {})
 
-    def screenshot(self, path):
-        pathlib.Path(path).write_bytes(base64.b64decode(self.devtools("Page.captureScreenshot", format="png")["data"]))
+    def screenshot(self, path, whole=False):
+        """What the window shows, or the whole page."""
+        parameters = {"format": "png"}
+        if whole:
+            size = self.devtools("Page.getLayoutMetrics")["cssContentSize"]
+            clip = {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], 8000), "scale": 1}
+            parameters |= {"captureBeyondViewport": True, "clip": clip}
+        pathlib.Path(path).write_bytes(base64.b64decode(self.devtools("Page.captureScreenshot", **parameters)["data"]))

@@ -165,37 +165,61 @@ def charts(browser):
     check("a double click shows all", browser.run("return [charts.from, charts.to]") == [0, 1.2])
     browser.run("document.querySelector('td[data-t]').click()")
     check("a time of a table goes there", browser.run("return player.t === Number(document.querySelector('td[data-t]').dataset.t)"))
-    overlaps = browser.run("""const boxes = [...document.querySelectorAll('#plan text')].map(t => t.getBoundingClientRect());
-        let n = 0; boxes.forEach((a, i) => boxes.slice(0, i).forEach(b => {
-          n += Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 4; }));
-        return n;""")
-    check(f"labels of the drawing do not overlap ({overlaps})", overlaps == 0)
+
+
+def everywhere(browser, name, whole=True):
+    """What every page keeps in every light and width; `whole`: a picture of the whole page for each."""
+    for scheme in ("light", "dark"):
+        for kind, width in (("wide", 1200), ("narrow", 390)):
+            browser.look(scheme, width)
+            browser.wait_for("setTimeout(arguments[0], 150)")
+            where = f"{name}, {scheme}, {kind}"
+            wider = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
+            check(f"{where}: nothing stands out to the side ({wider})", wider <= 0)
+            cut = browser.run("""const plan = document.getElementById('plan'); if (!plan) return [];
+                const out = plan.getBoundingClientRect();
+                return [...plan.querySelectorAll('text')].filter(label => { const box = label.getBoundingClientRect();
+                  return box.left < out.left || box.right > out.right || box.top < out.top || box.bottom > out.bottom; })
+                  .map(label => label.textContent);""")
+            check(f"{where}: no label of the drawing is cut {cut}", cut == [])
+            over = browser.run("""const labels = [...document.querySelectorAll('#plan text')].map(t => [t.textContent, t.getBoundingClientRect()]);
+                const found = []; labels.forEach(([a, p], i) => labels.slice(0, i).forEach(([b, q]) => {
+                  if (Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1 && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 4)
+                    found.push(a + ' / ' + b); }));
+                return found;""")
+            check(f"{where}: labels of the drawing do not overlap {over[:3]}", over == [])
+            empty = browser.run("""return [...document.querySelectorAll('.chart')].filter(chart => {
+                const canvas = chart.querySelector('canvas'); if (!canvas || !canvas.width) return true;
+                const blank = document.createElement('canvas'); blank.width = canvas.width; blank.height = canvas.height;
+                return canvas.toDataURL() === blank.toDataURL(); }).map(chart => chart.textContent.slice(0, 40));""")
+            check(f"{where}: no chart is empty {empty[:3]}", empty == [])
+            faint = browser.run("""const light = (c) => { const v = c.match(/[\\d.]+/g).map(Number).slice(0, 3).map(x => x / 255)
+                  .map(x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4); return 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2]; };
+                const paper = light(getComputedStyle(document.body).backgroundColor);
+                return [...document.querySelectorAll('h1, h2, h3, p, th, td, label, figcaption')].filter(e => e.textContent.trim()).map(e => {
+                  let b = e; while (b && /rgba\\(0, 0, 0, 0\\)/.test(getComputedStyle(b).backgroundColor)) b = b.parentElement;
+                  const ground = b ? light(getComputedStyle(b).backgroundColor) : paper, ink = light(getComputedStyle(e).color);
+                  return [(Math.max(ground, ink) + 0.05) / (Math.min(ground, ink) + 0.05), e.textContent.slice(0, 30)]; })
+                  .filter(([ratio]) => ratio < 4.5).slice(0, 3);""")
+            check(f"{where}: text stands out from its ground {faint}", faint == [])
+            if whole:
+                browser.screenshot(pictures / f"{name}-{scheme}-{kind}.png", whole=True)
+    browser.look("light", 800, media="print")
+    buttons = browser.run("return [...document.querySelectorAll('.buttons button, .filters, .hint')].filter(b => b.offsetParent !== null).length")
+    check(f"{name}, printed: no buttons ({buttons})", buttons == 0)
+    if whole:
+        browser.screenshot(pictures / f"{name}-print.png", whole=True)
+    browser.look()
 
 
 def looks(browser):
-    browser.run("player.stop(0.06); document.getElementById('motion').scrollIntoView()")
-    for scheme in ("light", "dark"):
-        for name, width in (("wide", 1200), ("narrow", 390)):
-            browser.look(scheme, width)
-            wider = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
-            check(f"{scheme}, {name}: nothing stands out to the side ({wider})", wider <= 0)
-            check(f"{scheme}, {name}: no label of the drawing is cut", browser.run("""
-                const plan = document.getElementById('plan').getBoundingClientRect(), labels = document.querySelectorAll('#plan text');
-                return labels.length > 4 && [...labels].every(label => {
-                  const box = label.getBoundingClientRect();
-                  return box.left >= plan.left && box.right <= plan.right;
-                });"""))
-            for part in ("loads", "summary", "chartSection", "motion", "events", "pictures"):
-                browser.run("document.getElementById(arguments[0]).scrollIntoView()", part)
-                browser.wait_for("setTimeout(arguments[0], 150)")
-                browser.screenshot(pictures / f"{scheme}-{name}-{part}.png")
+    browser.run("player.stop(0.06)")
+    everywhere(browser, "pipeline")
     browser.look("dark")
     paper = browser.run("return getComputedStyle(document.body).backgroundColor")
     browser.look("light")
     check(f"dark is dark ({paper})", paper == "rgb(21, 24, 28)" and
           browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)")
-    browser.look("light", media="print")
-    check("print has no buttons", browser.run("return getComputedStyle(document.querySelector('.buttons')).display") == "none")
     browser.look()
 
 
@@ -232,16 +256,13 @@ def others(browser):
         clean(browser, name)
         count = browser.run("return document.querySelectorAll('table').length")
         check(f"{name}: {count} tables", count >= tables)
-        browser.screenshot(pictures / f"{name}.png")
+        everywhere(browser, name)
     signorini("run", models / "pipeline.toml", "-o", "soft", "--quiet", "--no-plots", "--set", "contacts.*.friction=0.1")
     signorini("report", "pipeline", "soft", "-o", "cases.html")
-    for width in (1200, 390):
-        browser.look("light", width)
-        browser.open(work / "cases.html")
-        clean(browser, f"load cases, {width} wide")
-        check("load cases: support loads of both", browser.run("return document.querySelectorAll('#loads tbody tr').length") == 14)
-        browser.screenshot(pictures / f"cases-{width}.png")
-    browser.look()
+    browser.open(work / "cases.html")
+    clean(browser, "load cases")
+    check("load cases: support loads of both", browser.run("return document.querySelectorAll('#loads tbody tr').length") == 14)
+    everywhere(browser, "cases")
     for name in sorted(p.name for p in models.glob("*.toml")):
         if name in ("pipeline.toml", "matrices.toml"):
             continue
@@ -249,8 +270,7 @@ def others(browser):
         browser.open(page_of(name + "-run"))
         clean(browser, name)
         browser.click("#next")
-        browser.run("document.getElementById('drawing').scrollIntoView()")
-        browser.screenshot(pictures / f"model-{name}.png")
+        everywhere(browser, pathlib.Path(name).stem)
 
 
 browser = Browser()

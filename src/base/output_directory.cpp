@@ -18,13 +18,14 @@ void check_output_directory(const fs::path& path, const ResultsKind& kind, bool 
       throw FileError(path.string(), "cannot be looked at: " + error.message());
     return;
   }
-  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
+  if (!fs::is_directory(path, error)) throw FileError(path.string(), "exists and is not a directory");
   const bool empty = fs::is_empty(path, error);
   if (error) throw FileError(path.string(), "cannot be looked into: " + error.message());
   if (empty) return;
   if (!replace)
-    throw FileError(path.string(),
-                    fmt::format("is there already and not empty; --force replaces the {} in it", kind.what));
+    throw FileError(
+        path.string(),
+        fmt::format("directory exists and is not empty; use --force to replace the {} in it", kind.what));
   if (!fs::exists(path / kind.marker, error))
     throw FileError(path.string(),
                     fmt::format("is not empty and holds no {} (no {}) that --force could replace", kind.what,

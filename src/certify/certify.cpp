@@ -190,13 +190,13 @@ bool is_cheap(const CompanionPlan& plan) { return plan.cost > 0.0 && plan.cost <
 /// Why it is not. Of one engine the ratio is known well. Of two it is not, but what the run took is known by then.
 std::string why_not(const RunSpec& run, const CompanionPlan& plan, double wall_time) {
   if (!(plan.cost > 0.0))
-    return "the cost of a companion run cannot be estimated for this scene; --certify runs one";
+    return "the cost of a companion run cannot be estimated for this scene; --certify starts one";
   if (plan.runs.front().run.engine == run.engine)
-    return fmt::format("a companion run would cost about {:.2g} times the run; --certify runs one",
-                       plan.cost);
+    return fmt::format(
+        "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
   return fmt::format(
       "a companion run by {} would take {} s, by order of magnitude, and the run took {:.2g} s; "
-      "--certify runs one",
+      "--certify starts one",
       plan.name, about_seconds(plan.seconds), wall_time);
 }
 

@@ -56,8 +56,8 @@ ExitCode check_scene(const CheckOptions& options) {
 
 void add_check(Program& program) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command =
-      program.app.add_subcommand("check", "read a scene and start it: masses, supports, frequencies, cost");
+  CLI::App* command = program.app.add_subcommand(
+      "check", "read a scene and compute its initial state: mass, reactions, frequencies, expected cost");
   command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");

@@ -60,7 +60,7 @@ std::string head(const Scene& scene, const Model& model, const CheckReport& repo
                       u.length);
   const double weight = m.total * std::hypot(scene.gravity[0], scene.gravity[1]);
   text += weight > 0.0 ? fmt::format(", weight {} {}\n", number(weight), u.force) : ", no gravity\n";
-  text += fmt::format("      of it {} {} can move along x, {} {} along y\n", number(m.moving_x), u.mass,
+  text += fmt::format("      movable mass: {} {} along x, {} {} along y\n", number(m.moving_x), u.mass,
                       number(m.moving_y), u.mass);
   return text;
 }
@@ -98,8 +98,8 @@ std::string mesh_lines(const Scene& scene) {
                         count(static_cast<long>(body.mesh.elements.size()), "element", "elements"),
                         body.strain ? "strain" : "stress");
     text += fmt::format(
-        "      angles from {:.3g} degrees (element {}) to {:.3g} (element {}), edges of one element up to "
-        "1 : {:.3g} (element {})\n",
+        "      element angles from {:.3g} degrees (element {}) to {:.3g} degrees (element {}); largest edge "
+        "ratio 1 : {:.3g} (element {})\n",
         q.least_angle.value, q.least_angle.element, q.greatest_angle.value, q.greatest_angle.element,
         q.aspect.value, q.aspect.element);
   }
@@ -146,8 +146,8 @@ std::string warning_lines(const CheckReport& report) {
 }
 
 std::string free_motion_lines(const CheckReport& report) {
-  if (report.free_motions.empty()) return "free motions on the closed contacts: none\n\n";
-  std::string text = "free motions on the closed contacts, friction apart:\n";
+  if (report.free_motions.empty()) return "rigid-body motions with the closed contacts: none\n\n";
+  std::string text = "rigid-body motions with the closed contacts, without friction:\n";
   for (std::size_t i = 0; i < report.free_motions.size() && i < most_rows; ++i)
     text += "  " + report.free_motions[i] + "\n";
   return text + more(report.free_motions.size()) + "\n";
@@ -198,13 +198,14 @@ std::string frequency_rows(const Model& model, const CheckReport& report) {
     if (sticking) add_frequencies(table, "all stuck", report.stuck);
   }
   std::string text = "lowest frequencies:\n" + table.str();
-  text +=
-      model.omega1 > 0.0
-          ? fmt::format("omega1 = {} rad/{}, the lowest with the contacts stuck that are closed at t = 0\n",
-                        number(model.omega1), u.time)
-          : std::string(
-                "there is no omega1: a motion is free, or nothing can move, with the contacts "
-                "stuck that are closed at t = 0\n");
+  text += model.omega1 > 0.0
+              ? fmt::format(
+                    "omega1 = {} rad/{}: the lowest circular frequency if all contacts that are closed at t "
+                    "= 0 stick\n",
+                    number(model.omega1), u.time)
+              : std::string(
+                    "there is no omega1: a motion is free, or nothing can move, with the contacts "
+                    "stuck that are closed at t = 0\n");
   if (model.alpha == 0.0 && model.beta == 0.0) return text + "no Rayleigh damping\n\n";
   return text + fmt::format("damping C = alpha M + beta K, alpha = {} 1/{}, beta = {} {}\n\n",
                             number(model.alpha), u.time, number(model.beta), u.time);
@@ -213,16 +214,18 @@ std::string frequency_rows(const Model& model, const CheckReport& report) {
 std::string load_factor_lines(const CheckReport& report) {
   if (!report.load_factors) return "";
   const std::vector<double>& factors = *report.load_factors;
-  std::string text = "buckling on the contacts of the start, by factors of the static loads: ";
-  if (factors.empty()) return text + "none, no multiple of them does it\n\n";
+  std::string text = "buckling load factors (factors of the static loads; contacts as at the start): ";
+  if (factors.empty()) return text + "none: no multiple of the static loads causes buckling\n\n";
   for (std::size_t i = 0; i < factors.size(); ++i) text += (i == 0 ? "" : ", ") + number(factors[i]);
-  return text + (factors.front() > 1.0 ? "\n\n" : "; up to 1 it is unstable as it stands\n\n");
+  return text + (factors.front() > 1.0
+                     ? "\n\n"
+                     : "; a factor up to 1: the structure is unstable under its static loads\n\n");
 }
 
 std::string stiffness_rows(const Model& model, const CheckReport& report) {
   if (report.stiffness.empty()) return "";
   const std::string stiffness = unit(model.units.force + "/" + model.units.length);
-  Table table({"contact", "direction", "its stiffness" + stiffness, "the rest's" + stiffness, "ratio"},
+  Table table({"contact", "direction", "its stiffness" + stiffness, "structure" + stiffness, "ratio"},
               {false, false, true, true, true});
   for (std::size_t i = 0; i < report.stiffness.size() && i < most_rows; ++i) {
     const StiffnessRatio& s = report.stiffness[i];
@@ -230,7 +233,8 @@ std::string stiffness_rows(const Model& model, const CheckReport& report) {
                number(s.stiffness), s.rest > 0.0 ? fmt::format("{:.4g}", s.rest) : "0",
                s.rest > 0.0 ? fmt::format("{:.3g}", s.stiffness / s.rest) : "only this contact resists"});
   }
-  return "stiffness of contacts against the structure and the other contacts, stuck, at that place\n"
+  return "contact stiffness, and the stiffness of the structure with all other contacts sticking at the same "
+         "place\n"
          "(ratio far above 1: as good as rigid; far below 1: the contact is the soft part):\n" +
          table.str() + more(report.stiffness.size()) + "\n";
 }
@@ -305,34 +309,35 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
                         scene.run.rtol, method.max_order, method.max_order_reason);
   if (method.automatic) text += "     engine " + method.engine_reason() + "\n";
   const Cost& cost = report.cost;
-  text += fmt::format("cost: {} unknowns, highest frequency {:.4g} rad/{}\n", cost.unknowns, cost.omega_max,
-                      u.time);
+  text += fmt::format("cost: {} variables in the time integration, highest frequency {:.4g} rad/{}\n",
+                      cost.unknowns, cost.omega_max, u.time);
   const Effort& effort = cost.effort;
   const std::string measured =
-      cost.trials.empty() ? "" : fmt::format("expected, by its first steps: {}\n", trial_text(cost.trials));
+      cost.trials.empty() ? ""
+                          : fmt::format("expected run time, from the first steps of each engine: {}\n",
+                                        trial_text(cost.trials));
   std::string exact =
       cost.exact && cost.trials.empty()
           ? fmt::format("      exact would take {} s (--engine exact)\n", about_seconds(*cost.exact))
           : "";
   if (!method.flow.empty()) {
-    exact += fmt::format("      flow {} ({}): by series {} s", method.flow, method.flow_reason,
+    exact += fmt::format("      flow {} ({}): estimated {} s by series", method.flow, method.flow_reason,
                          about_seconds(effort.by_series));
     exact += effort.by_modes > 0.0 ? fmt::format(", in modes {} s", about_seconds(effort.by_modes)) : "";
-    exact += ", by a rule of thumb\n";
+    exact += " (rule of thumb)\n";
   }
   if (!(effort.steps > 0.0))
     return text + "      the number of steps is not known beforehand\n" + exact + measured;
   const std::string time = effort.seconds < 0.1 ? "less than 0.1 s" : "about " + rough(effort.seconds) + " s";
   if (steps)
     return text +
-           fmt::format("      {:.3g} steps in its period; {} steps, {}\n", effort.steps_per_period,
-                       rough(effort.steps), time) +
+           fmt::format("      {:.3g} steps per period of the highest frequency; {} steps, {}\n",
+                       effort.steps_per_period, rough(effort.steps), time) +
            measured;
   return text +
          fmt::format(
-             "      at about {:.0f} steps in its period {} steps, {}, and about 30 for each event; an "
-             "order of\n"
-             "      magnitude, usually too high where the highest modes stay quiet\n",
+             "      estimate: {:.0f} steps per period of the highest frequency, thus {} steps, {},\n"
+             " and about 30 steps more for each event; too high if the highest modes are not excited\n",
              effort.steps_per_period, rough(effort.steps), time) +
          exact + measured;
 }

@@ -257,15 +257,15 @@ ExitCode compare(const CompareOptions& options, const std::vector<std::string>& 
 
 void add_compare(Program& program) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = program.app.add_subcommand(
-      "compare", "set engines, or runs that are there, side by side, event by event");
+  CLI::App* command =
+      program.app.add_subcommand("compare", "compare engines, or existing runs, event by event");
   command
       ->add_option("SOURCE", options->sources, "a scene with --engines, or two or more directories of runs")
       ->required();
   command
       ->add_option("--engines", options->engines,
-                   "engines to run on the scene, the first is the reference: ida,exact; with keys of [run]: "
-                   "newmark:dt=1e-4,newmark:dt=5e-5")
+                   "engines to compare; the first is the reference. Example: ida,exact. Keys of [run] may "
+                   "follow: newmark:dt=1e-4,newmark:dt=5e-5")
       ->option_text("NAME,NAME...")
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -275,12 +275,13 @@ void add_compare(Program& program) {
   add_settings(*command, options->settings);
   command
       ->add_option("--limit", options->limits,
-                   "end with exit code 5 where a difference is greater: event_time=1e-4 (may be repeated)")
+                   "end with exit code 5 if a difference is above the given limit, for example "
+                   "event_time=1e-4 (may be repeated)")
       ->option_text("NAME=NUMBER")
       ->allow_extra_args(false);
   command
       ->add_option("--instant", options->instant,
-                   "events of different contacts that lie no further apart have no order")
+                   "treat events of different contacts as simultaneous if they are at most T apart")
       ->option_text("T");
   add_table_option(*command, options->table);
   add_output_options(*command, *options, "replace an earlier comparison in the directory", "compare.json");

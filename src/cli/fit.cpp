@@ -88,7 +88,7 @@ ExitCode run_fit(const FitOptions& options) {
 void add_fit(Program& program) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* command =
-      program.app.add_subcommand("fit", "find keys of a scene from measured event times or columns");
+      program.app.add_subcommand("fit", "fit values of keys to measured event times or columns");
   add_scene(*command, *options);
   command
       ->add_option("DATA", options->data,

@@ -126,7 +126,7 @@ std::string key_list(const std::vector<std::string>& words) {
     }
     if (any) text += rows.str();
   }
-  if (text == heading) throw UsageError("no key speaks of " + listed(words));
+  if (text == heading) throw UsageError("no key matches " + listed(words));
   return text;
 }
 

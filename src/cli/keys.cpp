@@ -12,7 +12,8 @@ void add_keys(Program& program) {
   auto markdown = std::make_shared<bool>(false);
   auto words = std::make_shared<std::vector<std::string>>();
   CLI::App* command = program.app.add_subcommand("keys", "list the keys of a scene file");
-  command->add_option("WORD", *words, "only keys whose line has all of these, in small or capital letters");
+  command->add_option("WORD", *words,
+                      "list only keys whose description contains all these words (upper or lower case)");
   command->add_flag("--markdown", *markdown, "print docs/scene.md, the reference with examples");
   command->callback([&program, markdown, words] {
     program.action = [markdown, words] {

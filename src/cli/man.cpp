@@ -128,8 +128,9 @@ void add_man(Program& program) {
   auto options = std::make_shared<ManOptions>();
   CLI::App* command =
       program.app.add_subcommand("man", "print a page for man(1): signorini man run | man -l -");
-  command->add_option("COMMAND", options->command, "which one (default: that of the program)");
-  command->add_option("--write", options->folder, "write all of them to a directory")->option_text("DIR");
+  command->add_option("COMMAND", options->command, "command to describe (default: the program itself)");
+  command->add_option("--write", options->folder, "write the manual pages of all commands to a directory")
+      ->option_text("DIR");
   command->callback([&program, options] {
     program.action = [&program, options] {
       const CLI::App& app = program.app;

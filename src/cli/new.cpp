@@ -79,7 +79,7 @@ ExitCode write_new_scene(const std::string& name, const std::string& from, bool 
   }
   for (const std::string& file : files)
     if (!force && fs::exists(fs::symlink_status(file)))
-      throw FileError(file, "is there already; --force replaces it");
+      throw FileError(file, "file exists; use --force to replace it");
   write_file(path, text);
   for (const QuakeOptions& options : quakes) write_quake(options);
   for (const std::string& file : files) print(fmt::format("{}\n", file));
@@ -102,7 +102,7 @@ void add_new(Program& program) {
   for (const std::string& name : template_names()) names += (names.empty() ? "" : ", ") + name;
   command->add_option("--from", options->from, "which one: " + names + "; default: block")
       ->option_text("NAME");
-  command->add_flag("--force", options->force, "replace a file that is there");
+  command->add_flag("--force", options->force, "replace an existing file");
   command->callback([&program, options] {
     program.action = [options] { return write_new_scene(options->name, options->from, options->force); };
   });

@@ -162,20 +162,19 @@ void add_orbit(Program& program) {
                    "directory of the results (default: SCENE's name with -orbit)")
       ->option_text("DIR");
   command
-      ->add_option(
-          "--period", options->search.period,
-          "period of the loads, in the scene's unit of time (default: as the loads say); without periodic "
-          "loads the guess that the search begins with")
+      ->add_option("--period", options->search.period,
+                   "period of the loads, in the scene's unit of time (default: from the loads). Without "
+                   "periodic loads: first guess of the period")
       ->option_text("T");
-  command->add_option("--times", options->search.times, "the orbit closes after so many periods of the loads")
+  command->add_option("--times", options->search.times, "number of load periods in one period of the orbit")
       ->option_text("N");
   command
       ->add_option("--transient", options->search.transient,
-                   "periods that are run before Newton's method begins (default: 20)")
+                   "number of periods computed before Newton's method (default: 20)")
       ->option_text("N");
   command
       ->add_option("--over", options->over,
-                   "follow the orbit over a key, from its first value to its last: branch.csv")
+                   "follow the orbit while a key changes from FROM to TO; results in branch.csv")
       ->option_text("PATH=FROM:TO");
   add_settings(*command, options->settings);
   add_output_options(*command, *options, "replace an earlier orbit, or run, in the directory", "orbit.json");

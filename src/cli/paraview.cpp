@@ -49,7 +49,7 @@ void add_paraview(Program& program) {
   CLI::App* command =
       program.app.add_subcommand("paraview", "write a run as frames for ParaView: DIR/paraview/run.pvd");
   command->add_option("DIR", options->directory, "a directory that `signorini run` wrote")->required();
-  command->add_option("--frames", options->count, "at equal distances in time (default: 200)")
+  command->add_option("--frames", options->count, "number of frames at equal time intervals (default: 200)")
       ->option_text("N");
   command->add_flag("--events", options->events, "a frame at the time of each event, too");
   command->callback([&program, options] { program.action = [options] { return write_frames(*options); }; });

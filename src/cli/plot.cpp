@@ -57,7 +57,9 @@ void add_plot(Program& program) {
       ->option_text("WxH");
   command->add_option("--format", options->formats, "svg, png, pdf, several with commas (default: svg,png)")
       ->option_text("NAME,...");
-  command->add_option("--language", options->language, "of labels and legends: en, de or ru (default: en)")
+  command
+      ->add_option("--language", options->language,
+                   "language of labels and legends: en, de or ru (default: en)")
       ->option_text("NAME");
   command->add_flag("--no-title", options->no_title, "neither title nor subtitle");
   command->callback([&program, options] {

@@ -65,7 +65,7 @@ std::vector<fs::path> comparison_scripts(const fs::path& directory, const Pictur
 
 bool complete_pictures(const fs::path& directory) {
   if (!lacks_picture_rows(directory)) return true;
-  print_note(directory.string() + ": computed again for its pictures, as it was run with --no-plots");
+  print_note(directory.string() + ": pictures need a new computation, because the run used --no-plots");
   return add_picture_rows(directory, [] { return !Interrupt::asked(); });
 }
 

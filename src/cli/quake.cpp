@@ -91,8 +91,8 @@ std::string ground_text(const QuakeSpec& spec, const std::vector<double>& a) {
   double pga = 0.0;
   for (const double value : a) pga = std::max(pga, std::abs(value));
   std::string text = fmt::format(
-      "greatest acceleration {:.4g} g, velocity {:.4g} m/s, displacement {:.4g} m; the last two are 0 at the "
-      "end\n",
+      "peak acceleration {:.4g} g, velocity {:.4g} m/s, displacement {:.4g} m; final velocity and "
+      "displacement are 0\n",
       pga, ground.velocity * standard_gravity, ground.displacement * standard_gravity);
   if (!spec.target) return text;
   double least = 1e300, greatest = 0.0;
@@ -112,23 +112,23 @@ void add_quake_options(CLI::App& command, QuakeOptions& options) {
   command.add_option("NAME", options.name, "the files to write: NAME.AT2 and NAME.csv")->required();
   command
       .add_option("--pga", options.pga,
-                  "greatest acceleration in g, with ec8 spectra the design acceleration ag (default: 0.3)")
+                  "peak ground acceleration in g; for ec8 spectra the design acceleration ag (default: 0.3)")
       ->option_text("A");
   command
       .add_option(
           "--spectrum", options.spectrum,
           "match a response spectrum at 5 % damping: ec8-A to ec8-E, or a file of rows T,PSA in s and g")
       ->option_text("NAME|FILE");
-  command.add_option("--seed", options.seed, "of the phases (default: 1)")->option_text("S");
+  command.add_option("--seed", options.seed, "seed of the random phases (default: 1)")->option_text("S");
   command.add_option("--duration", options.duration, "in s (default: 20)")->option_text("D");
-  command.add_option("--dt", options.dt, "distance of the samples in s (default: 0.01)")->option_text("DT");
+  command.add_option("--dt", options.dt, "time step in s (default: 0.01)")->option_text("DT");
   command
       .add_option("--ground-frequency", options.ground_frequency,
-                  "of the filter of Kanai and Tajimi, in Hz (default: 2.5)")
+                  "ground frequency of the Kanai-Tajimi filter, in Hz (default: 2.5)")
       ->option_text("F");
   command
       .add_option("--ground-damping", options.ground_damping,
-                  "of that filter, as a ratio of critical (default: 0.6)")
+                  "damping ratio of the Kanai-Tajimi filter (default: 0.6)")
       ->option_text("Z");
   command.add_flag("--force", options.force, "replace files that are there");
   command.add_flag("--quiet", options.quiet, "print errors only");
@@ -144,7 +144,7 @@ std::string write_quake(const QuakeOptions& options) {
   const QuakeSpec spec = quake_spec(options);
   for (const std::string& file : quake_files(options))
     if (!options.force && fs::exists(fs::symlink_status(file)))
-      throw FileError(file, "is there already; --force replaces it");
+      throw FileError(file, "file exists; use --force to replace it");
   const std::vector<double> a = quake(spec);
   write_file(quake_files(options)[0], at2_text(options, a));
   write_file(quake_files(options)[1], csv_text(options, a));

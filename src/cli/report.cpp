@@ -66,7 +66,7 @@ class EventTable {
     return {"t [" + model.units.time + "]", "contact", "event", "from -> to", "N" + unit, "T" + unit};
   }
   static std::vector<std::string> with_error(std::vector<std::string> names) {
-    names.insert(names.begin() + 1, "error at most");
+    names.insert(names.begin() + 1, "error bound");
     return names;
   }
 
@@ -131,7 +131,7 @@ std::string start_table(const Model& model, TableStyle style) {
   std::string stages;
   for (const StageEnd& end : model.statics.stages)
     if (end.part == 1.0) stages += fmt::format("{}{}", stages.empty() ? "" : ", ", end.stage);
-  const std::string title = fmt::format("before t = 0, slowly and with friction: {}", stages);
+  const std::string title = fmt::format("frictional start, stages: {}", stages);
   if (model.statics.events.empty())
     return style == TableStyle::plain ? title + "; no contact changed its state\n" : "";
   Table table({"stage", "part", "contact", "from -> to"}, {false, true, false, false});
@@ -176,8 +176,8 @@ std::string support_table(const Model& model, const Report& report, TableStyle s
   const auto beside = [](double x, double most_of_all) {
     return number(std::abs(x) > rounding::of_many * most_of_all ? x : 0.0);
   };
-  Table table({"support loads", "N at rest" + force, "N least" + force, at, "N greatest" + force, at,
-               "T least" + force, at, "T greatest" + force, at, "residual slip" + length,
+  Table table({"support loads", "N at rest" + force, "N min" + force, at, "N max" + force, at,
+               "T min" + force, at, "T max" + force, at, "residual slip" + length,
                "friction loss [" + model.units.force + " " + model.units.length + "]"},
               {false, true, true, true, true, true, true, true, true, true, true, true});
   for (std::size_t k = 0; k < model.contacts.size() && k < most; ++k) {
@@ -240,12 +240,12 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
   Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
   add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
   add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
-  add_extreme(table, model, "both |g N|", a.product, a.energy_scale, energy);
+  add_extreme(table, model, "complementarity |g N|", a.product, a.energy_scale, energy);
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
                   [](const Contact& c) { return c.takes_impulses(); }))
     add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
   add_extreme(table, model, "friction |T| > T_U", a.friction, a.force_scale, force);
-  add_extreme(table, model, "direction T p' < 0", a.direction, a.power_scale,
+  add_extreme(table, model, "friction against slip T p' < 0", a.direction, a.power_scale,
               energy + "/" + model.units.time);
   add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
   if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
@@ -264,11 +264,11 @@ std::string closing(const RunSpec& run, const Model& model, const Report& report
       number(a.final.damping), number(a.final.impact));
   text += "events: " + events_by_type(report) + "\n";
   if (a.impulses_on_closed > 0)
-    text += fmt::format("impacts passed on to closed contacts: {}\n", a.impulses_on_closed);
+    text += fmt::format("impacts that also acted on closed contacts: {}\n", a.impulses_on_closed);
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
         return contact.takes_impulses() && !contact.capture_velocity;
       }))
-    text += fmt::format("rebounds slower than {} {}/{} were taken as rest (capture_velocity)\n",
+    text += fmt::format("contacts that rebound slower than {} {}/{} stay closed (capture_velocity)\n",
                         number(tolerance_of(model, run).capture_velocity()), model.units.length,
                         model.units.time);
   text += fmt::format("effort: {}, {}, {}, {:.2f} s\n", method_of(report.method), times(c.steps, "step"),
@@ -307,8 +307,8 @@ std::string certification(const Model& model, const CertifiedReport& run) {
       c.certain_events() == 0 ? "" : fmt::format(", times within {:.1e} {}", greatest, model.units.time);
   std::string text =
       c.complete
-          ? fmt::format("{}: all {} rows of events{} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certified until t = {:.9g} {}: {} of {} rows of events{} ({}); then {}\n", c.until,
+          ? fmt::format("{}: all {} events{} ({})\n", to_end, c.t_errors.size(), times, beside)
+          : fmt::format("certified until t = {:.9g} {}: {} of {} events{} ({}); then {}\n", c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",

@@ -46,6 +46,7 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   const std::vector<LoadCase> cases =
       read_load_cases(std::vector<fs::path>(directories.begin(), directories.end()));
   const fs::path page = given.empty() ? "cases.html" : given;
+  for (const std::string& doubt : load_case_doubts(cases)) print_warning(doubt);
   fs::path table = page;
   table.replace_extension(".csv");
   if (table == page) throw UsageError(page.string() + ": is the name of the table, too; expected FILE.html");
@@ -64,8 +65,9 @@ void add_report(Program& program) {
       "report",
       "write one page of HTML about a run, comparison, study, sweep or verification, or load cases");
   command
-      ->add_option("DIR", *directories,
-                   "the directory of results; of several runs, load cases side by side: a page and a CSV")
+      ->add_option(
+          "DIR", *directories,
+          "directory of results. Several runs are compared as load cases, in one page and one CSV file")
       ->required();
   command
       ->add_option("-o,--output", *output,

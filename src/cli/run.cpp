@@ -164,17 +164,20 @@ void add_run(Program& program) {
   command->add_option("--engine", options->engine, "time integration, instead of the scene's run.engine")
       ->option_text("NAME");
   add_settings(*command, options->settings);
-  command->add_flag(
-      "--certify", options->certify,
-      "compute a companion beside the run, which says how far off events may be, and until when the "
-      "sequence is certain; the same as --set run.certify=true");
-  command->add_option("--trace", options->trace, "write how each decision came about, a JSON object a round")
+  command->add_flag("--certify", options->certify,
+                    "also compute a companion run: error bounds of event times and the certified part of the "
+                    "sequence (same as --set run.certify=true)");
+  command
+      ->add_option("--trace", options->trace,
+                   "write the steps of each decision on contact states: one JSON object per round")
       ->option_text("FILE");
-  command->add_flag("--instants", options->instants,
-                    "write both sides of every instant to instants.csv, which `signorini witness` reads");
+  command->add_flag(
+      "--instants", options->instants,
+      "write the state just before and just after every instant to instants.csv, for `signorini witness`");
   add_table_option(*command, options->table);
   add_output_options(*command, *options,
-                     "replace an earlier run in the directory, unless the scene lies in it", "summary.json");
+                     "replace an earlier run in the directory; refused if the scene file is in it",
+                     "summary.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return run(*options, line); };
   });

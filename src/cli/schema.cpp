@@ -10,7 +10,7 @@ namespace signorini::cli {
 
 void add_schema(Program& program) {
   CLI::App* command = program.app.add_subcommand(
-      "schema", "print a JSON Schema of scenes, with which editors complete and check them");
+      "schema", "print a JSON Schema for scene files; editors use it for completion and checks");
   command->callback([&program] {
     program.action = [] {
       print(scene_schema());

@@ -1,4 +1,4 @@
-// signorini sensitivity: how events, peaks and columns move with keys of a scene.
+// signorini sensitivity: compute derivatives of event times, peaks and columns with respect to keys of a scene.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -122,7 +122,7 @@ void add_parameter(const Sensitivities& s, std::size_t p, Table& table) {
 std::string swap_text(const Sensitivities& s) {
   std::string text;
   for (const Swap& swap : least_swaps(s))
-    text += fmt::format("{}: to first order events {} and {} meet at {} ({}{})\n",
+    text += fmt::format("{0}: to first order events {1} and {2} coincide if {0} = {3} (change {4}{5})\n",
                         s.parameters[swap.parameter].path, swap.first + 1, swap.second + 1,
                         number(s.parameters[swap.parameter].value + swap.change),
                         swap.change > 0.0 ? "+" : "", number(swap.change));
@@ -158,10 +158,10 @@ std::string method_of(const Sensitivities& s) {
   std::string text = fmt::format("engine {}", to_string(method.engine));
   if (!method.flow.empty()) text += fmt::format(", flow {}", method.flow);
   const Stretches& n = s.stretches;
-  text += fmt::format("; derivatives of {} stretches in modes, of {} along series", n.modes, n.series);
-  if (n.followed > 0) text += fmt::format("; {} followed from event to event", n.followed);
-  if (n.correction > 0.0) text += fmt::format(", {:.2g} from the engine's times at most", n.correction);
-  if (n.taken > 0) text += fmt::format(", {} times on from the engine's state", n.taken);
+  text += fmt::format("; derivatives over {} intervals by modes, {} by series", n.modes, n.series);
+  if (n.followed > 0) text += fmt::format("; {} recomputed from event to event", n.followed);
+  if (n.correction > 0.0) text += fmt::format(", event times within {:.2g} of the engine's", n.correction);
+  if (n.taken > 0) text += fmt::format(", {} times started again from the engine's state", n.taken);
   return text + fmt::format(", {:.2f} s\n", s.report.wall_time);
 }
 
@@ -221,20 +221,24 @@ ExitCode run(const SensitivityOptions& options) {
 
 void add_sensitivity(Program& program) {
   auto options = std::make_shared<SensitivityOptions>();
-  CLI::App* command =
-      program.app.add_subcommand("sensitivity", "how events, peaks and columns move with keys of a scene");
+  CLI::App* command = program.app.add_subcommand(
+      "sensitivity", "compute derivatives of event times, peaks and columns with respect to keys of a scene");
   add_scene(*command, *options);
-  add_keyed_options(*command, *options,
-                    "a key of the scene to derive by: contacts.*.friction, loads.1.amplitude",
-                    "earlier sensitivities", "-sensitivity", "sensitivity.json");
-  command->add_flag("--no-plots", options->no_plots, "no pictures, nor scripts for them");
+  add_keyed_options(
+      *command, *options,
+      "key of the scene with respect to which to differentiate: contacts.*.friction, loads.1.amplitude",
+      "earlier sensitivities", "-sensitivity", "sensitivity.json");
+  command->add_flag("--no-plots", options->no_plots, "do not write pictures or gnuplot scripts");
   command->add_flag("--losses", options->losses,
-                    "energies, works, losses and landings, too; for two or three runs in series more");
-  command->add_flag("--discrete", options->discrete,
-                    "with engine newmark: derivatives of its steps, not of the motion that they approximate");
+                    "also derivatives of energies, works, losses and landings; costs as much as two or three "
+                    "more runs by series");
+  command->add_flag(
+      "--discrete", options->discrete,
+      "with engine newmark: derivatives of the discrete solution instead of the continuous motion");
   command
       ->add_option("--sigma", options->sigmas,
-                   "the standard deviation of a key; times and figures get theirs (may be repeated)")
+                   "standard deviation of a key; the output then has standard deviations of times and "
+                   "results (may be repeated)")
       ->option_text("PATH=VALUE")
       ->allow_extra_args(false);
   command->callback([&program, options] { program.action = [options] { return run(*options); }; });

@@ -55,7 +55,7 @@ void add_table_option(CLI::App& command, std::string& style) {
 TableStyle table_style_of(const std::string& style, const OutputOptions& options) {
   const TableStyle result = table_style(style);
   if (result != TableStyle::plain && options.json)
-    throw UsageError("--table: stands beside --json, expected one of the two");
+    throw UsageError("--table: cannot be combined with --json; give only one of them");
   return result;
 }
 

@@ -249,7 +249,7 @@ ExitCode study(const StudyOptions& options, const std::vector<std::string>& comm
 void add_study(Program& program) {
   auto options = std::make_shared<StudyOptions>();
   CLI::App* command = program.app.add_subcommand(
-      "study", "speed against error: every engine at every accuracy, which is cheapest for what");
+      "study", "measure run time against error for each engine, and find the fastest for each accuracy");
   command->add_option("SCENE", options->scene, "the scene file (TOML)")->required();
   command->add_option("--engines", options->engines, "engines to measure (default: all)")
       ->option_text("NAME,NAME...")
@@ -266,7 +266,8 @@ void add_study(Program& program) {
       ->option_text("RANGE");
   command
       ->add_option("--vary", options->varied,
-                   "another key to vary against the unvaried reference: reduction.cutoff_omega=1e3,1e4")
+                   "another key to vary; errors are relative to the run with the key unchanged. Example: "
+                   "reduction.cutoff_omega=1e3,1e4")
       ->option_text("PATH=VALUES")
       ->allow_extra_args(false);
   command
@@ -274,7 +275,9 @@ void add_study(Program& program) {
                    "directory of the study (default: SCENE's name with -study)")
       ->option_text("DIR");
   add_settings(*command, options->settings);
-  command->add_option("--repeats", options->repeats, "times are the least of so many (default: 3)")
+  command
+      ->add_option("--repeats", options->repeats,
+                   "number of repetitions; the shortest time counts (default: 3)")
       ->option_text("N");
   command->add_option("--time-limit", options->time_limit, "seconds that a run may take (default: 60)")
       ->option_text("S");

@@ -396,7 +396,7 @@ ExitCode sweep_or_merge(const SweepOptions& given, const std::vector<std::string
   if (options.varied.empty() && options.samples.empty())
     throw UsageError("sweep: expected --vary, such as --vary 'contacts.*.friction=0:1.3:0.1', or --sample");
   if (!options.samples.empty() && options.responses.empty())
-    throw UsageError("--sample: expected --response, whose distribution is wanted");
+    throw UsageError("--sample needs at least one --response: the quantity whose distribution is computed");
   return sweep(options, command_line);
 }
 
@@ -412,8 +412,8 @@ void add_strobe(CLI::App& command, SweepOptions& options, const CLI::Validator& 
       ->option_text("T")
       ->check(given);
   command.add_flag("--carry", options.carry,
-                   "along the last --vary each run begins where the one before it has ended");
-  command.add_flag("--back", options.back, "with --carry: then the same values in the opposite order");
+                   "along the last --vary, each run starts from the final state of the previous run");
+  command.add_flag("--back", options.back, "with --carry: then run the same values in reverse order");
 }
 
 }  // namespace
@@ -424,12 +424,13 @@ void add_sweep(Program& program) {
       program.app.add_subcommand("sweep", "run a scene over ranges of its keys, into one table");
   command->add_option("SCENE", options->scene, "the scene file (TOML)");
   command
-      ->add_option(
-          "--vary", options->varied,
-          "start:stop:step, stop included, or value,value,...; several make a product (may be repeated)")
+      ->add_option("--vary", options->varied,
+                   "range start:stop:step (stop included) or list value,value,...; several --vary are "
+                   "combined (all combinations)")
       ->option_text("PATH=VALUES")
       ->allow_extra_args(false);
-  command->add_flag("--together", options->together, "all --vary in step, instead of their product");
+  command->add_flag("--together", options->together,
+                    "change all --vary keys together, row by row, instead of all combinations");
   command
       ->add_option(
           "--response", options->responses,
@@ -441,7 +442,7 @@ void add_sweep(Program& program) {
       ->add_option(
           "--sample", options->samples,
           "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
-          "triangular(least,likely,greatest); keys with commas between share each draw (may be repeated)")
+          "triangular(least,likely,greatest); keys separated by commas get the same sample (may be repeated)")
       ->option_text("PATH[,PATH...]=DISTRIBUTION")
       ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
@@ -450,16 +451,17 @@ void add_sweep(Program& program) {
       ->option_text("N")
       ->check(given);
   command->add_option("--seed", options->seed, "of the draws (default: 1)")->option_text("S")->check(given);
-  command->add_option("--sequence", options->sequence, "of the draws: random (the default) or sobol")
+  command->add_option("--sequence", options->sequence, "kind of samples: random (default) or sobol")
       ->option_text("NAME");
   command
       ->add_option("-o,--output", options->directory,
-                   "directory of the sweep (default: SCENE's name with -sweep); an earlier one goes on")
+                   "directory of the sweep (default: SCENE's name with -sweep); an unfinished sweep in DIR "
+                   "is continued")
       ->option_text("DIR");
   add_settings(*command, options->settings);
-  command->add_option("--engine", options->engine, "of all runs, instead of the scene's run.engine")
+  command->add_option("--engine", options->engine, "engine of all runs, instead of the scene's run.engine")
       ->option_text("NAME");
-  command->add_option("--jobs", options->jobs, "runs at a time (default: one a processor)")
+  command->add_option("--jobs", options->jobs, "number of parallel runs (default: one per processor)")
       ->option_text("N")
       ->check(given);
   command
@@ -472,7 +474,7 @@ void add_sweep(Program& program) {
   add_strobe(*command, *options, given);
   add_table_option(*command, options->table);
   command->add_flag("--keep", options->keep, "keep the directory of every run, in DIR/runs");
-  add_output_options(*command, *options, "begin anew where there is an earlier sweep", "results.json");
+  add_output_options(*command, *options, "replace an earlier sweep instead of continuing it", "results.json");
   command->callback([&program, options] {
     program.action = [options, line = program.command_line] { return sweep_or_merge(*options, line); };
   });

@@ -43,7 +43,7 @@ std::string two_digits(double value) { return fmt::format("{:.2g}", value); }
 
 std::string text_of(const Verification& result) {
   Table table(
-      {"compared", "how many", "order", "greatest bar", "worst difference", "allowed", "unit", "at t"},
+      {"quantity", "number", "order", "largest error bar", "largest difference", "allowed", "unit", "at t"},
       {false, true, true, true, true, true, false, true});
   for (const VerifiedKind& kind : result.kinds) {
     if (kind.compared == 0) continue;
@@ -57,7 +57,7 @@ std::string text_of(const Verification& result) {
     text += fmt::format("\nnewmark: dt {:g}, {:g}, {:g}\n", result.dt[0], result.dt[1], result.dt[2]);
   if (result.paper_dt)
     text += fmt::format(
-        "the paper's own test: doubling the step to {:g} changes displacements by less than {:g} "
+        "convergence test of the paper: with the step doubled to {:g} displacements change by less than {:g} "
         "of the greatest\n",
         *result.paper_dt, paper_change);
   text += result.witness + "\n";

@@ -56,7 +56,8 @@ ExitCode hear_witness(const WitnessOptions& options) {
 void add_witness(Program& program) {
   auto options = std::make_shared<WitnessOptions>();
   CLI::App* command = program.app.add_subcommand(
-      "witness", "check every instant of a run by its files alone (run --instants)");
+      "witness",
+      "check the contact laws at every instant of a run, using only its files (needs run --instants)");
   command->add_option("DIR", options->directory, "a directory that `signorini run --instants` wrote")
       ->required();
   command->add_flag("--json", options->json, "print JSON instead of text");

@@ -273,9 +273,9 @@ class BodyBuilder {
       if (!used.contains(name)) {
         std::string all;
         for (const std::string& have : there) all += (all.empty() ? "" : ", ") + have;
-        throw SceneError({file_, 0, 0}, key_,
-                         fmt::format("no physical surface is named \"{}\"; there are: {}", name,
-                                     all.empty() ? "none" : all));
+        throw SceneError(
+            {file_, 0, 0}, key_,
+            fmt::format("no physical surface is named \"{}\"; known: {}", name, all.empty() ? "none" : all));
       }
     if (mesh_.elements.empty())
       throw SceneError({file_, 0, 0}, key_, "found no triangles or quadrilaterals, expected a plane mesh");

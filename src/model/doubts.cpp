@@ -54,7 +54,7 @@ class Doubts {
     sudden_supports();
     sudden_heat();
     growth();
-    for (std::string& doubt : hanger_doubts(model_)) found_.push_back(std::move(doubt));
+    for (std::string& doubt : hanger_doubts(scene_, model_)) found_.push_back(std::move(doubt));
     runs_away();
     for (std::string& unused : unused_values(scene_, map_, model_)) found_.push_back(std::move(unused));
     return std::move(found_);
@@ -137,10 +137,11 @@ class Doubts {
       if (gives && std::find(falling_.begin(), falling_.end(), k) == falling_.end()) touching.push_back(k);
     }
     if (touching.empty()) return;
-    found_.push_back(fmt::format(
-        "the weight acts suddenly at t = 0 on {}, closed without force: the structure will oscillate, "
-        "with up to twice the static force; initial = \"static\" starts at rest",
-        names(model_, touching)));
+    found_.push_back(
+        fmt::format("the weight acts suddenly at t = 0 on {}, closed there with zero force: the structure "
+                    "will oscillate, "
+                    "with up to twice the static force; initial = \"static\" starts at rest",
+                    names(model_, touching)));
   }
 
   void drag() {
@@ -149,12 +150,11 @@ class Doubts {
     const StaticProblem problem{model_.stiffness, weight_, model_.contacts, map_};
     const Eigen::MatrixXd free = null_motions(problem.matrix(closed));
     if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
-    found_.push_back(
-        fmt::format("damping alpha = {:.4g} 1/{} slows free motions, too: parts that slide or fly "
-                    "lose their velocity with the time constant 1/alpha = {:.4g} {}; beta alone "
-                    "does not slow them",
-                    model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
-                    model_.units.time));
+    found_.push_back(fmt::format(
+        "mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding and flying "
+        "parts lose their velocity with the time constant 1/alpha = {:.4g} {}; beta or single dampers do not",
+        model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
+        model_.units.time));
   }
 
   void friction() {
@@ -167,10 +167,9 @@ class Doubts {
       greatest = std::max(greatest, f);
     }
     if (high.empty()) return;
-    found_.push_back(
-        fmt::format("friction {:.6g} at {}: a ratio of forces is rarely above 2; was an angle "
-                    "or a percentage meant?",
-                    greatest, names(model_, high)));
+    found_.push_back(fmt::format(
+        "friction {:.6g} at {}: coefficients above 2 are unusual; is it an angle or a percentage?", greatest,
+        names(model_, high)));
   }
 
   /// What lasts less than the clock can tell is passed at once, and with it a pulse.
@@ -255,7 +254,7 @@ class Doubts {
     const double rate = found->rate / model_.unit.time;
     if (found->omega == 0.0)
       throw SceneError(scene_.initial.place, "run.initial",
-                       fmt::format("no slow start: with {} slipping at the limit a motion grows like "
+                       fmt::format("no frictional start: with {} slipping at the limit a motion grows like "
                                    "exp({:.4g} t), so this equilibrium cannot be reached",
                                    names(model_, found->contacts), rate));
     found_.push_back(fmt::format(

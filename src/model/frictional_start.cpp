@@ -48,13 +48,24 @@ std::string word_of(LoadKind kind) {
                    fmt::format("no load is called \"{}\"{}", name, suggestion(name, names)));
 }
 
+/// A kind of load that the scene has, though all its values are zero, as an override may set them: nothing grows then.
+bool is_zero_kind(const Scene& scene, const std::string& name) {
+  const auto expands = [](const auto& part) { return part.thermal_expansion != 0.0; };
+  if (name == word_of(LoadKind::temperature))
+    return std::any_of(scene.members.begin(), scene.members.end(), expands) ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), expands);
+  if (name == word_of(LoadKind::preload)) return !scene.springs.empty();
+  return name == word_of(LoadKind::base) && !scene.base_motion.empty();
+}
+
 /// A stage names loads one by one, or all of a kind.
 bool is_called(const Load& load, const std::string& name) {
   return name == load.name || name == word_of(load.kind);
 }
 
 /// Adds the loads of one stage, and counts how often each was taken.
-Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::vector<int>& taken) {
+Stage made(const Scene& scene, std::size_t number, const Model& model, std::vector<int>& taken) {
+  const StageSpec& spec = scene.initial.stages[number - 1];
   const std::string key = fmt::format("run.stages.{}.loads", number);
   Stage stage{spec.name, Vector::Zero(model.size()), spec.steps};
   for (std::size_t j = 0; j < spec.loads.size(); ++j) {
@@ -66,10 +77,11 @@ Stage made(const StageSpec& spec, std::size_t number, const Model& model, std::v
       if (++taken[i] > 1)
         throw SceneError(
             spec.load_places[j], key,
-            fmt::format("found \"{}\", which was loaded before, expected each load once", load.name));
+            fmt::format("\"{}\" is already in an earlier stage; list each load in one stage only",
+                        load.name));
       load.direction.add_to(stage.load, load.history.value(0.0));
     }
-    if (!any) refuse_name(spec, j, key, model);
+    if (!any && !is_zero_kind(scene, spec.loads[j])) refuse_name(spec, j, key, model);
   }
   return stage;
 }
@@ -87,13 +99,13 @@ std::vector<Stage> stages_of(const Scene& scene, const Model& model, std::vector
   }
   std::vector<int> taken(model.loads.size(), 0);
   for (std::size_t i = 0; i < scene.initial.stages.size(); ++i)
-    stages.push_back(made(scene.initial.stages[i], i + 1, model, taken));
+    stages.push_back(made(scene, i + 1, model, taken));
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     if (load.is_static && taken[i] == 0 && load.history.value(0.0) != 0.0)
       throw SceneError(
           scene.initial.stages.front().place, "run.stages",
-          fmt::format("\"{}\" stands in no stage, and acts from the start: expected it in the loads of one",
+          fmt::format("\"{}\" acts from the beginning but is in no stage; add it to the loads of a stage",
                       load.name));
     acts.push_back(taken[i] > 0);
   }

@@ -54,12 +54,11 @@ void refuse_buckled(const Scene& scene, const DofMap& map, const Model& model,
   const std::vector<double> factors = factors_at(scene, map, model, states, 1);
   if (factors.empty() || factors.front() > 1.0) return;
   const std::string what =
-      factors.front() > 0.0
-          ? fmt::format("{:.9g} times these loads are the first at which it buckles", factors.front())
-          : std::string("it buckles under any part of them, however small (load factor 0)");
+      factors.front() > 0.0 ? fmt::format("the lowest load factor is {:.9g}", factors.front())
+                            : std::string("it buckles under any part of them, however small (load factor 0)");
   throw SceneError(scene.run.geometric_place, asked_by,
-                   fmt::format("the structure does not stand under its static loads: on the contacts of the "
-                               "start {}, expected a load factor above 1",
+                   fmt::format("the structure buckles under its static loads: with the contacts that are "
+                               "closed at the start {}, expected a load factor above 1",
                                what));
 }
 

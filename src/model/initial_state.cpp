@@ -152,14 +152,13 @@ std::string unused(const Model& model, const GivenPlace& at, double value, const
   const Dof& dof = model.dofs[static_cast<std::size_t>(at.dof)];
   const double unit = (dof.rotation ? 1.0 : model.unit.length) / (at.velocity ? model.unit.time : 1.0);
   const std::string what =
-      at.velocity
-          ? fmt::format("{} has no mass, so that its velocity follows from the forces on it",
-                        dof.displacement)
-          : fmt::format("{} has neither mass nor a damper, so that it follows the forces on it at once",
-                        dof.displacement);
-  return SceneError(place, key,
-                    fmt::format("found {:.9g}, which is not used: {}; give it a mass{}, or leave this out",
-                                value * unit, what, at.velocity ? "" : " or a damper"))
+      at.velocity ? fmt::format("{} has no mass, so its velocity follows from the forces", dof.displacement)
+                  : fmt::format("{} has no mass and no damper, so it follows the forces immediately",
+                                dof.displacement);
+  return SceneError(
+             place, key,
+             fmt::format("the initial value {:.9g} is ignored: {}; give it a mass{}, or remove this value",
+                         value * unit, what, at.velocity ? "" : " or a damper"))
       .what();
 }
 

@@ -80,7 +80,7 @@ void Search::set_period(const Scene& scene) {
   if (orbit_.autonomous && !loads.surfaces_move)
     throw SceneError(
         {}, "loads",
-        "found no load that repeats itself and no surface that moves, expected one of them, or --period");
+        "an orbit needs a periodic load, a moving surface, or --period; the scene has none of them");
   const double t_end = std::max(scene.run.t_end, long_enough(loads, options_));
   const Scene longer = read_({{"run.t_end", shortest(t_end)}});
   given_ = build_model(longer);

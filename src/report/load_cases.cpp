@@ -73,10 +73,10 @@ std::vector<Figure> support_figures(const Json& summary) {
     auto rest = number_in(entry_of(contact, "static_reaction"));
     if (rest) rest = *rest == 0.0 ? 0.0 : -*rest;
     add("N at rest", force, Governs::least, rest);
-    turn("N least", "N", "least", Governs::least);
-    turn("N greatest", "N", "greatest", Governs::greatest);
-    turn("T least", "T", "least", Governs::least);
-    turn("T greatest", "T", "greatest", Governs::greatest);
+    turn("N min", "N", "least", Governs::least);
+    turn("N max", "N", "greatest", Governs::greatest);
+    turn("T min", "T", "least", Governs::least);
+    turn("T max", "T", "greatest", Governs::greatest);
     add("residual slip", length, Governs::magnitude, number_in(entry_of(load, "residual_slip")));
     add("friction loss", force + " " + length, Governs::greatest,
         number_in(entry_of(contact, "friction_work")));
@@ -214,12 +214,18 @@ std::vector<CaseRow> case_rows(const std::vector<LoadCase>& cases) {
   return rows;
 }
 
-/// The case that governs, -1: none has a value.
-int governing(const CaseRow& row) {
+bool is_done(const LoadCase& c) {
+  return text_in(entry_of(entry_of(c.summary, "outcome"), "kind")) == "done";
+}
+
+/// The case that governs, of those that were computed to their end; -1: none has a value, or the value is 0 in all.
+int governing(const std::vector<LoadCase>& cases, const CaseRow& row) {
   int best = -1;
   double most = 0.0;
+  bool any = false;
   for (std::size_t c = 0; c < row.values.size(); ++c) {
-    if (!row.values[c] || !row.values[c]->value) continue;
+    if (!row.values[c] || !row.values[c]->value || !is_done(cases[c])) continue;
+    any = any || *row.values[c]->value != 0.0;
     const double value = *row.values[c]->value;
     const double weight = row.of.governs == Governs::least      ? -value
                           : row.of.governs == Governs::greatest ? value
@@ -228,7 +234,7 @@ int governing(const CaseRow& row) {
     best = static_cast<int>(c);
     most = weight;
   }
-  return best;
+  return any ? best : -1;
 }
 
 /// Names of directories may have commas and quotes.
@@ -250,12 +256,25 @@ std::string csv_line(const std::vector<std::string>& cells) {
 Json read_summary(const fs::path& directory) {
   const fs::path path = directory / "summary.json";
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(directory.string(), "holds no run; load cases are directories that `run` wrote");
+  if (!file)
+    throw FileError(directory.string(),
+                    fs::is_directory(directory)
+                        ? "contains no run; load cases are directories that `signorini run` wrote"
+                        : "not a directory");
   try {
     return parse_json(file);
   } catch (const Json::exception& error) {
     throw FileError(path.string(), std::string("is not JSON: ") + error.what());
   }
+}
+
+/// "kN, t, m, s"
+std::string unit_list(const Json& units) {
+  std::string text;
+  for (const char* of : {"force", "mass", "length", "time"})
+    if (const std::string unit = text_in(entry_of(units, of)); !unit.empty())
+      text += (text.empty() ? "" : ", ") + unit;
+  return text;
 }
 
 std::string rows_html(const std::vector<LoadCase>& cases, const std::vector<CaseRow>& rows, Sheet sheet) {
@@ -264,7 +283,7 @@ std::string rows_html(const std::vector<LoadCase>& cases, const std::vector<Case
   head += heading("governs");
   for (const CaseRow& row : rows) {
     if (row.of.sheet != sheet) continue;
-    const int best = governing(row);
+    const int best = governing(cases, row);
     text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", html_text(row.of.item),
                         html_text(row.of.quantity), html_text(row.of.unit));
     for (std::size_t c = 0; c < row.values.size(); ++c) {
@@ -294,8 +313,9 @@ std::vector<LoadCase> read_load_cases(const std::vector<fs::path>& directories) 
     const Json &units = entry_of(cases.back().summary, "units"),
                &first = entry_of(cases.front().summary, "units");
     if (units != first)
-      throw FileError(directory.string(), "has other units than " + directories.front().string() + ": " +
-                                              json_line(units) + ", expected " + json_line(first));
+      throw FileError(directory.string(),
+                      fmt::format("has the units {}, but {} has {}; load cases need the same units",
+                                  unit_list(units), directories.front().string(), unit_list(first)));
   }
   return cases;
 }
@@ -314,11 +334,68 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
       cells.push_back(figure && figure->value ? shortest(*figure->value) : "");
       cells.push_back(figure && figure->t ? shortest(*figure->t) : "");
     }
-    const int best = governing(row);
+    const int best = governing(cases, row);
     cells.push_back(best < 0 ? "" : cases[static_cast<std::size_t>(best)].name);
     text += csv_line(cells);
   }
   return text;
+}
+
+namespace {
+
+/// "--set a=b --set c=d" of a run's command line: what makes a case of a scene.
+std::string overrides_of(const Json& summary) {
+  const Json& line = entry_of(summary, "command_line");
+  std::string text;
+  if (line.is_array())
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+      if (text_in(line[i]) == "--set") text += (text.empty() ? "" : ", ") + text_in(line[i + 1]);
+  return text;
+}
+
+std::string method_of(const Json& summary) {
+  std::string text = text_in(entry_of(summary, "engine"));
+  const auto cutoff = number_in(entry_of(entry_of(summary, "reduction"), "cutoff_omega"));
+  if (cutoff)
+    text += fmt::format(", modes up to {} rad/{}", shown(*cutoff),
+                        text_in(entry_of(entry_of(summary, "units"), "time")));
+  return text;
+}
+
+std::vector<std::string> names_in(const Json& list) {
+  std::vector<std::string> names;
+  if (list.is_array())
+    for (const Json& item : list) names.push_back(text_in(entry_of(item, "name")));
+  return names;
+}
+
+std::string warnings_html(const std::vector<LoadCase>& cases) {
+  std::string text;
+  for (const LoadCase& c : cases) {
+    const Json& warnings = entry_of(c.summary, "warnings");
+    if (!warnings.is_array()) continue;
+    for (const Json& warning : warnings)
+      text += fmt::format("<li>{}: {}</li>\n", html_text(c.name), html_text(text_in(warning)));
+  }
+  return text.empty() ? "" : "<p>Warnings of the runs:</p><ul class=warnings>" + text + "</ul>\n";
+}
+
+}  // namespace
+
+std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases) {
+  std::vector<std::string> doubts;
+  for (const LoadCase& c : cases) {
+    const Json& outcome = entry_of(c.summary, "outcome");
+    if (!is_done(c))
+      doubts.push_back(fmt::format("case {} ended at t = {} of {} ({}); it governs no row", c.name,
+                                   shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
+                                   shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)),
+                                   text_in(entry_of(outcome, "kind"))));
+    if (names_in(entry_of(c.summary, "contacts")) != names_in(entry_of(cases.front().summary, "contacts")))
+      doubts.push_back(fmt::format("cases {} and {} have different contacts: is it the same structure?",
+                                   cases.front().name, c.name));
+  }
+  return doubts;
 }
 
 std::string load_cases_html(const std::vector<LoadCase>& cases) {
@@ -327,14 +404,28 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
     const Json& outcome = entry_of(c.summary, "outcome");
     const Json& events = entry_of(c.summary, "events");
     const auto t = number_in(entry_of(outcome, "t"));
-    facts += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td class=n>{}</td><td class=n>{}</td></tr>\n",
-                         html_text(c.name), html_text(text_in(entry_of(c.summary, "title"))),
-                         html_text(text_in(entry_of(outcome, "kind"))), t ? shown(*t) : "",
-                         html_text(json_line(entry_of(events, "total"))));
+    const std::string kind = text_in(entry_of(outcome, "kind"));
+    facts += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=n>{}</td><td "
+        "class=n>{}</td></tr>\n",
+        html_text(c.name), html_text(text_in(entry_of(c.summary, "title"))),
+        html_text(overrides_of(c.summary)), html_text(method_of(c.summary)),
+        is_done(c) ? "done" : "<b>" + html_text(kind) + "</b>", t ? shown(*t) : "",
+        html_text(json_line(entry_of(events, "total"))));
   }
-  text +=
-      section("cases", "Load cases",
-              table("<th>case</th><th>title</th><th>outcome</th><th>reached t</th><th>events</th>", facts));
+  std::string doubts;
+  for (const std::string& doubt : load_case_doubts(cases))
+    doubts += "<p><b>" + html_text(doubt) + "</b></p>\n";
+  text += section(
+      "cases", "Load cases",
+      table("<th>case</th><th>title</th><th>changed in the scene</th><th>engine</th><th>outcome</th>"
+            "<th>reached t</th><th>events</th>",
+            facts) +
+          doubts +
+          "<p class=hint>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the reaction "
+          "at "
+          "the start of the run. Bold: the case that governs, that is min, max or greatest magnitude.</p>\n" +
+          warnings_html(cases));
   const std::vector<CaseRow> rows = case_rows(cases);
   text += section("loads", "Support loads", rows_html(cases, rows, Sheet::support));
   text += section("responses", "Responses", rows_html(cases, rows, Sheet::response));

@@ -30,6 +30,9 @@ struct LoadCase {
 /// name, or units differ.
 [[nodiscard]] std::vector<LoadCase> read_load_cases(const std::vector<std::filesystem::path>& directories);
 
+/// Sentences: cases that did not reach their end, and cases of different structures.
+[[nodiscard]] std::vector<std::string> load_case_doubts(const std::vector<LoadCase>& cases);
+
 /// item,quantity,unit,CASE,CASE t,...,governing: a row a figure; a cell is empty where the case has no such item.
 [[nodiscard]] std::string load_cases_csv(const std::vector<LoadCase>& cases);
 /// Sections: cases, support loads, responses, member envelopes.

@@ -226,9 +226,21 @@ std::string kind_of_results(const fs::path& directory) {
     if (fs::is_regular_file(directory / kind.marker, error)) return kind.name;
   throw FileError(directory.string(),
                   fs::is_directory(directory, error)
-                      ? "holds no run, comparison, study, sweep, verification, sensitivities or fit"
-                      : "is no directory");
+                      ? "contains no run, comparison, study, sweep, verification, sensitivities or fit"
+                      : "not a directory");
 }
+
+namespace {
+
+std::string with_signs(const std::string& loads) {
+  return loads.empty()
+             ? ""
+             : loads +
+                   "<p class=hint>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the "
+                   "reaction at the start of the run.</p>\n";
+}
+
+}  // namespace
 
 std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
   const Json summary = read_json(directory / "summary.json");
@@ -236,7 +248,7 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   data["response_units"] = Json::object();
   for (const Json& output : member(summary, "response"))
     data["response_units"][value_text(member(output, "name"))] = value_text(member(output, "unit"));
-  std::string body = section("loads", "Support loads", support_loads_html(summary));
+  std::string body = section("loads", "Support loads", with_signs(support_loads_html(summary)));
   body += section("responses", "Responses", responses_html(summary, false));
   body += section("envelopes", "Member envelopes", responses_html(summary, true));
   body += section("summary", "Summary", run_facts(summary));

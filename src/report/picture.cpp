@@ -165,13 +165,18 @@ std::string figures(const fs::path& directory, std::size_t room) {
   for (const auto& entry : fs::directory_iterator(directory / "plots", error))
     if (entry.path().extension() == ".svg") all.emplace_back(entry.path(), smaller_figure(entry.path()));
   std::sort(all.begin(), all.end());
-  // Small ones first, those of single contacts last: the charts of the page have what these show.
+  // What a reader looks for first, then small ones; single contacts last, of these first the ones where most happens. The charts of
+  // the page have what contacts' pictures show.
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto of_contact = [&](std::size_t i) { return all[i].first.stem().string().starts_with("contact-"); };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(of_contact(a), all[a].second.size()) < std::pair(of_contact(b), all[b].second.size());
-  });
+  const auto rank = [&](std::size_t i) {
+    const std::string name = all[i].first.stem().string();
+    const auto size = static_cast<double>(all[i].second.size());
+    if (name.starts_with("contact-")) return std::pair(2, -size);
+    return std::pair(name == "displacement" || name == "response" || name == "states" ? 0 : 1, size);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   std::vector<bool> shown(all.size(), false);
   for (const std::size_t i : order) {
     shown[i] = all[i].second.size() <= room;

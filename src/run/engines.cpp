@@ -38,15 +38,15 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
   refuse_own_laws(model, run);
   for (const Contact& contact : model.contacts) {
     if (contact.bowl)
-      refuse(run,
-             fmt::format("needs stiffnesses that stay, and pendulum '{}' has one that goes with its normal "
-                         "force, which varies",
-                         contact.name),
-             ida_instead);
+      refuse(
+          run,
+          fmt::format(
+              "needs constant stiffnesses, but the stiffness of pendulum '{}' varies with its normal force",
+              contact.name),
+          ida_instead);
     if (friction_varies(contact))
       refuse(run,
-             fmt::format("needs laws that are linear, and the friction of contact '{}' depends on its slip "
-                         "rate",
+             fmt::format("needs linear laws, but the friction of contact '{}' depends on its slip rate",
                          contact.name),
              ida_instead);
   }
@@ -55,7 +55,7 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
 void refuse_functions(const Model& model, const RunSpec& run) {
   const auto check = [&](const History& history, const std::string& what) {
     if (!history.has_closed_form())
-      refuse(run, fmt::format("needs loads in closed form, and {} is a function of one's own", what),
+      refuse(run, fmt::format("needs loads in closed form, but {} is a user function", what),
              "use \"ida\" or \"newmark\"");
   };
   for (const Load& load : model.loads) check(load.history, load.name);
@@ -124,8 +124,8 @@ Method closed_flow(const Model& model, const RunSpec& run) {
           "",
           0.0,
           most_levels,
-          flow.modal ? "of the Taylor series where a state has no modes; rtol has no part in it"
-                     : "Taylor series as long as rounding needs; rtol has no part in it",
+          flow.modal ? "for the Taylor series of states without modes; rtol is not used"
+                     : "Taylor series, as long as rounding accuracy needs; rtol is not used",
           flow.modal ? "modal" : "taylor",
           std::move(flow.reason)};
 }

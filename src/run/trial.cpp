@@ -18,6 +18,8 @@ constexpr double longest_first = 2.0;  // s, that a trial may take before it can
 constexpr double times_as_long = 4.0,
                  long_run = 5.0;  // times, s; chosen: below, nobody gains by another engine
 
+constexpr double least_steps = 10.0;  // of the rule's length, that a trial must get on; chosen
+
 /// Ends the run when its time is over. It keeps no motion: what a trial takes of memory adds to that of the run.
 class Stopwatch : public Recorder {
  public:
@@ -56,13 +58,15 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
   run.certify = Certify::no;
   try {
     // What cannot be stopped for long is not begun.
-    if (const Effort effort = expected(model, run).effort; effort.first > longest_first)
-      return effort.seconds;
+    const Effort effort = expected(model, run).effort;
+    if (effort.first > longest_first) return effort.seconds;
     Stopwatch watch(patience);
     const Report report = simulate(model, run, watch);
     if (report.outcome.kind == Outcome::Kind::done) return watch.now();
     if (report.outcome.kind != Outcome::Kind::interrupted) return 0.0;
     const double moved = watch.t_reached - watch.t_1;
+    // Of the small steps of a start alone, which nothing follows from: by the rule.
+    if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
     if (moved > 0.0) return watch.s + (run.t_end - watch.t_reached) * (watch.s - watch.s_1) / moved;
     return watch.t_reached > 0.0 ? watch.s * run.t_end / watch.t_reached : 0.0;
   } catch (const SceneError&) {

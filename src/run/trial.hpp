@@ -4,7 +4,8 @@
 //
 // t, s: where the trial's time is over, or the run's end; t_1, s_1: after a quarter of the trial's time, so that
 // assembling, factors and the small steps of a start are counted once. It is that of the whole run as far as the motion goes
-// on as it begins: a rest before a load acts makes it too short, events that come later too.
+// on as it begins: a rest before a load acts makes it too short, events that come later too. Where t - t_1 is less than ten steps
+// of the rule of effort.hpp, as on a busy machine after a start at the limits of friction, the rule's seconds stand.
 #pragma once
 
 #include <string>

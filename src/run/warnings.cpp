@@ -24,8 +24,9 @@ std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
     const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::abs(asked);
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
-        "contact '{}': initial_shear = {:.6g} is above the friction limit at t = 0; T starts at {:.6g}",
-        model.contacts[k].name, asked * model.unit.force, found * model.unit.force));
+        "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",
+        model.contacts[k].name, asked * model.unit.force, model.units.force, found * model.unit.force,
+        model.units.force));
   }
   return sentences;
 }
@@ -55,8 +56,8 @@ std::optional<std::string> shared_motion(const Model& model, const Decision& dec
   }
   if (names.empty()) return std::nullopt;
   return fmt::format(
-      "{} hold the same motion from t = {:.6g} on: the motion is unique, their friction forces are not; the "
-      "forces with the least sum of squares within the friction limits are taken",
+      "from t = {1:.6g} on {0} prevent the same motion: the motion is unique, but the friction forces are "
+      "not; those with the least sum of squares within the friction limits are taken",
       names.size() > 1 ? "contacts " + listed(names, 5) : "contact " + listed(names, 5) + " and others", t);
 }
 

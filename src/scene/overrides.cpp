@@ -195,8 +195,12 @@ class Change {
     std::vector<std::string> names;
     const std::vector<std::size_t> chosen = chosen_by(which, array, names);
     if (chosen.empty()) {
-      fail(fmt::format("there is no \"{}\" among the {} of {}{}", which, array.size(), done,
-                       suggestion(which, names)));
+      const std::string hint = suggestion(which, names);
+      fail(fmt::format(
+          "{} has {}, none of them \"{}\"{}", done,
+          array.size() == 1 ? "1 entry" : std::to_string(array.size()) + " entries", which,
+          hint.empty() ? fmt::format("; expected a name, a number from 1 to {}, or * for all", array.size())
+                       : hint));
     }
     for (const std::size_t i : chosen) {
       if (rest.size() == 1) {

@@ -27,7 +27,7 @@ GridSpec read_grid(Table& table) {
                : shape == "t6" ? PlaneShape::t6
                : shape == "q8" ? PlaneShape::q8
                                : PlaneShape::q4;
-  table.require("elements", " (without mesh)");
+  table.require("elements", " (required without mesh)");
   const std::vector<double> counts = *table.numbers("elements");
   const bool whole = std::all_of(counts.begin(), counts.end(),
                                  [](double n) { return n >= 1.0 && n <= most_cells && n == std::floor(n); });
@@ -86,7 +86,7 @@ PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
     std::vector<std::string> there;
     for (const PlaneMesh::Group& group : mesh.groups) there.push_back(group.name);
     if (std::find(there.begin(), there.end(), wanted) != there.end()) continue;
-    table.fail("groups", fmt::format("{} has no physical curve or point \"{}\" on this body; there are: {}",
+    table.fail("groups", fmt::format("{} has no physical curve or point \"{}\" on this body; known: {}",
                                      path.string(), wanted, there.empty() ? "none" : listed(there, 8)));
   }
   return mesh;
@@ -97,7 +97,7 @@ PlaneMesh read_mesh(Table& table, const Scene& scene) {
   const char* found = nullptr;
   for (const char* key : {"mesh", "rectangle", "ring"}) {
     if (!table.has(key)) continue;
-    if (found) table.fail(key, fmt::format("stands beside {}, expected one of the two", found));
+    if (found) table.fail(key, fmt::format("cannot be combined with {}; give only one of them", found));
     found = key;
   }
   if (!found) table.fail("mesh", "missing, expected mesh, rectangle or ring");
@@ -149,7 +149,7 @@ void read_points(Table& table, const BodySpec& body, Names& names, Scene& scene)
     if (!nearest.of_mesh)
       points.fail(entry.name, fmt::format("the node at this place is called \"{}\" already", nearest.name));
     if (!names.add(entry.name))
-      points.fail(entry.name, fmt::format("node \"{}\" is there already", entry.name));
+      points.fail(entry.name, fmt::format("node \"{}\" exists already", entry.name));
     nearest.name = entry.name;
     nearest.of_mesh = false;
   }
@@ -205,7 +205,7 @@ BoundaryRef find_boundary(const Table& table, std::string_view key, const std::s
       there.push_back(scene.bodies[b].name + "." + group.name);
       if (there.back() == name) return {b, &group};
     }
-  table.fail(key, fmt::format("no boundary is named \"{}\"; there are: {}", name,
+  table.fail(key, fmt::format("no boundary is named \"{}\"; known: {}", name,
                               there.empty() ? "none" : listed(there, 8)));
 }
 

@@ -14,15 +14,15 @@ namespace signorini {
 
 namespace {
 
-/// Of both: what stands beside the other is refused.
+/// Keys of the other friction law are refused.
 void read_rising_friction(Table& table, Friction& friction) {
   for (const char* key : {"static", "kinetic", "stribeck_velocity"})
     if (table.has(key))
       table.fail(key,
-                 "stands beside slow, fast or velocity, expected one law of friction: static, kinetic and "
-                 "stribeck_velocity for one that falls with the slip rate, slow, fast and velocity for one "
-                 "that rises");
-  for (const char* key : {"slow", "fast", "velocity"}) table.require(key, " (friction that rises)");
+                 "cannot be combined with slow, fast or velocity: use static, kinetic and stribeck_velocity "
+                 "(friction falls with the slip rate), or slow, fast and velocity (friction rises)");
+  for (const char* key : {"slow", "fast", "velocity"})
+    table.require(key, " (required for friction that rises with the slip rate)");
   friction.static_ = table.number("slow");
   friction.kinetic = table.number("fast");
   friction.velocity = table.number("velocity");
@@ -90,11 +90,11 @@ namespace {
 /// Normal, tangent and gap of a contact that opens.
 void read_gap(Table& table, ContactSpec& contact, const Space& space, const std::string& law) {
   const char* key = table.is("stops[]") ? "direction" : "normal";
-  table.require(key, " (" + law + ")");
+  table.require(key, " (required for law = \"" + law + "\")");
   contact.normal = read_direction(table, key, space);
   if (space.matrices) {
     const bool needed = contact.friction.any() && !table.is("stops[]");
-    if (needed) table.require("tangent", " (needed with friction)");
+    if (needed) table.require("tangent", " (required with friction)");
     if (table.is("stops[]") && contact.friction.any())
       table.fail("friction", "found friction, expected none: with [matrices] give two contacts");
     if (!table.is("stops[]") && table.has("tangent"))
@@ -117,10 +117,10 @@ void read_rigid(Table& table, ContactSpec& contact, const Space& space) {
 /// The frame-rod element of a seam: a bar of its area and thickness across, the same in shear along.
 void read_seam(Table& table, ContactSpec& contact) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
-    if (table.has(key)) table.fail(key, "stands beside seam, expected one of the two");
+    if (table.has(key)) table.fail(key, "cannot be combined with seam; give only one of them");
   Table seam = table.child("seam");
   const bool friction = contact.friction.any();
-  if (friction) seam.require("G", " (with friction)");
+  if (friction) seam.require("G", " (required with friction)");
   const double E = seam.number("E"), thickness = seam.number("thickness"), area = seam.number("area");
   const std::optional<double> G = seam.optional_number("G");
   seam.finish();
@@ -139,10 +139,11 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
     contact.normal_damping = table.number("normal_damping");
     return;
   }
-  table.require("normal_stiffness", " (compliant)");
+  table.require("normal_stiffness", " (required for law = \"compliant\")");
   contact.normal_stiffness = table.number("normal_stiffness");
   contact.normal_damping = table.number("normal_damping");
-  if (contact.friction.any()) table.require("tangential_stiffness", " (compliant with friction)");
+  if (contact.friction.any())
+    table.require("tangential_stiffness", " (required for law = \"compliant\" with friction)");
 }
 
 /// What lies between the contact's node and the ground, or takes the ground's place.
@@ -167,8 +168,8 @@ void read_elements(Table& table, ContactSpec& contact) {
   // Friction that falls with the slip rate, at a sliding point without mass, lets that point jump.
   if (contact.tangential_stiffness && contact.friction.stribeck_velocity)
     table.fail("friction",
-               "found a stribeck_velocity, expected none beside tangential_stiffness: the sliding "
-               "point has no mass, so friction that falls with its rate leaves its motion undecided");
+               "cannot be combined with tangential_stiffness: the sliding point is massless, so its motion "
+               "would not be unique. Remove one of the two");
 }
 
 namespace {
@@ -176,12 +177,12 @@ namespace {
 void read_slider(Table& table, ContactSpec& contact, const Space& space, const Scene& scene) {
   const bool from_normal = !space.matrices && table.has("normal");
   if (from_normal && table.has("tangent")) {
-    table.fail("normal", "stands beside tangent, expected one of the two for a slider");
+    table.fail("normal", "cannot be combined with tangent; give only one of them");
   }
-  if (!from_normal) table.require("tangent", " (slider)");
+  if (!from_normal) table.require("tangent", " (required for law = \"slider\")");
   contact.tangent = from_normal ? tangent_of(read_direction(table, "normal", space))
                                 : read_direction(table, "tangent", space);
-  table.require("normal_force", " (slider)");
+  table.require("normal_force", " (required for law = \"slider\")");
   contact.normal_force = read_standing_history(table, "normal_force", scene);
   check_pressing(table, contact.normal_force, scene.run.t_end);
 }
@@ -305,7 +306,7 @@ void read_stops(Table& top, Scene& scene, RecordedScene& record) {
     ContactSpec back = forth;
     forth = mirrored(std::move(forth));
     if (const auto gaps = table.numbers("gaps")) {
-      if (table.has("gap")) table.fail("gaps", "stands beside gap, expected one of the two");
+      if (table.has("gap")) table.fail("gaps", "cannot be combined with gap; give only one of them");
       if (gaps->size() != 2) table.wrong("gaps", "two numbers");
       forth.gap = (*gaps)[0];
       back.gap = (*gaps)[1];

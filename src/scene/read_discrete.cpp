@@ -15,7 +15,7 @@ namespace signorini {
 namespace {
 
 std::array<double, 2> read_pair(Table& table, std::string_view key, bool zero_too) {
-  table.require(key, key == "ratios" ? " (beside frequencies)" : " (beside ratios)");
+  table.require(key, key == "ratios" ? " (required with frequencies)" : " (required with ratios)");
   const std::vector<double> values = *table.numbers(key);
   const bool wrong = values.size() != 2 || std::any_of(values.begin(), values.end(), [&](double x) {
                        return zero_too ? x < 0.0 : !(x > 0.0);
@@ -39,10 +39,9 @@ void read_ratios(Table& table, DampingSpec& damping) {
   damping.beta = 2.0 * difference(z2 * w2, z1 * w1) / bottom;
   if (!(damping.alpha >= 0.0 && damping.beta >= 0.0 && std::isfinite(damping.alpha + damping.beta))) {
     const double r = std::max(f1, f2) / std::min(f1, f2);
-    table.fail("ratios",
-               fmt::format("alpha would be {:.6g} and beta {:.6g}, expected both >= 0: the ratio at "
-                           "{} between {:.6g} and {:.6g}",
-                           damping.alpha, damping.beta, shortest(f2), z1 / r, z1 * r));
+    table.fail("ratios", fmt::format("these ratios give alpha = {0:.6g} and beta = {1:.6g}, expected both >= "
+                                     "0; choose a ratio between {3:.6g} and {4:.6g} at the frequency {2}",
+                                     damping.alpha, damping.beta, shortest(f2), z1 / r, z1 * r));
   }
 }
 
@@ -155,8 +154,11 @@ void read_support_motion(Table& table, Support& support, std::size_t held, const
   const char* key = acceleration ? "acceleration" : "motion";
   if (!table.has(key)) return;
   if (acceleration && table.has("motion"))
-    table.fail("acceleration", "stands beside motion, expected one of the two");
-  if (held != 1) table.fail(key, fmt::format("needs one thing in fix that follows it, found {}", held));
+    table.fail("acceleration", "cannot be combined with motion; give only one of them");
+  if (held != 1)
+    table.fail(
+        key, fmt::format("needs exactly one direction in fix, found {}; write one support for each direction",
+                         held));
   if (acceleration && support.rz) table.fail("acceleration", "has no meaning for rz, expected motion");
   support.motion =
       acceleration ? read_acceleration(table, key, scene) : read_standing_history(table, key, scene);
@@ -197,12 +199,12 @@ void read_damping(Table& top, Scene& scene, RecordedScene& record) {
   damping.place = table.place();
   if (table.has("ratios") || table.has("frequencies")) {
     read_ratios(table, damping);
-    table.finish("stands beside ratios, expected one of the two");
+    table.finish("cannot be combined with ratios; give only one of them");
     record.add("damping", "[damping]", table.record());
     return;
   }
   if (table.has("alpha") && table.has("alpha_over_omega1")) {
-    table.fail("alpha_over_omega1", "stands beside alpha, expected one of the two");
+    table.fail("alpha_over_omega1", "cannot be combined with alpha; give only one of them");
   }
   damping.alpha_over_omega1 = table.optional_number("alpha_over_omega1");
   if (!damping.alpha_over_omega1) damping.alpha = table.number("alpha");

@@ -24,10 +24,10 @@ HistoryType type_of(const std::string& name) {
 
 void read_half_sine_end(Table& table, HistorySpec& spec) {
   if (table.has("end")) {
-    if (table.has("duration")) table.fail("end", "stands beside duration, expected one of the two");
+    if (table.has("duration")) table.fail("end", "cannot be combined with duration; give only one of them");
     return;
   }
-  table.require("duration", " (half_sine; or end)");
+  table.require("duration", " (half_sine: give duration or end)");
   spec.end = spec.start + table.number("duration");
   if (!(spec.end > spec.start)) table.fail("duration", "too short to end after the start");
 }
@@ -55,12 +55,12 @@ void read_span(Table& table, HistorySpec& spec) {
 
 void read_harmonic(Table& table, HistorySpec& spec) {
   if (table.has("omega") && table.has("frequency")) {
-    table.fail("frequency", "stands beside omega, expected one of the two");
+    table.fail("frequency", "cannot be combined with omega; give only one of them");
   }
   if (const auto frequency = table.optional_number("frequency")) {
     spec.omega = 2.0 * std::numbers::pi * *frequency;
   } else {
-    table.require("omega", " (or frequency)");
+    table.require("omega", " (give omega or frequency)");
     spec.omega = table.number("omega");
   }
   spec.phase = table.number("phase");
@@ -87,7 +87,7 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
   for (const char* key : {"column", "time_step"})
     if (layout.peer && table.has(key)) table.fail(key, "has no meaning for a PEER file, which says its own");
   if (table.has("column") && table.has("time_step"))
-    table.fail("column", "stands beside time_step, expected one of the two");
+    table.fail("column", "cannot be combined with time_step; give only one of them");
   if (const toml::node* node = table.raw("column")) {
     constexpr int most_columns = 100;
     const auto* number = node->as_integer();
@@ -106,7 +106,7 @@ TableLayout read_layout(Table& table, const std::filesystem::path& path) {
 bool read_table_file(Table& table, HistorySpec& spec, Role role, const Scene& scene) {
   constexpr std::size_t most_inline_rows = 10'000;  // a larger table stays in its file in run.toml
   for (const char* other : {"times", "values"}) {
-    if (table.has(other)) table.fail(other, "stands beside file, expected one of the two");
+    if (table.has(other)) table.fail(other, "cannot be combined with file; give only one of them");
   }
   const toml::node* node = table.raw("file");
   if (!node->is_string()) table.wrong("file", "the name of a file");
@@ -141,8 +141,8 @@ bool read_table(Table& table, HistorySpec& spec, Role role, const Scene& scene) 
   spec.steffen = table.choice("interpolation") == "steffen";
   if (table.has("hold")) spec.hold = table.flag("hold");
   if (table.has("file")) return read_table_file(table, spec, role, scene);
-  table.require("times", " (table; or file)");
-  table.require("values", " (table)");
+  table.require("times", " (table: give times and values, or file)");
+  table.require("values", " (required with times)");
   spec.times = *table.numbers("times");
   spec.values = *table.numbers("values");
   if (spec.times.empty()) table.wrong("times", "at least one time");
@@ -174,7 +174,7 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
   const double start = tabulated ? spec.times.front() : spec.start;
   const double length = (tabulated ? spec.times.back() : std::isinf(spec.end) ? start : spec.end) - start;
   if (*period < length * (1.0 - rounding::of_few))
-    table.fail("period", fmt::format("found the number {}, expected at least {}, how long the shape lasts",
+    table.fail("period", fmt::format("found the number {}, expected at least {}, the duration of the shape",
                                      shortest(*period), shortest(length)));
   constexpr double most_pieces = 1e5;
   const double first = start + spec.shift;
@@ -226,7 +226,7 @@ HistorySpec read_history(Table& parent, std::string_view key, Role role, const S
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
   const bool in_g = spec.type == HistoryType::table && read_table(table, spec, role, scene);
   if (spec.type == HistoryType::polynomial) {
-    table.require("coefficients", " (polynomial)");
+    table.require("coefficients", " (required for type = \"polynomial\")");
     spec.coefficients = *table.numbers("coefficients");
     constexpr std::size_t most = 32;
     if (spec.coefficients.empty() || spec.coefficients.size() > most) {

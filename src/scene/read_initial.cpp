@@ -135,7 +135,7 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   const std::filesystem::path directory = directory_of(scene) / name, path = directory / "states.csv";
   if (name.empty()) table.wrong("run", "the directory of a run");
   if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
-    refuse_file(table, "run", directory, "is no directory, expected that of a run");
+    refuse_file(table, "run", directory, "not a directory; give the directory of a run");
   std::ifstream in = open_data_file(table, "run", path);
   const std::optional<double> t = table.optional_number("t");
   table.finish("has no meaning beside run");

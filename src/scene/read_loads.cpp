@@ -19,7 +19,7 @@ void read_force(Table& table, LoadSpec& load, const Space& space) {
 
 void read_moment(Table& table, LoadSpec& load, const Space& space) {
   load.type = LoadType::moment;
-  table.require("node", " (moment)");
+  table.require("node", " (required for a moment)");
   load.direction.node = read_node(table, "node", space);
   load.direction.place = table.place("node");
   load.amplitude = table.number("moment");
@@ -27,7 +27,7 @@ void read_moment(Table& table, LoadSpec& load, const Space& space) {
 
 void read_distributed(Table& table, LoadSpec& load, const Space& space) {
   load.type = LoadType::distributed;
-  table.require("nodes", " (distributed)");
+  table.require("nodes", " (required for a distributed load)");
   load.pieces = read_node_names(table, "nodes", space);
   if (load.pieces.size() < 2) table.wrong("nodes", "the names of two or more nodes");
   table.require("direction", "");
@@ -40,11 +40,11 @@ void read_distributed(Table& table, LoadSpec& load, const Space& space) {
 void read_traction(Table& table, LoadSpec& load, const Space& space, const Scene& scene) {
   load.type = LoadType::traction;
   load.pressure = table.has("pressure");
-  table.require("group", load.pressure ? " (pressure)" : " (traction)");
+  table.require("group", load.pressure ? " (required for a pressure)" : " (required for a traction)");
   load.group = table.text("group");
   static_cast<void>(find_boundary(table, "group", load.group, scene));
   if (!load.pressure) {
-    table.require("direction", " (traction)");
+    table.require("direction", " (required for a traction)");
     load.direction = read_direction(table, "direction", space);
   }
   load.amplitude = table.number(load.pressure ? "pressure" : "traction");
@@ -85,12 +85,12 @@ void read_loads(Table& top, Scene& scene, RecordedScene& record) {
     const bool moment = table.has("moment"), distributed = table.has("distributed");
     for (const char* other : {"amplitude", "distributed"})
       if (table.has(other) && (moment || (distributed && table.has("amplitude"))))
-        table.fail(other, fmt::format("stands beside {}, expected one of the two",
+        table.fail(other, fmt::format("cannot be combined with {}; give only one of them",
                                       moment ? "moment" : "distributed"));
     const bool traction = table.has("traction") || table.has("pressure");
     for (const char* other : {"amplitude", "moment", "distributed", "traction"})
       if (traction && table.has(other) && (table.has("pressure") || std::string_view(other) != "traction"))
-        table.fail(other, fmt::format("stands beside {}, expected one of the two",
+        table.fail(other, fmt::format("cannot be combined with {}; give only one of them",
                                       table.has("pressure") ? "pressure" : "traction"));
     if (!space.matrices && traction)
       read_traction(table, load, space, scene);

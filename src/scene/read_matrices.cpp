@@ -139,7 +139,7 @@ void read_matrices(Table& top, Scene& scene, RecordedScene& record) {
       const auto entries = entries_of(top.node());
       const auto entry =
           std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == other; });
-      refuse(entry->place(), other, "stands beside [matrices], expected one of the two");
+      refuse(entry->place(), other, "cannot be combined with [matrices]; give only one of them");
     }
   }
   MatricesSpec matrices;

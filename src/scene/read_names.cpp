@@ -96,7 +96,7 @@ std::vector<std::string> read_one_or_more_nodes(Table& table, const Space& space
     table.require("node", "");
     return {read_node(table, "node", space)};
   }
-  if (table.has("node")) table.fail("nodes", "stands beside node, expected one of the two");
+  if (table.has("node")) table.fail("nodes", "cannot be combined with node; give only one of them");
   std::vector<std::string> names = read_node_names(table, "nodes", space);
   if (names.empty()) table.wrong("nodes", "names of nodes");
   return names;

@@ -46,10 +46,11 @@ void check_nodes(const Table& table, const std::vector<std::string>& names, cons
 void read_motion(Table& table, OutputSpec& output, const Space& space) {
   output.rotation = !space.matrices && table.flag("rotation");
   if (!output.rotation) {
-    if (!table.has("direction")) table.require("direction", space.matrices ? "" : ", or rotation = true");
+    if (!table.has("direction"))
+      table.require("direction", space.matrices ? "" : " (required without rotation = true)");
     output.direction = read_direction(table, "direction", space);
   } else if (table.has("direction")) {
-    table.fail("direction", "stands beside rotation, expected one of the two");
+    table.fail("direction", "cannot be combined with rotation; give only one of them");
   }
 }
 
@@ -130,8 +131,8 @@ void read_terms(Table& table, OutputSpec& output, const Scene& scene) {
     output.terms.push_back(read_term(terms, entry, scene));
     const OutputTerm &first = output.terms.front(), &term = output.terms.back();
     if (!same_unit(unit_of_term(first, scene.outputs), unit_of_term(term, scene.outputs)))
-      terms.fail(entry.name, fmt::format("found {} beside {}, expected terms of one unit: a factor may have "
-                                         "one, {{ factor = ..., unit = \"...\" }}",
+      terms.fail(entry.name, fmt::format("terms {} and {} have different units; give the factor a unit: {{ "
+                                         "factor = ..., unit = \"...\" }}",
                                          told(term, scene), told(first, scene)));
   }
   if (output.terms.empty()) table.fail("terms", "found none, expected { name = factor }");

@@ -35,8 +35,7 @@ Direction along(const Table& table, const std::string& node, const std::string& 
 /// What N varies with. Returns the force that its spring carries.
 double read_force(Table& table, ContactSpec& contact, double radius, const Scene& scene) {
   const bool bears = table.has("normal_stiffness");
-  if (!bears)
-    table.require("normal_force", " (or normal_stiffness: the force is then what the structure puts there)");
+  if (!bears) table.require("normal_force", " (required without normal_stiffness)");
   const bool given = table.has("normal_force");
   if (given) {
     contact.normal_force = read_standing_history(table, "normal_force", scene);
@@ -59,7 +58,7 @@ double read_force(Table& table, ContactSpec& contact, double radius, const Scene
   contact.normal_damping = table.number("normal_damping");
   contact.normal_force = constant_history(0.0);
   if (contact.friction.any())
-    table.require("tangential_stiffness", " (beside normal_stiffness, with friction)");
+    table.require("tangential_stiffness", " (required for normal_stiffness with friction)");
   contact.bowl = Bowl{radius, carried};
   return carried;
 }

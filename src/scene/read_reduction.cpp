@@ -9,7 +9,7 @@ void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
   if (!top.has("reduction")) return;
   Table table = top.child("reduction");
   if (table.has("cutoff_frequency") && table.has("cutoff_omega"))
-    table.fail("cutoff_frequency", "stands beside cutoff_omega, expected one of the two");
+    table.fail("cutoff_frequency", "cannot be combined with cutoff_omega; give only one of them");
   ReductionSpec spec;
   spec.place = table.place();
   for (const char* cutoff : {"cutoff_frequency", "cutoff_omega"})
@@ -20,7 +20,7 @@ void read_reduction(Table& top, Scene& scene, RecordedScene& record) {
   } else if (const auto frequency = table.optional_number("cutoff_frequency")) {
     spec.cutoff_omega = 2.0 * std::numbers::pi * *frequency;
   } else {
-    table.require("cutoff_omega", " (or cutoff_frequency, or tolerance)");
+    table.require("cutoff_omega", " (give one of cutoff_omega, cutoff_frequency and tolerance)");
     spec.cutoff_omega = *table.optional_number("cutoff_omega");
   }
   table.finish();

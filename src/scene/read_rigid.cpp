@@ -12,7 +12,9 @@ namespace {
 void read_box(Table& table, PointMass& mass) {
   for (const char* key : {"mass", "inertia"})
     if (table.has(key))
-      table.fail(key, "stands beside box, which gives mass and inertia: expected one of the two");
+      table.fail(
+          key,
+          fmt::format("cannot be combined with box, which defines mass and inertia; remove {} or box", key));
   Table box = table.child("box");
   const double width = box.number("width"), height = box.number("height");
   mass.mass = box.number("density") * width * height * box.number("thickness");
@@ -68,7 +70,7 @@ void read_rigid(Table& top, Scene& scene, RecordedScene& record) {
     if (table.has("box")) {
       read_box(table, mass);
     } else {
-      for (const char* key : {"mass", "inertia"}) table.require(key, " (beside no box)");
+      for (const char* key : {"mass", "inertia"}) table.require(key, " (required without box)");
       mass.mass = table.number("mass");
       mass.inertia = table.number("inertia");
     }

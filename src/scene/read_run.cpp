@@ -25,7 +25,7 @@ void check_times(const Table& table, std::string_view key, const std::vector<dou
 
 void read_output(Table& table, RunSpec& run) {
   if (table.has("output_dt") && table.has("output_times")) {
-    table.fail("output_times", "stands beside output_dt, expected one of the two");
+    table.fail("output_times", "cannot be combined with output_dt; give only one of them");
   }
   run.output_times = table.numbers("output_times");
   run.output_dt = table.optional_number("output_dt");
@@ -92,7 +92,7 @@ void read_certification(Table& table, RunSpec& run) {
 void read_steps(Table& table, RunSpec& run) {
   const EngineName* engine = run.engine == Engine::automatic ? nullptr : &name_of(run.engine);
   const bool steps = engine != nullptr && engine->accuracy == Accuracy::step;
-  if (steps) table.require("dt", fmt::format(", which engine \"{}\" needs", engine->name));
+  if (steps) table.require("dt", fmt::format(" (required for engine \"{}\")", engine->name));
   run.dt = table.optional_number("dt");
   run.refine = table.choice("refine") == "linear" ? Refine::linear : Refine::root;
   run.step = table.choice("step") == "doubling" ? StepControl::doubling : StepControl::fixed;

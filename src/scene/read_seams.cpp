@@ -22,9 +22,9 @@ struct SeamLaw {
 
 void read_layer(Table& table, SeamLaw& law) {
   for (const char* key : {"normal_stiffness", "tangential_stiffness"})
-    if (table.has(key)) table.fail(key, "stands beside layer, expected one of the two");
+    if (table.has(key)) table.fail(key, "cannot be combined with layer; give only one of them");
   Table layer = table.child("layer");
-  if (law.contact.friction.any()) layer.require("G", " (with friction)");
+  if (law.contact.friction.any()) layer.require("G", " (required with friction)");
   const double E = layer.number("E"), thickness = layer.number("thickness");
   const std::optional<double> G = layer.optional_number("G");
   layer.finish();
@@ -39,10 +39,10 @@ void read_layer(Table& table, SeamLaw& law) {
 void read_springs_of(Table& table, SeamLaw& law) {
   law.normal_damping = table.number("normal_damping");
   if (table.has("layer")) return read_layer(table, law);
-  table.require("normal_stiffness", " (compliant, or layer)");
+  table.require("normal_stiffness", " (required for law = \"compliant\" without layer)");
   law.normal_stiffness = table.number("normal_stiffness");
   if (!law.contact.friction.any()) return;
-  table.require("tangential_stiffness", " (compliant with friction, or layer)");
+  table.require("tangential_stiffness", " (required for law = \"compliant\" with friction, without layer)");
   law.tangential_stiffness = table.number("tangential_stiffness");
   if (law.contact.friction.stribeck_velocity)
     table.fail("friction",
@@ -183,7 +183,7 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
                  fmt::format("found \"{}\" twice, expected each seam to have its own name", seam.name));
     if (is_word(table, "law", "tied")) {
       read_tied(table, seam.name, scene);
-      table.finish("has no meaning for a seam of this law");
+      table.finish("is not allowed with law = \"tied\"; remove it");
       record.add("seams", "[[seams]]", table.record());
       continue;
     }
@@ -201,7 +201,8 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
     }
     if (table.choice("contact_mass") == "none")
       for (const MortarNode& k : mortar.nodes) body.massless.push_back(k.node);
-    table.finish("has no meaning for a seam of this law");
+    table.finish(fmt::format("is not allowed with law = \"{}\"; remove it",
+                             law.contact.law == Law::rigid ? "rigid" : "compliant"));
     scene.seams.push_back(std::move(seam));
     record.add("seams", "[[seams]]", table.record());
   }

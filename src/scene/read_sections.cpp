@@ -84,8 +84,7 @@ Shape read_i(Table& table) {
 
 void read_shape(Table& table, const std::string& name, Section& section) {
   for (const char* key : {"EA", "EI", "mass_per_length", "area", "modulus"})
-    if (table.has(key))
-      table.fail(key, fmt::format("stands beside {}, which gives it: expected one of the two", name));
+    if (table.has(key)) table.fail(key, fmt::format("follows from {0}; remove {1} or {0}", name, key));
   Table dimensions = table.child(name);
   const Shape shape = name == "pipe"  ? read_pipe(dimensions, section)
                       : name == "box" ? read_box(dimensions)
@@ -114,7 +113,8 @@ void read_sections(Table& top, Scene& scene, RecordedScene& record) {
     std::string shape;
     for (const char* name : all_shapes) {
       if (!table.has(name)) continue;
-      if (!shape.empty()) table.fail(name, fmt::format("stands beside {}, expected one shape", shape));
+      if (!shape.empty())
+        table.fail(name, fmt::format("cannot be combined with {}; give only one shape", shape));
       shape = name;
     }
     if (!shape.empty()) {

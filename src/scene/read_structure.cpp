@@ -61,9 +61,9 @@ void check_bar(const Table& table, const Member& member) {
   if (member.type != MemberType::bar) return;
   for (const int n : member.elements) {
     if (n > 1) {
-      table.fail("elements", fmt::format("found {}, expected 1: the inner nodes of a bar would have nothing "
-                                         "that holds them sideways",
-                                         n));
+      table.fail(
+          "elements",
+          fmt::format("found {}, expected 1: inner nodes of a bar would have no lateral stiffness", n));
     }
   }
 }
@@ -92,7 +92,7 @@ void read_lines(Table& top, Scene& scene, RecordedScene& record) {
     for (int i = 0; i <= pieces; ++i) {
       const double s = static_cast<double>(i) / pieces;
       const std::string own = fmt::format("{}{}", name, i);
-      if (!names.add(own)) table.fail("name", fmt::format("node \"{}\" is there already", own));
+      if (!names.add(own)) table.fail("name", fmt::format("node \"{}\" exists already", own));
       scene.nodes.push_back(
           {own, from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), table.place("name")});
     }

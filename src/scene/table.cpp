@@ -83,7 +83,8 @@ void check_name(const std::string& name, const SourcePlace& place, const std::st
   }
   for (const char c : name) {
     if (std::string_view(".,;*\"'=[]{}#").find(c) != std::string_view::npos)
-      refuse(place, path, "found a name with one of . , ; * \" ' = [ ] { } #, expected a plain name");
+      refuse(place, path,
+             "the name contains one of the characters . , ; * \" ' = [ ] { } #, which are not allowed");
   }
   if (name.front() == ' ' || name.back() == ' ' || name.find("  ") != std::string::npos)
     refuse(place, path,

@@ -121,7 +121,7 @@ std::string FitProblem::not_there(std::size_t& row) const {
       return fmt::format("the run has {}, and no event {}", count_of(last_.events.size(), "event"), m.event);
     } else if (!has(m)) {
       const std::string what = m.type.empty() ? "an event" : m.type;
-      return fmt::format("event {} of the run is {}, measured was {}{}", m.event,
+      return fmt::format("event {} of the run is {}, but the data have {}{}", m.event,
                          name_of(last_.events[m.event - 1]), what,
                          m.contact.empty() ? "" : fmt::format(" of contact \"{}\"", m.contact));
     }

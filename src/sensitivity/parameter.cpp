@@ -51,10 +51,9 @@ void numbers_at(const toml::node& node, const std::vector<std::string>& rest, st
       return;
     }
     if (!inner)
-      fail_at(path,
-              fmt::format("there is no \"{}\" in the scene: what has no value by default is written there "
-                          "with the one to derive at",
-                          name));
+      fail_at(path, fmt::format("\"{}\" is not in the scene. If it is a key without default, write it there "
+                                "with the value at which to differentiate",
+                                name));
     numbers_at(*inner, rest, next + 1, path, found);
   } else if (const auto* array = node.as_array()) {
     const auto index = parse_integer(name);

@@ -20,7 +20,7 @@ namespace {
 void check_path(const std::string& path) {
   for (const std::string_view table : {"run.", "reduction.", "schema", "title", "units"})
     if (path.starts_with(table) && !path.starts_with("run.initial"))
-      throw UsageError(fmt::format("--parameter {}: it is no datum of the motion", path));
+      throw UsageError(fmt::format("--parameter {}: the motion does not depend on this key", path));
 }
 
 void check_options(const RunSpec& run, const SensitivityOptions& options) {

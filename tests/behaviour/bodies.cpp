@@ -246,7 +246,7 @@ plane = "stress"
       CHECK(said.find(message) != std::string::npos);
     }
   };
-  refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; there are:");
+  refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known:");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.right\"\nlaw = \"rigid\"\n",
           "found a gap of -1 m at the start, expected none below 0");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.bottom\"\nlaw = \"rigid\"\n",

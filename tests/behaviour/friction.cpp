@@ -161,7 +161,7 @@ TEST_CASE("an initial shear above the friction limit is cut, and the run says so
     CHECK(run("1.0").report.warnings.empty());
     const Result cut = run("1.5");
     REQUIRE(cut.report.warnings.size() == 1);
-    CHECK(cut.report.warnings[0].find("initial_shear = 1.5 is above the friction limit") !=
+    CHECK(cut.report.warnings[0].find("initial_shear = 1.5 N is above the friction limit") !=
           std::string::npos);
     CHECK(cut.rows[0].contacts[0].T == doctest::Approx(1.0));
   }

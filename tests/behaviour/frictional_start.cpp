@@ -391,10 +391,28 @@ TEST_CASE("after a slow start at its limits nothing slips by rounding, nor is en
     CHECK(warning.find("energy balance") == std::string::npos);
 }
 
-TEST_CASE("what no slow start can reach is refused by name") {
+TEST_CASE("a stage of heat, base motion or preloads that are all zero is a stage in which nothing grows") {
+  const std::string text =
+      heated_portal("law = \"compliant\"\nnormal_stiffness = 1e7\ntangential_stiffness = 1e6\n", 0.3);
+  const Model cold = build_model(parse_scene(text, "test.toml", {{"members.2.temperature", "0"}}));
+  CHECK(!cold.statics.stages.empty());
+  std::string weight = text;
+  const std::string heat = "[[run.stages]]\nname = \"heat\"\nloads = [\"temperature\"]\nsteps = 4\n";
+  weight.erase(weight.find(heat), heat.size());
+  const Model alone = build_model(parse_scene(weight, "test.toml", {{"members.2.temperature", "0"}}));
+  CHECK(cold.u0 == alone.u0);
+  // Of what the scene does not have at all, a stage is still a mistake.
+  for (const char* kind : {"base motion", "preload", "supports"}) {
+    std::string other = text;
+    other.replace(other.find("\"temperature\""), 13, fmt::format("\"{}\"", kind));
+    CHECK(refusal(other).find(fmt::format("no load is called \"{}\"", kind)) != std::string::npos);
+  }
+}
+
+TEST_CASE("what no frictional start can reach is refused by name") {
   // Both slip: nothing holds the pair.
   const std::string away = refusal(two_sliders(frictional, push("push", 5.0)));
-  CHECK(away.find("no slow start") != std::string::npos);
+  CHECK(away.find("no frictional start") != std::string::npos);
   CHECK(away.find("'ca', 'cb'") != std::string::npos);
   std::string falls = two_sliders(frictional, push("push", 1.2));
   falls.replace(falls.find("friction = 0.5"), 14, "friction = { static = 0.5, kinetic = 0.4 }");
@@ -404,9 +422,9 @@ TEST_CASE("what no slow start can reach is refused by name") {
             .find("did you mean \"push\"") != std::string::npos);
   CHECK(refusal(two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = [\"push\", \"push\"]\n",
                             push("push", 1.0)))
-            .find("loaded before") != std::string::npos);
+            .find("is already in an earlier stage") != std::string::npos);
   CHECK(refusal(two_sliders(frictional + "[[run.stages]]\nname = \"x\"\nloads = []\n", push("push", 1.0)))
-            .find("stands in no stage") != std::string::npos);
+            .find("is in no stage") != std::string::npos);
 }
 
 TEST_CASE(

@@ -109,7 +109,7 @@ TEST_CASE("an inverted pendulum on a spring: factor k/(m g h) and frequency; wit
   const std::string weak =
       fmt::format("[[springs]]\nnode = \"A\"\nrotation_stiffness = {:.17g}\n", 0.75 * m * g * arm);
   CHECK_THROWS_WITH_AS(static_cast<void>(built(heavy(0.0, -g, from_static) + up + weak)),
-                       doctest::Contains("0.75 times"), SceneError);
+                       doctest::Contains("load factor is 0.75"), SceneError);
 }
 
 TEST_CASE(

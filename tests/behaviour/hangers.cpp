@@ -125,10 +125,18 @@ TEST_CASE("what is told of hangers: cold, at the start, designed, and when they 
   CHECK(!warned(good, "spring 1"));
   const Model soft = model("stiffness = 100.0\npreload = 14.0");
   CHECK(warned(
-      soft, "spring 1 bears 20 kN in equilibrium and 14 kN while nothing has moved: a variability of 30 %"));
-  CHECK(warned(model("stiffness = 100.0\npreload = -3.0"), "the other way"));
+      soft,
+      "spring 1 carries 20 kN in equilibrium and 14 kN in the undeformed state: its variability is 30 %"));
+  CHECK(warned(model("stiffness = 100.0\npreload = -3.0"), "the sign differs"));
   CHECK(!warned(model("stiffness = 100.0\npreload = 14.0", ""), "spring 1"));
   CHECK(model("stiffness = 100.0").hangers.empty());
+  // Gravity is along the spring's direction here, and the hanger pulls against it; turned round it would push its node down.
+  const std::string along = hung("hanger = { hot = 20.0, cold = 24.0, travel = 0.05 }", "");
+  const std::string round =
+      with(along, "direction = [0.8400000000000001, 2.88]", "direction = [-0.84, -2.88]");
+  CHECK(!warned(build_model(parse_scene(along, "test.toml", {})), "pushes its node along gravity"));
+  CHECK(warned(build_model(parse_scene(round, "test.toml", {})),
+               "the hanger of spring 1 pushes its node along gravity"));
   // A cold load that follows is none below zero, as one that is given.
   CHECK_THROWS_WITH_AS((void)model("stiffness = 400.0\nhanger = { hot = 20.0, travel = -0.06 }"),
                        doctest::Contains("travel: the load while nothing has moved would be -4"), SceneError);
@@ -168,8 +176,9 @@ TEST_CASE("a preload is a stage of a start with friction, and is told where none
   CHECK(std::abs(c.result.responses.front().values[1]) < 1e-12);  // in equilibrium a snubber bears nothing
   CHECK(c.extremes("snubber").maximum > 1e-3);
   CHECK(c.model.hangers[0].at_start != doctest::Approx(4.5).epsilon(1e-3));
-  CHECK_THROWS_WITH_AS((void)build_model(parse_scene(with(text, ", \"preload\"", ""), "test.toml", {})),
-                       doctest::Contains("\"preload of spring 1\" stands in no stage"), SceneError);
+  CHECK_THROWS_WITH_AS(
+      (void)build_model(parse_scene(with(text, ", \"preload\"", ""), "test.toml", {})),
+      doctest::Contains("\"preload of spring 1\" acts from the beginning but is in no stage"), SceneError);
 }
 
 TEST_CASE("a pipe with bend, hanger, stop and shoe: energy, in halves, reduced") {

@@ -123,7 +123,7 @@ TEST_CASE("engines that need a closed form refuse functions by name") {
   for (const Engine engine : {Engine::exact, Engine::friction_iteration}) {
     scene.run.engine = engine;
     scene.run.dt = 1e-3;
-    CHECK(objection_to(scene).find("load 2 is a function of one's own; use \"ida\" or \"newmark\"") !=
+    CHECK(objection_to(scene).find("load 2 is a user function; use \"ida\" or \"newmark\"") !=
           std::string::npos);
   }
   Scene belt = parse_scene(pushed_block, "pushed");

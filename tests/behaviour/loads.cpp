@@ -258,9 +258,9 @@ TEST_CASE(
     }
     return "no error";
   };
-  CHECK(message(with("{ type = \"step\", start = 0.1 }")).find("jumps at time 0.1") != std::string::npos);
+  CHECK(message(with("{ type = \"step\", start = 0.1 }")).find("jumps at t = 0.1") != std::string::npos);
   CHECK(message(with("{ type = \"table\", times = [0.0, 0.1, 0.2], values = [0.0, 1.0, 1.0], hold = true }"))
-            .find("velocity jumps at time 0.1") != std::string::npos);
+            .find("velocity jumps at t = 0.1") != std::string::npos);
   CHECK(message(with("{ type = \"table\", times = [0.0, 0.1, 0.2], values = [0.0, 1.0, 1.0], hold = true, "
                      "interpolation = \"steffen\" }")) == "no error");
 }

@@ -146,19 +146,19 @@ TEST_CASE("outputs: what is wrong is said with its place") {
   has(refusal(output("x", "velocity", "direction = [1.0, 0.0]")),
       "output.x.at: missing, expected the name of a node");
   has(refusal(output("x", "velocity", "at = \"Q\"\ndirection = [1.0, 0.0]")), "unknown node \"Q\"");
-  has(refusal(output("x", "velocity", "at = \"B\"")), "or rotation = true");
+  has(refusal(output("x", "velocity", "at = \"B\"")), "required without rotation = true");
   has(refusal(output("x", "velocity", "at = \"B\"\nrotation = true\ndirection = [1.0, 0.0]")),
-      "beside rotation");
-  has(refusal(output("x", "member_force", "at = [\"A\", \"C\"]\nquantity = \"M\"")),
-      "no piece of a member joins");
+      "cannot be combined with rotation");
+  has(refusal(output("x", "member_force", "at = [\"A\", \"C\"]\nquantity = \"M\"")), "no member has nodes");
   has(refusal(output("x", "member_force", "at = [\"A\", \"A\"]\nquantity = \"M\"")), "found \"A\" twice");
   has(refusal(output("x", "member_force", "at = [\"A\", \"B\"]")), "expected one of \"N\", \"V\", \"M\"");
   has(refusal(output("x", "member_force", "at = [\"A\", \"B\"]\nquantity = \"gap\"")), "found");
   has(refusal(output("x", "member_force", "at = [\"A\", \"B\"]\nquantity = \"M\"\nstation = 1.5")),
       "from 0 to 1");
   has(refusal(output("x", "reaction", "at = \"B\"\ndirection = [1.0, 0.0]")),
-      "no support holds node 'B' that way");
-  has(refusal(output("x", "reaction", "at = \"A\"\nrotation = true")), "no support holds node 'A' that way");
+      "no support fixes node 'B' in this direction");
+  has(refusal(output("x", "reaction", "at = \"A\"\nrotation = true")),
+      "no support fixes node 'A' in this direction");
   has(refusal(output("x", "spring", "spring = 3")), "from 1 to 2");
   has(refusal(output("x", "contact", "at = \"flor\"\nquantity = \"N\"")), "did you mean \"floor\"");
   has(refusal(output("x", "contact", "at = \"floor\"\nquantity = \"V\"")), "expected one of \"N\", \"T\"");
@@ -168,7 +168,7 @@ TEST_CASE("outputs: what is wrong is said with its place") {
       "is a loss");
   has(refusal(output("g", "contact", "at = \"floor\"\nquantity = \"gap\"") +
               output("x", "combination", "terms = { first = 1.0, g = 1.0 }")),
-      "output.x.terms.g: found 'g' [m] beside 'first' [m/s], expected terms of one unit");
+      "output.x.terms.g: terms 'g' [m] and 'first' [m/s] have different units");
   has(refusal(output("x", "velocity", "at = \"B\"\ndirection = [1.0, 0.0]\nstation = 0.5")),
       "has no meaning with kind = \"velocity\"");
   const Scene scene = parse_scene(frame(reactions + cut("M", "M", 0.3)), "test.toml", {});

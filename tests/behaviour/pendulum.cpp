@@ -375,7 +375,7 @@ TEST_CASE("engines that need laws which are linear refuse what varies, by name")
   for (const char* engine : {"exact", "newmark", "friction-iteration"}) {
     CAPTURE(engine);
     CHECK_THROWS_WITH(static_cast<void>(run_text(scene, engine)),
-                      doctest::Contains("pendulum 'p' has one that goes with its normal force"));
+                      doctest::Contains("the stiffness of pendulum 'p' varies with its normal force"));
     CHECK_THROWS_WITH(static_cast<void>(run_text(rising.scene(), engine)),
                       doctest::Contains("friction of contact 'p' depends on its slip rate; use \"ida\""));
   }

@@ -239,7 +239,8 @@ TEST_CASE("two feet that both stick rigidly on one motion share its force in hal
       CHECK(c.T == doctest::Approx(1.5).epsilon(1e-12));
     }
     REQUIRE(!r.report.warnings.empty());
-    CHECK(r.report.warnings[0].find("contacts 'left' and 'right' hold the same motion") != std::string::npos);
+    CHECK(r.report.warnings[0].find("contacts 'left' and 'right' prevent the same motion") !=
+          std::string::npos);
   }
 }
 

@@ -227,7 +227,7 @@ contacts = [{ name = "floor", node = "b", law = "rigid", normal = [0.0, 1.0], ga
   CHECK_THROWS_WITH_AS(sensitivities(read, {"run.initial.c.vx"}), doctest::Contains("unknown node"),
                        UsageError);
   CHECK_THROWS_WITH_AS(sensitivities(read, {"contacts.floor.normal_stiffness"}),
-                       doctest::Contains("what has no value by default"), UsageError);
+                       doctest::Contains("If it is a key without default"), UsageError);
 }
 
 TEST_CASE("the least changes at which neighbours meet, and keys that are refused") {
@@ -256,8 +256,8 @@ TEST_CASE("the least changes at which neighbours meet, and keys that are refused
   CHECK(least_swaps(beyond)[0].change == doctest::Approx(-0.05));
   beyond.parameters[0].may_be = s.parameters[1].may_be;
   CHECK(least_swaps(beyond).empty());
-  CHECK_THROWS_WITH_AS(rates_of(text, {"run.t_end"}), "--parameter run.t_end: it is no datum of the motion",
-                       UsageError);
+  CHECK_THROWS_WITH_AS(rates_of(text, {"run.t_end"}),
+                       "--parameter run.t_end: the motion does not depend on this key", UsageError);
   CHECK_THROWS_AS(rates_of(text, {"contacts.c.name"}), UsageError);
   CHECK_THROWS_AS(rates_of(text, {"contacts.d.friction"}), UsageError);
   CHECK_THROWS_AS(rates_of(oscillator("normal_force = 1.0\nfriction = { static = 0.4, kinetic = 0.3 }"),

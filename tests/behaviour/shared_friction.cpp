@@ -84,7 +84,7 @@ TEST_CASE("a constant push at two feet: halves, or what the lighter foot can bea
       }
       CHECK(std::any_of(
           result.report.warnings.begin(), result.report.warnings.end(),
-          [](const std::string& w) { return w.find("hold the same motion") != std::string::npos; }));
+          [](const std::string& w) { return w.find("prevent the same motion") != std::string::npos; }));
     }
 }
 

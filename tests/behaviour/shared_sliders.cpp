@@ -108,7 +108,7 @@ TEST_CASE(
       }
       CHECK(std::any_of(both.report.warnings.begin(), both.report.warnings.end(),
                         [](const std::string& warning) {
-                          return warning.find("hold the same motion") != std::string::npos;
+                          return warning.find("prevent the same motion") != std::string::npos;
                         }));
       CHECK(both.rows.back().energy.friction ==
             doctest::Approx(alone.rows.back().energy.friction).epsilon(100.0 * bound));

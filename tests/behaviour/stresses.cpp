@@ -330,11 +330,13 @@ TEST_CASE("what is wrong with stresses, envelopes and factors is said") {
     CAPTURE(text);
     CHECK(text.find(part) != std::string::npos);
   };
-  has(refusal(stress("x", 0.5, "")), "output.x.at: section 's' has no stresses: expected a shape");
-  has(refusal(envelope("x", "stress", "[\"A\", \"B\"]")), "output.x.nodes: section 's' has no stresses");
+  has(refusal(stress("x", 0.5, "")),
+      "output.x.at: stresses of section 's' cannot be computed: give it a shape");
+  has(refusal(envelope("x", "stress", "[\"A\", \"B\"]")),
+      "output.x.nodes: stresses of section 's' cannot be computed");
   has(refusal(stress("x", 0.5, "quantity = \"V\"")), "expected one of \"N\", \"M\"");
   has(refusal(envelope("x", "gap", "[\"A\", \"B\"]")), "expected one of \"N\", \"V\", \"M\", \"stress\"");
-  has(refusal(envelope("x", "M", "[\"A\", \"C\"]")), "no piece of a member joins");
+  has(refusal(envelope("x", "M", "[\"A\", \"C\"]")), "no member has nodes");
   has(refusal(envelope("x", "M", "[\"A\"]")), "the names of two or more nodes");
   has(refusal(envelope("x", "M", "[\"A\", \"B\"]", "fibre = \"left\"")),
       "has no meaning with kind = \"envelope\"");
@@ -344,8 +346,8 @@ TEST_CASE("what is wrong with stresses, envelopes and factors is said") {
     return refusal(output("x", "combination", "terms = " + text));
   };
   has(terms("{ M = { factor = 1.0, unit = \"1/m^2\" }, N = { factor = 1.0, unit = \"1/m^2\" } }"),
-      "output.x.terms.N: found 'N' [kN/m^2] with its factor beside 'M' [kN/m] with its factor, expected "
-      "terms of one unit");
+      "output.x.terms.N: terms 'N' [kN/m^2] with its factor and 'M' [kN/m] with its factor have different "
+      "units");
   has(terms("{ M = { factor = 1.0, unit = \"1/mm\" } }"),
       "found \"1/mm\", expected a product of powers of kN, t, m, s");
   has(terms("{ M = { factor = 1.0 } }"), "unit");

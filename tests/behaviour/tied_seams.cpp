@@ -141,7 +141,7 @@ TEST_CASE("tied nodes that supports hold, masters at rest, and contact keys are 
       CHECK(said.find(message) != std::string::npos);
     }
   };
-  refused("friction = 0.3\n", "has no meaning for a seam of this law");
+  refused("friction = 0.3\n", "is not allowed with law =");
   refused("[[supports]]\nnodes = [\"high.bottom\"]\nfix = [\"ux\"]\n", "a support holds it");
   refused("[[seams]]\nname = \"again\"\nslave = \"low.top\"\nmaster = \"high.bottom\"\nlaw = \"tied\"\n",
           "is tied itself");

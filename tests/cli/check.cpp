@@ -105,7 +105,7 @@ surface_velocity = 0.2
 TEST_CASE("cli check: warnings of the run's start, and where the static start puts the contacts") {
   const Shell shell;
   const std::vector<std::string> shear = {pipeline, "--set", "contacts.second.initial_shear=100.0"};
-  const std::string words = "contact 'second': initial_shear = 100 is above the friction limit at t = 0";
+  const std::string words = "contact 'second': initial_shear = 100 kN is above the friction limit at t = 0";
   const Ending checked = shell.run({"check", shear[0], shear[1], shear[2]});
   CHECK(checked.code == 0);
   CHECK(contains(checked.out, "warning: " + words));
@@ -113,7 +113,7 @@ TEST_CASE("cli check: warnings of the run's start, and where the static start pu
       shell.run({"run", shear[0], shear[1], shear[2], "--set", "run.t_end=1e-3", "--no-plots", "-o", "out"});
   CHECK(contains(ran.err, "warning: " + words));
   const Ending plain = shell.run({"check", pipeline});
-  CHECK(contains(plain.out, "warning: damping alpha = "));
+  CHECK(contains(plain.out, "warning: mass-proportional damping (alpha = "));
   CHECK(plain.out.find("warning") == plain.out.rfind("warning"));
   CHECK(contains(plain.out, "ut [m]"));
   CHECK(contains(plain.out, "0.00284228"));

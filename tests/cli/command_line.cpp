@@ -121,7 +121,7 @@ TEST_CASE("cli: wrong measurements are wrong data, as a wrong load table is") {
   CHECK(missing.err == "error: nope.csv: cannot be read: No such file or directory\n");
   CHECK(shell.run({"run", "belt.toml", "--trace", "nodir/t"}).err ==
         "error: nodir/t: cannot be created: No such file or directory\n");
-  CHECK(shell.run({"plot", "nodir"}).err == "error: nodir: is no directory\n");
+  CHECK(shell.run({"plot", "nodir"}).err == "error: nodir: not a directory\n");
 }
 
 TEST_CASE("cli: a wrong scene is 3, with its place, and leaves nothing") {

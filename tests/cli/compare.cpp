@@ -132,7 +132,7 @@ TEST_CASE("cli compare: directories, of different length") {
   const Ending ending = shell.run({"compare", "long/", "short", "long/../long", "--no-plots"});
   CHECK(ending.code == 0);
   CHECK(has(ending.out, "short against long"));
-  CHECK(has(ending.out, "note: compared up to t = 10, the end of short; long goes on to 20"));
+  CHECK(has(ending.out, "note: compared up to t = 10, the end of short; long ends at 20"));
   const json report = json::parse(shell.read("long-compare/compare.json"));
   CHECK(report["comparisons"][0]["first_difference"].is_null());
   CHECK(report["comparisons"][0]["common_times"] == 101);

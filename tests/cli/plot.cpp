@@ -74,9 +74,9 @@ TEST_CASE("cli plot, report: what --no-plots left out is computed again, to the 
     CHECK_FALSE(signorini::cli_test::exists(shell, "without/curves.csv"));
     Ending ending = shell.run({"report", "without"});
     CHECK(ending.code == 0);
-    CHECK(
-        ending.err.find("note: without: computed again for its pictures, as it was run with --no-plots\n") !=
-        std::string::npos);
+    CHECK(ending.err.find(
+              "note: without: pictures need a new computation, because the run used --no-plots\n") !=
+          std::string::npos);
     for (const char* table : {"motion.csv", "curves.csv"})
       CHECK(shell.read(std::string("with/") + table) == shell.read(std::string("without/") + table));
     ending = shell.run({"report", "without"});

@@ -27,7 +27,7 @@ TEST_CASE("cli report: one page a run, with its scene, check, events and data; i
   CHECK_FALSE(exists(shell, "out/report.html"));
 }
 
-TEST_CASE("cli report: -o, an interrupted run's tables, and what is no directory of results") {
+TEST_CASE("cli report: -o, an interrupted run's tables, and what not a directory of results") {
   const Shell shell;
   shell.write("belt.toml", belt(3.0));
   CHECK(shell.run({"run", "belt.toml", "-o", "out", "--no-plots"}).code == 0);
@@ -38,7 +38,7 @@ TEST_CASE("cli report: -o, an interrupted run's tables, and what is no directory
   CHECK_FALSE(exists(shell, "out/report.html"));
   const Ending none = shell.run({"report", "."});
   CHECK(none.code == 6);
-  CHECK(has(none.err, "holds no run"));
+  CHECK(has(none.err, "contains no run"));
   CHECK(shell.run({"report", "nowhere"}).code == 6);
   CHECK(shell.run({"report", "out", "-o", "no/such/page.html"}).code == 6);
 }
@@ -61,7 +61,7 @@ TEST_CASE("cli report: a page opens with support loads; several runs stand side 
   CHECK(ending.out == "both.html\nboth.csv\n");
   CHECK(has(shell.read("both.html"), "<title>Load cases: one, two</title>"));
   CHECK(has(shell.read("both.csv"), "item,quantity,unit,one,one t,two,two t,governing\n"));
-  CHECK(has(shell.read("both.csv"), "\nbelt,N least,N,-"));
+  CHECK(has(shell.read("both.csv"), "\nbelt,N min,N,-"));
   CHECK(shell.run({"report", "one", "two", "-o", "both.csv"}).code == 2);
   CHECK(shell.run({"report", "one", "three"}).code == 6);
 }

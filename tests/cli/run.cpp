@@ -112,7 +112,7 @@ TEST_CASE("cli run: nothing but the tables, whole, for papers") {
                                "direction = [2.0, 0.0]\n");
   const Ending good = shell.run({"run", "belt.toml", "--engine", "exact", "--table", "markdown"});
   CHECK(good.code == 0);
-  CHECK(good.out.rfind("| support loads | N at rest [N] | N least [N] | at t [s] |", 0) == 0);
+  CHECK(good.out.rfind("| support loads | N at rest [N] | N min [N] | at t [s] |", 0) == 0);
   const std::string head =
       "| t [s] | contact | event | from -> to | N [N] | T [N] |\n|---:|---|---|---|---:|---:|\n";
   const std::size_t at = good.out.find(head);
@@ -267,7 +267,7 @@ TEST_CASE("cli run: an energy balance relative to nothing is not a number") {
       shell.run({"run", SIGNORINI_TEST_DATA "/scenes/robust/pump.toml", "--set", "loads.1.amplitude=0.0",
                  "--set", "run.t_end=0.2", "--no-plots", "-o", "out"});
   CHECK(ending.code == 0);
-  CHECK(ending.out.find("energy balance                    -  ") != std::string::npos);
+  CHECK(ending.out.find("energy balance                         -  ") != std::string::npos);
 }
 
 TEST_CASE("cli run: a killed run leaves whole rows, but for a last one that ends with a page of the file") {
@@ -347,7 +347,7 @@ TEST_CASE("cli run: a certified run that stops says so in every file, and to whe
   CHECK(ending.code == 4);
   CHECK(has(ending.err, "the computation stopped early, at t = 0.4 s: 2 events at one instant"));
   // The companion stops as the run does, some roundings earlier or later.
-  CHECK(has(ending.out, "certified until t = 0.4 s: 2 of 2 rows of events, times within "));
+  CHECK(has(ending.out, "certified until t = 0.4 s: 2 of 2 events, times within "));
   CHECK_FALSE(has(ending.out, "certified to the end"));
   const json summary = json::parse(shell.read("balls-run/summary.json"));
   CHECK(summary["outcome"]["kind"] == "stopped");

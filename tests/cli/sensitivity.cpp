@@ -137,8 +137,8 @@ TEST_CASE("cli sensitivity: what it refuses, it names") {
     CHECK(has(ending.err, said));
   };
   refused({}, 2, "expected --parameter PATH");
-  refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: it is no datum of the motion");
-  refused({"--parameter", "contacts.1.frictoin"}, 2, "there is no \"frictoin\"");
+  refused({"--parameter", "run.rtol"}, 2, "--parameter run.rtol: the motion does not depend on this key");
+  refused({"--parameter", "contacts.1.frictoin"}, 2, "\"frictoin\" is not in the scene");
   refused({"--parameter", "contacts.1.law"}, 2, "expected the key of a number");
   refused({"--sigma", "contacts.1.friction.static=-1"}, 2, "standard deviation");
 }

@@ -128,7 +128,7 @@ TEST_CASE("cli sweep: resumes where it was; a differing specification is refused
     const Ending ending = shell.run(line);
     CAPTURE(ending.err);
     CHECK(ending.code == 6);
-    CHECK(has(ending.err, "holds another sweep: " + message));
+    CHECK(has(ending.err, "contains another sweep: " + message));
     CHECK(shell.read(row(1)) == kept);
   };
   refused({"sweep", "belt.toml", "--vary", "contacts.belt.friction.static=1:2:0.5"}, "--vary was");
@@ -178,9 +178,9 @@ TEST_CASE("cli sweep: what is wrong is told before anything is written") {
       {{"belt.toml"}, "expected --vary"},
       {{"--vary", "run.rtol=1e-8"}, "expected SCENE"},
       {{"belt.toml", "--vary", "run.rtol"}, "expected path=start:stop:step"},
-      {{"belt.toml", "--vary", "contacts.belt.friction=0:1:-1"}, "does not lead from 0 to 1"},
+      {{"belt.toml", "--vary", "contacts.belt.friction=0:1:-1"}, "never reach 1"},
       {{"belt.toml", "--vary", "contacts.bult.friction=0:1:1"},
-       "--vary contacts.bult.friction=0: there is no \"bult\""},
+       "--vary contacts.bult.friction=0: contacts has 1 entry, none of them \"bult\""},
       {{"belt.toml", "--vary", "run.rtoll=1,2"}, "did you mean \"rtol\"?"},
       {{"belt.toml", "--vary", "contacts.belt.friction=0.1-0.5"},
        "found \"0.1-0.5\", expected start:stop:step, such as 0.1:0.5:0.1"},

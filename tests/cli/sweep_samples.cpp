@@ -243,7 +243,7 @@ TEST_CASE("cli sweep: what is wrong with queries and samples is told before anyt
   refused({"--vary", vary_mass, "--vary", "run.rtol=1e-6,1e-7,1e-8", "--together"}, "expected as many");
   refused({"--vary", vary_mass, "--samples", "5"}, "has no meaning without --sample");
   refused({"--vary", vary_mass, "--seed", "5"}, "has no meaning without --sample");
-  refused({"--sample", "masses.1.mass=normal(2,0.1)"}, "expected --response");
+  refused({"--sample", "masses.1.mass=normal(2,0.1)"}, "--sample needs at least one --response");
   refused({"--sample", "masses.1.mass=normal(2,0)", "--response", "max:x"}, "standard deviation > 0");
   refused({"--sample", "masses.1.mas=normal(2,0.1)", "--response", "max:x"}, "masses.1.mas");
   refused({"--sample", "masses.1.mass=normal(2,0.1)", "--response", "max:x", "--sequence", "halton"},

@@ -227,9 +227,9 @@ TEST_CASE("cli witness: files that are missing, cut or no numbers end with 6 and
     CHECK(ending.err.find(what) != std::string::npos);
     CHECK(ending.out == "");
   };
-  refused("kept/run.toml: is not there");
+  refused("kept/run.toml: not found");
   REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--no-plots"}).code == 0);
-  refused("kept/instants.csv: is not there; `signorini run --instants` writes it");
+  refused("kept/instants.csv: not found; `signorini run --instants` writes it");
   REQUIRE(shell.run({"run", "planted.toml", "-o", "kept", "--no-plots", "--instants", "--force"}).code == 0);
   const std::string text = shell.read("kept/instants.csv");
   const std::size_t last = text.rfind('\n', text.size() - 2);

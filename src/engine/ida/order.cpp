@@ -27,8 +27,7 @@ constexpr Stability stability[] = {{5, 51.84}, {4, 73.35}, {3, 86.03}};
 
 Order choose_order(const Model& model, const RunSpec& run) {
   if (run.max_order) return {*run.max_order, "as given"};
-  if (run.rtol <= loose)
-    return {5, "auto: the tolerance resolves the modes; orders 3 and 4 are passed quickly"};
+  if (run.rtol <= loose) return {5, "auto: at this tolerance the steps resolve the highest modes"};
   const double ratio = least_damping_ratio(model);
   int greatest = 2;
   for (const Stability& s : stability) {

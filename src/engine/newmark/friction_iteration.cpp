@@ -137,7 +137,7 @@ bool FrictionIteration::new_states() {
   return changed;
 }
 
-/// Iterates the step to t1_. Empty, or why it does not end.
+/// Iterates the step to t1_. Empty, or why it does not converge.
 std::string FrictionIteration::iterate(double h, bool kept) {
   begin_sides();
   double change = 0.0, force = 0.0;
@@ -175,13 +175,14 @@ std::string FrictionIteration::iterate(double h, bool kept) {
     if (sides_[k].state != state_of_rows(mode_[k].state) || k == worst)
       what.push_back(model_.contacts[k].name);
   return fmt::format(
-      "the friction iteration does not end: after {} iterations {} (contacts {}); a smaller dt, more "
+      "the friction iteration did not converge: after {} iterations {} (contacts {}); a smaller dt, more "
       "max_iterations or another relaxation than {} may help",
       most_,
       switching
           ? "states still change"
-          : fmt::format("a limiting force still changes by {:.3g}, {:.3g} of the greatest contact force",
-                        change * model_.unit.force, force > 0.0 ? change / force : 0.0),
+          : fmt::format("a friction limit still changes by {:.3g} {}, {:.2g} % of the greatest contact force",
+                        change * model_.unit.force, model_.units.force,
+                        force > 0.0 ? 100.0 * change / force : 0.0),
       listed(what), relaxation_);
 }
 

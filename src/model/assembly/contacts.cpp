@@ -32,7 +32,7 @@ void check_gap(const ContactSpec& spec, const Contact& contact) {
     throw SceneError(spec.place, spec.key("normal"), "a support fixes all motion along the normal");
   if (contact.has_friction() && contact.tangent.terms.empty())
     throw SceneError(spec.place, spec.key("tangent"),
-                     "a contact with friction needs a tangent that no support fixes");
+                     "a support fixes all motion along the tangent; remove the friction or the support");
 }
 
 void check_compliant(const ContactSpec& spec, const Contact& contact) {

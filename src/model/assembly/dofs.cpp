@@ -282,11 +282,10 @@ Combination combination(const DofMap& map, const Direction& direction, const std
       const int d = map.number[static_cast<std::size_t>(node)][c];
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
       if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
-        throw SceneError(
-            direction.place, key,
-            fmt::format("a support moves node '{}' in {}, and a contact touches what moves with the "
-                        "structure or rests: put a spring between",
-                        name, c == 0 ? "x" : "y"));
+        throw SceneError(direction.place, key,
+                         fmt::format("a support moves node '{}' in {}; the node of a contact must be free or "
+                                     "fixed there: connect it to the moving node by a spring",
+                                     name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,

@@ -348,15 +348,14 @@ void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& as
     const bool moves_mass = !columns.mass.isZero(0.0);
     const History velocity = moving.s.with_rates(0.0, 1.0, 0.0);
     if (const double t = jump_of(moving.s, scene.run.t_end); t >= 0.0 && (moves_mass || !damping.isZero(0.0)))
-      throw SceneError(
-          moving.place, moving.key,
-          fmt::format("the motion jumps at time {:.6g}, where mass or damping would answer with an "
-                      "infinite force: give it time",
-                      t));
+      throw SceneError(moving.place, moving.key,
+                       fmt::format("the support motion jumps at t = {:.6g}; mass or damping would need an "
+                                   "infinite force: replace the jump by a ramp",
+                                   t));
     if (const double t = jump_of(velocity, scene.run.t_end); t >= 0.0 && moves_mass)
       throw SceneError(
           moving.place, moving.key,
-          fmt::format("the velocity jumps at time {:.6g}, where mass would answer with an impulse: "
+          fmt::format("the support velocity jumps at t = {:.6g}, so mass would need an impulse: "
                       "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
                       "= \"lumped\" to the members there",
                       t));

@@ -16,7 +16,7 @@ std::pair<const MeshPiece*, bool> piece_between(const DofMap& map, const std::st
     found = &piece;
   }
   if (!found)
-    throw SceneError(place, key, fmt::format("no piece of a member joins nodes '{}' and '{}'", a, b));
+    throw SceneError(place, key, fmt::format("no member has nodes '{}' and '{}' next to each other", a, b));
   return {found, found->from != from};
 }
 

@@ -36,7 +36,8 @@ BodyMotion nodes_of(const RigidBody& body, int number, DofMap& map) {
     if (owner != DofMap::absent)
       throw SceneError(
           body.place, key + of,
-          fmt::format("found node '{}' of another rigid body, expected nodes of this one alone", name));
+          fmt::format("node '{}' already belongs to another rigid body; a node can belong to one only",
+                      name));
     owner = number;
     motion.nodes.push_back(node);
   };

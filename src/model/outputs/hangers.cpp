@@ -35,21 +35,31 @@ double variability(const HangerLoad& hanger) {
                                 : std::abs(hanger.cold - hanger.at_start) / std::abs(hanger.at_start);
 }
 
-std::vector<std::string> hanger_doubts(const Model& model) {
+std::vector<std::string> hanger_doubts(const Scene& scene, const Model& model) {
   std::vector<std::string> doubts;
+  for (const HangerLoad& h : model.hangers) {
+    const Spring& spring = scene.springs[h.spring - 1];
+    const double along = spring.direction[0] * scene.gravity[0] + spring.direction[1] * scene.gravity[1];
+    // The force on the node is -cold direction.
+    if (h.hot && h.cold * along < 0.0)
+      doubts.push_back(
+          fmt::format("the hanger of spring {} pushes its node along gravity; its direction goes from the "
+                      "hanger's anchor to the node",
+                      h.spring));
+  }
   if (!model.static_start) return doubts;
   for (const HangerLoad& h : model.hangers) {
     const double cold = h.cold * model.unit.force, now = h.at_start * model.unit.force;
     const std::string& unit = model.units.force;
     if ((cold > 0.0) != (now > 0.0))
       doubts.push_back(
-          fmt::format("spring {} bears {:.6g} {} in equilibrium and {:.6g} {} while nothing has moved: the "
-                      "other way",
+          fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: the "
+                      "sign differs",
                       h.spring, now, unit, cold, unit));
     else if (variability(h) > usual_variability)
       doubts.push_back(
-          fmt::format("spring {} bears {:.6g} {} in equilibrium and {:.6g} {} while nothing has moved: a "
-                      "variability of {:.3g} %, where up to 25 % is usual",
+          fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: its "
+                      "variability is {:.3g} %, usual is at most 25 %",
                       h.spring, now, unit, cold, unit, 100.0 * variability(h)));
   }
   return doubts;

@@ -14,6 +14,6 @@ void find_hangers(const Scene& scene, const DofMap& map, Model& model);
 [[nodiscard]] double variability(const HangerLoad& hanger);
 
 /// Springs in static equilibrium that bear much more, or less, or the other way, than before: one sentence each.
-[[nodiscard]] std::vector<std::string> hanger_doubts(const Model& model);
+[[nodiscard]] std::vector<std::string> hanger_doubts(const Scene& scene, const Model& model);
 
 }  // namespace signorini

@@ -261,7 +261,7 @@ class Maker {
       const std::array<bool, 3> fixed{support.ux, support.uy, support.rz};
       for (std::size_t c = 0; c < 3; ++c) held = held || (fixed[c] && d[c] != 0.0);
     }
-    if (!held) refuse(spec, "at", fmt::format("no support holds node '{}' that way", spec.at[0]));
+    if (!held) refuse(spec, "at", fmt::format("no support fixes node '{}' in this direction", spec.at[0]));
     for (const TieSpec& tie : scene_.ties)
       for (const auto& [l, weight] : tie.master)
         if (l == node)

@@ -61,11 +61,10 @@ Cut MemberCuts::cut(const Way& way, std::size_t k, double x, const Wanted& wante
   const Member& member = scene_.members[static_cast<std::size_t>(e.member())];
   const Section& section = section_of(scene_, member);
   if ((wanted.of_N != 0.0 && section.area == 0.0) || (wanted.of_M != 0.0 && section.modulus == 0.0))
-    throw SceneError(
-        place, key,
-        fmt::format("section '{}' has no stresses: expected a shape, pipe, box, i or round, or area and "
-                    "modulus beside EA and EI",
-                    section.name));
+    throw SceneError(place, key,
+                     fmt::format("stresses of section '{}' cannot be computed: give it a shape (pipe, box, i "
+                                 "or round), or area and modulus in addition to EA and EI",
+                                 section.name));
   const std::optional<Bend>& bend = member.bend;
   const double i = wanted.intensification.value_or(bend ? bend->intensification : 1.0);
   const double side = wanted.fibre == Fibre::left ? -1.0 : 1.0;

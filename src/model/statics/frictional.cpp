@@ -92,8 +92,9 @@ class Path {
   }
 
   [[noreturn]] void refuse_stage(const std::string& why) const {
-    throw SceneError(place_, "run.initial",
-                     fmt::format("no slow start: at {:.4g} of stage '{}' {}", part_, stage_->name, why));
+    throw SceneError(
+        place_, "run.initial",
+        fmt::format("no frictional start: at load factor {:.4g} of stage '{}' {}", part_, stage_->name, why));
   }
 
   [[noreturn]] void refuse_motion(const HeldRows& held) const {
@@ -192,7 +193,10 @@ class Path {
       }
       const double size = std::max(q.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
       const auto found = slow_rates(m, q / size, unknowns);
-      if (!found) refuse_stage(names_of_unknowns(unknowns) + " can neither hold nor slip in equilibrium");
+      if (!found)
+        refuse_stage(
+            names_of_unknowns(unknowns) +
+            " can neither stick nor slip in equilibrium: the friction there is too small for the load");
       for (Eigen::Index j = 0; j < n; ++j) {
         rates += found->z[j] * size * answers[static_cast<std::size_t>(j)].first;
         forces += found->z[j] * size * answers[static_cast<std::size_t>(j)].second;

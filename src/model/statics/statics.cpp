@@ -98,11 +98,11 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   if (gripped.driven >= 0) {
     const std::string name = describe_motion(gripped.driven_motion().motion, problem.map);
     const int holder = gripped.driven_motion().holder;
-    const std::string hold =
-        holder < 0
-            ? "nothing restrains it"
-            : fmt::format("only friction, at contact '{}', could hold it, and the static start has none",
-                          problem.contacts[static_cast<std::size_t>(holder)].name);
+    const std::string hold = holder < 0 ? "nothing restrains it"
+                                        : fmt::format(
+                                              "only friction at contact '{}' could prevent this, and initial "
+                                              "= \"static\" has no friction; use initial = \"frictional\"",
+                                              problem.contacts[static_cast<std::size_t>(holder)].name);
     throw SceneError(place, key,
                      fmt::format("no static equilibrium: the static loads drive the {} with {:.4g} {}; {}",
                                  name, gripped.force, unit, hold));
@@ -117,7 +117,8 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
                          c.name, pull, unit);
   }
   throw SceneError(place, key,
-                   fmt::format("no static equilibrium: {}; without it the static loads drive the {}",
+                   fmt::format("no static equilibrium: {}; without this pull the static loads drive the {}. "
+                               "Check the directions of gravity and of constant loads",
                                pulls.empty() ? "the open contacts do not hold the structure" : pulls,
                                describe_motion(found.driven_motion().motion, problem.map)));
 }

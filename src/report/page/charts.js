@@ -28,11 +28,15 @@ class Chart {
       return high - low;
     });
     const order = spans.map((_, k) => k).sort((a, b) => spans[b] - spans[a]), most = Math.max(...spans);
+    // Where nothing moves beyond rounding, the first ones.
+    const sizes = this.series.map((one) => one.y.reduce((size, y) => Math.max(size, Math.abs(y ?? 0)), 0));
+    const still = !(most > 1e-9 * Math.max(...sizes));
+    if (still) order.sort((a, b) => sizes[b] - sizes[a] || a - b);
     order.forEach((k, place) => {
       this.series[k].colours = palette[place % palette.length];
       this.series[k].dash = place >= palette.length;
     });
-    this.series.forEach((one, k) => { one.shown = order.indexOf(k) < 6 && (spans[k] > 1e-9 * most || series.length <= 6); });
+    this.series.forEach((one, k) => { one.shown = order.indexOf(k) < 6 && (still || spans[k] > 1e-9 * most || series.length <= 6); });
     this.figure = document.createElement("figure");
     this.figure.className = "chart";
     const head = document.createElement("figcaption");

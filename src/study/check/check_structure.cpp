@@ -84,7 +84,7 @@ std::string unstable_motion(const Scene& scene, const Model& model,
   if (!growth) return "";
   const std::string pace =
       std::isfinite(growth->rate)
-          ? fmt::format("grows like exp({:.4g} t) where friction does not hold it", growth->rate)
+          ? fmt::format("grows like exp({:.4g} t) unless friction prevents it", growth->rate)
           : std::string("has no mass that could slow it down");
   return fmt::format("the structure is unstable, its stiffness matrix has a negative eigenvalue: the {} {}",
                      describe_motion(growth->motion, map), pace);
@@ -139,9 +139,9 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
     const bool holds =
         holder != nullptr && closed[static_cast<std::size_t>(f.holder)] && holder->has_friction();
     names.push_back(describe_motion(f.motion, map) +
-                    (holds ? fmt::format(", only held by friction at contact '{}'", holder->name)
+                    (holds ? fmt::format(", restrained only by friction at contact '{}'", holder->name)
                      : has_negative_energy(k, f.motion) ? std::string(", unstable")
-                                                        : std::string(", held by nothing")));
+                                                        : std::string(", not restrained")));
   }
   return names;
 }

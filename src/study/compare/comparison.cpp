@@ -252,7 +252,7 @@ Comparison compare_runs(const ComparedRun& reference, const ComparedRun& other,
     const bool reference_first = reference.figures.t < other.figures.t;
     const RunFigures& shorter = reference_first ? reference.figures : other.figures;
     const RunFigures& longer = reference_first ? other.figures : reference.figures;
-    c.notes.push_back(fmt::format("compared up to t = {:.9g}, the end of {}; {} goes on to {:.9g}", c.t_end,
+    c.notes.push_back(fmt::format("compared up to t = {:.9g}, the end of {}; {} ends at {:.9g}", c.t_end,
                                   shorter.name, longer.name, longer.t));
   }
   note_contacts(reference, other, c);

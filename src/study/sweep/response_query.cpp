@@ -42,7 +42,7 @@ ResponseQuery parse_query(const std::string& text, const Model& model) {
   if (colon == std::string::npos || row == words.end()) {
     std::string list;
     for (const Word& w : words) list += fmt::format("{}{}:", list.empty() ? "" : ", ", w.word);
-    throw UsageError(fmt::format("{}: expected one of {} and a name behind it", option, list));
+    throw UsageError(fmt::format("{}: expected one of {}, followed by a name", option, list));
   }
   ResponseQuery query;
   query.kind = row->kind;

@@ -72,7 +72,7 @@ bool is_sweep(const fs::path& path) {
 void check_directory(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
-  if (!fs::is_directory(path, error)) throw FileError(path.string(), "is there already and is no directory");
+  if (!fs::is_directory(path, error)) throw FileError(path.string(), "exists and is not a directory");
   if (!fs::is_empty(path, error) && !is_sweep(path))
     throw FileError(path.string(), "is not empty and holds no sweep (no sweep.json) to go on with");
 }
@@ -153,8 +153,8 @@ SweepDirectory::SweepDirectory(fs::path path, SweepSpec spec, bool force)
     if (differs.empty() && !(was.share == spec_.share))
       differs = "--share was " + was.share.text() + ", is " + spec_.share.text();
     if (!differs.empty())
-      throw FileError(path_.string(), "holds another sweep: " + differs +
-                                          "; give another directory, or --force to replace that sweep");
+      throw FileError(path_.string(), "contains another sweep: " + differs +
+                                          "; choose another directory, or use --force to replace that sweep");
   } else if (force) {
     remove_old(path_);
   }

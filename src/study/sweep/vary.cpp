@@ -69,8 +69,8 @@ std::vector<std::string> range(const std::string& option, const std::vector<std:
   }
   const auto [start, stop, step] = numbers;
   if (step == 0.0 || (stop - start) / step < 0.0)
-    throw UsageError(
-        fmt::format("{}: a step of {} does not lead from {} to {}", option, parts[2], parts[0], parts[1]));
+    throw UsageError(fmt::format("{}: steps of {} from {} never reach {}; check the sign of the step", option,
+                                 parts[2], parts[0], parts[1]));
   // A stop that is a step but for roundoff is included.
   const double steps = std::floor((stop - start) / step * (1.0 + 1e-12) + 1e-9);
   if (!(steps < most_points)) throw UsageError(option + ": expected at most 1e6 values");

@@ -303,14 +303,15 @@ void Witnesses::judge(Verification& result) {
   add_extremes(result);
   conclude(here, result);
   if (!exact) {
-    result.witness = "exact does not take the scene";
+    result.witness = "exact cannot compute the scene";
     return;
   }
   double off = 0.0;
   for (const VerifiedEvent& event : result.events)
     if (event.time.exact) off = std::max(off, std::abs(event.time.ida - *event.time.exact));
-  result.witness = fmt::format("exact has ida's sequence until t = {:.9g}, times within {:.2g} {}",
-                               here.exact_until, off, model_.units.time);
+  result.witness =
+      fmt::format("exact and ida have the same sequence of events until t = {:.9g}, times within {:.2g} {}",
+                  here.exact_until, off, model_.units.time);
 }
 
 }  // namespace signorini

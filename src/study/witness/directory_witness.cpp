@@ -24,10 +24,9 @@ PreparedRun prepared_of(const fs::path& directory) {
   const fs::path path = directory / "run.toml";
   std::error_code missing;
   if (!fs::exists(path, missing))
-    throw FileError(path.string(), "is not there; expected a directory that `signorini run` wrote");
+    throw FileError(path.string(), "not found; give a directory written by `signorini run`");
   if (!fs::exists(directory / instants_file, missing))
-    throw FileError((directory / instants_file).string(),
-                    "is not there; `signorini run --instants` writes it");
+    throw FileError((directory / instants_file).string(), "not found; `signorini run --instants` writes it");
   return prepare_run(path.string(), {});
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("run directory: an existing one is refused unless empty or forced") {
   spill(path / "notes.txt", "mine");
   CHECK_THROWS_WITH_AS(
       RunDirectory(path, s, m),
-      (path.string() + ": is there already and not empty; --force replaces the run in it").c_str(),
+      (path.string() + ": directory exists and is not empty; use --force to replace the run in it").c_str(),
       FileError);
 }
 

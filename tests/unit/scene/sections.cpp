@@ -99,10 +99,9 @@ TEST_CASE("what is wrong with a section is said") {
   const auto refused = [](const std::string& shape) {
     return refusal_of(scene_with("[sections.s]\n" + shape + "\n"));
   };
-  has(refused("EA = 1.0\n" + pipe), "sections.s.EA: stands beside pipe");
-  has(refused("mass_per_length = 1.0\n" + pipe), "sections.s.mass_per_length: stands beside pipe");
-  has(refused(pipe + "\nround = { diameter = 1.0, E = 1.0, density = 1.0 }"),
-      "stands beside pipe, expected one shape");
+  has(refused("EA = 1.0\n" + pipe), "sections.s.EA: follows from pipe");
+  has(refused("mass_per_length = 1.0\n" + pipe), "sections.s.mass_per_length: follows from pipe");
+  has(refused(pipe + "\nround = { diameter = 1.0, E = 1.0, density = 1.0 }"), "cannot be combined with pipe");
   has(refused("EI = 1.0"), "sections.s.EA: missing, expected a number > 0");
   has(refused("EA = 1.0"), "sections.s.mass_per_length: missing");
   has(refused("pipe = { diameter = 0.3, wall = 0.15, E = 1.0, density = 1.0 }"),

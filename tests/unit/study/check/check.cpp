@@ -98,20 +98,20 @@ TEST_SUITE("unit/study/check/check") {
     s.gravity = {0.0, -9.81};
     s.contacts = {support_contact("floor", "a", 50.0)};
     s.initial.components = {{"a", "uy", -0.1, {}}};
-    CHECK(
-        checked(s).free_motions ==
-        std::vector<std::string>{"horizontal motion of node 'a', only held by friction at contact 'floor'"});
+    CHECK(checked(s).free_motions ==
+          std::vector<std::string>{
+              "horizontal motion of node 'a', restrained only by friction at contact 'floor'"});
     s.contacts[0].friction = {0.0, 0.0};
     CHECK(checked(s).free_motions ==
-          std::vector<std::string>{"horizontal motion of node 'a', held by nothing"});
+          std::vector<std::string>{"horizontal motion of node 'a', not restrained"});
 
     s = pipeline();
     s.initial.is_static = false;
     s.damping = {};
     s.initial.components = {{"D", "uy", -1e-4, {}}, {"A", "uy", 1e-3, {}}};
     CHECK(checked(s).free_motions ==
-          std::vector<std::string>{"horizontal motion, only held by friction at contact 'second'",
-                                   "rotation about (18, 6), held by nothing"});
+          std::vector<std::string>{"horizontal motion, restrained only by friction at contact 'second'",
+                                   "rotation about (18, 6), not restrained"});
   }
 
   TEST_CASE("breakpoints: jumps and kinks of loads, compressions and surfaces, within the run") {

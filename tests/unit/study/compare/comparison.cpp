@@ -138,7 +138,7 @@ TEST_CASE("comparison: other output times, other columns, a run that is cut off"
   CHECK(c.displacement.whole.value == 0.5);
   CHECK(c.force.whole.value == 1.0);
   REQUIRE(c.notes.size() == 2);
-  CHECK(c.notes[0] == "compared up to t = 2, the end of b; a goes on to 4");
+  CHECK(c.notes[0] == "compared up to t = 2, the end of b; a ends at 4");
   CHECK(c.notes[1] == "history.csv: 3 columns in one of the two runs only, the first is \"A.rz\"");
   CHECK(exceeded(parse_limits({"displacement=1"}), a.figures, b.figures, c).size() == 1);
 }

@@ -172,6 +172,30 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   return result;
 }
 
+namespace {
+
+/// P - K u - sum_closed kn (n . u + g0) n - sum of springs k t (t . u), each by itself. A sum of K and stiff springs in one
+/// matrix loses the digits of K: along axes that are not theirs a soft motion was off by cond eps of 1e-12.
+struct Unbalanced {
+  const StaticProblem& problem;
+  const std::vector<bool>& closed;
+  const std::vector<LineSpring>& springs;
+
+  /// of_scene: with the gaps; else of a load alone.
+  [[nodiscard]] Vector forces(const Vector& load, const Vector& u, bool of_scene) const {
+    Vector rest = load - problem.stiffness * u;
+    for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+      if (!closed[c] || !problem.is_support(c)) continue;
+      const Combination& n = problem.contacts[c].normal;
+      n.add_to(rest, -problem.normal_stiffness(c) * (of_scene ? problem.gap(c, u) : n.dot(u)));
+    }
+    for (const LineSpring& spring : springs) spring.form.add_to(rest, -spring.stiffness * spring.form.dot(u));
+    return rest;
+  }
+};
+
+}  // namespace
+
 HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
                      const std::vector<FreeMotion>& held) {
   SparseMatrix k = problem.matrix(closed);
@@ -186,17 +210,17 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     springs.push_back({t, own_stiffness(k, t)});
   }
   k = with_springs(k, springs);
-  const SparseMatrix unsupported = k;
-  if (loose) k += weak_support(problem.map, k);
+  const SparseMatrix weak = loose ? weak_support(problem.map, k) : SparseMatrix(k.rows(), k.cols());
+  if (loose) k += weak;
   const SymmetricSolver solver(k);
-  const Vector p = problem.right_side(closed);
-  const auto refined = [&](const Vector& load) {
-    const Vector u = solver.solve(load);
-    const Vector better =
-        u + solver.solve(load - k * u);  // contact springs may be much stiffer than the rest
-    return loose && problem.forces ? Vector(better + solver.solve(load - unsupported * better)) : better;
+  const Unbalanced own{problem, closed, springs};
+  const auto refined = [&](const Vector& load, bool of_scene) {
+    const Vector u = solver.solve(of_scene ? problem.right_side(closed) : load);
+    const Vector better = u + solver.solve(own.forces(load, u, of_scene) - weak * u);
+    return loose && problem.forces ? Vector(better + solver.solve(own.forces(load, better, of_scene)))
+                                   : better;
   };
-  HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
+  HeldState state{refined(problem.load, true), std::vector<double>(problem.contacts.size(), 0.0)};
   std::vector<std::size_t> rigid;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
     if (closed[c] && problem.contacts[c].takes_impulses()) rigid.push_back(c);
@@ -206,7 +230,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     Eigen::VectorXd miss(m);
     for (Eigen::Index j = 0; j < m; ++j)
       answer.col(j) =
-          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
+          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()), false);
     for (Eigen::Index i = 0; i < m; ++i) {
       const std::size_t c = rigid[static_cast<std::size_t>(i)];
       miss[i] = -problem.gap(c, state.u);

@@ -78,6 +78,7 @@ class BranchNewton {
   /// The noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, where z1, z2 are the images of z0, z1. It is what
   /// the next corrections can reach.
   void hear_noise(const OrbitPass& first, const OrbitPass& second);
+  [[nodiscard]] double noise() const { return noise_; }
   /// Residual at which a correction is done that gets no further.
   [[nodiscard]] double closed_at_last() const;
   /// Where dz/ds is along the motion: the time by which the orbit at the section is later, a unit of s.

@@ -19,7 +19,8 @@ constexpr int quick = 4;                // corrections, after which the next ste
 constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
 constexpr double alike = 0.9;           // cosine of tangent and secant. Chosen.
 constexpr double restart_step = 2e-3;   // of the range
-constexpr double shortest_part = 1e-6;  // of the range: so closely changes of the sequence are located
+// In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
+constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 
 }  // namespace
 
@@ -133,7 +134,8 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   if (sequence == sequence_of(next.pass)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
   double other = 1.0;
-  while ((other - point.part) * ds > shortest_part) {
+  const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
+  while ((other - point.part) * ds > enough) {
     const double middle = 0.5 * (point.part + other);
     const Corrected& from = point.at.done ? point.at : here;
     Corrected c =
@@ -287,6 +289,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     t = before;
     newton_.measure(here.pass, &t);
     t = direction(place, here, t);
+    keep_mark(here, t);
     if (!add(here, special)) return;
     complete_ = last && special.empty();
     if (complete_) {
@@ -305,8 +308,16 @@ void BranchWalk::walk(Corrected here, Vector t) {
 void BranchWalk::walk_from_start() {
   Corrected here;
   if (!begin(here)) return;
-  const Vector t = newton_.examine(here, newton_.upwards(here.pass, 1.0));
+  const bool back = options_.resumed && !options_.resumed->towards_to;
+  const Vector t = newton_.examine(here, newton_.upwards(here.pass, back ? -1.0 : 1.0));
+  if (options_.resumed) {
+    number_of_sequence(here.pass);
+    keep_mark(here, t);
+    walk(std::move(here), t);
+    return;
+  }
   if (!add(here, "")) return;
+  keep_mark(here, t);
   if (only_shifts(here, t)) {
     end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
                        options_.path);
@@ -315,14 +326,26 @@ void BranchWalk::walk_from_start() {
   walk(std::move(here), t);
 }
 
+void BranchWalk::keep_mark(const Corrected& here, const Vector& t) {
+  last_ = here.state;
+  last_section_ = map_.section();
+  towards_to_ = t[t.size() - 1] >= 0.0;
+}
+
+std::optional<BranchMark> BranchWalk::mark() {
+  if (!last_) return std::nullopt;
+  map_.move_section(last_section_);
+  return BranchMark{map_.parameter(last_->s), towards_to_, map_.orbit_at(*last_), branch_.sequences};
+}
+
 /// What a scene refuses on the way ends the branch, which keeps its points.
 void BranchWalk::guarded(const std::function<void()>& walk) {
   try {
     walk();
   } catch (const Error& error) {
-    if (error.code() == ExitCode::file || points_ < 2) throw;
+    if (error.code() == ExitCode::file || (points_ < 2 && !options_.resumed)) throw;
     end_ = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
-                       branch_.points.back().parameter, error.what());
+                       last_ ? map_.parameter(last_->s) : options_.from, error.what());
   }
   if (end_.empty())
     end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, no more were asked for", points_);

@@ -114,6 +114,27 @@ TEST_CASE(
   CHECK(late.err.find("the loads repeat themselves from t = ") != std::string::npos);
 }
 
+TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed where the scene no longer does") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  // No friction below 0: the branch ends there; nothing to resume in another range.
+  const Ending early =
+      shell.run({"orbit", "s.toml", "--over", "contacts.1.friction=0.4:-0.1", "-o", "b", "--no-plots"});
+  CHECK(early.code == 4);
+  REQUIRE(exists(shell, "b/last/start/run.toml"));
+  const std::size_t before = rows_of(shell.read("b/branch.csv"));
+  const Ending other = shell.run(
+      {"orbit", "s.toml", "--over", "contacts.1.friction=0.4:0.1", "-o", "b", "--no-plots", "--resume"});
+  CHECK(other.code == 2);
+  CHECK(other.err.find("--resume") != std::string::npos);
+  const Ending again = shell.run(
+      {"orbit", "s.toml", "--over", "contacts.1.friction=0.4:-0.1", "-o", "b", "--no-plots", "--resume"});
+  CAPTURE(again.err);
+  CHECK(again.code == 4);  // refused again, and no point is lost
+  CHECK(rows_of(shell.read("b/branch.csv")) >= before);
+  CHECK(shell.run({"orbit", "s.toml", "--resume"}).code == 2);
+}
+
 TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of the range") {
   const Shell shell;
   shell.write("s.toml", rubbed(harmonic()));

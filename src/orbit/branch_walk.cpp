@@ -17,7 +17,7 @@ namespace {
 constexpr double shortest_step = 1e-7;  // in the norm
 constexpr int quick = 4;                // corrections, after which the next step may be longer
 constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double alike = 0.9;           // cosine of tangent and secant. Chosen.
+constexpr double alike = 0.9;           // cosine of two directions. Chosen.
 constexpr double restart_step = 2e-3;   // of the range
 // In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
@@ -134,6 +134,7 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   if (sequence == sequence_of(next.pass)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
   double other = 1.0;
+  bool seen = true;  // another sequence at `other`, not a failure
   const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
   while ((other - point.part) * ds > enough) {
     const double middle = 0.5 * (point.part + other);
@@ -141,13 +142,14 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
     Corrected c =
         newton_.correct(newton_.moved(from.state, from.pass, (middle - point.part) * ds * t), t, from.by_s);
     if (!c.done || sequence_of(c.pass) != sequence) {
+      seen = c.done;
       other = middle;
       continue;
     }
     point.part = middle;
     point.at = std::move(c);
   }
-  if (!point.at.done) return std::nullopt;
+  if (!point.at.done || !seen) return std::nullopt;
   newton_.examine(point.at, t, here.ones);
   return point;
 }
@@ -311,7 +313,6 @@ void BranchWalk::walk_from_start() {
   const bool back = options_.resumed && !options_.resumed->towards_to;
   const Vector t = newton_.examine(here, newton_.upwards(here.pass, back ? -1.0 : 1.0));
   if (options_.resumed) {
-    number_of_sequence(here.pass);
     keep_mark(here, t);
     walk(std::move(here), t);
     return;
@@ -401,16 +402,20 @@ void BranchWalk::leave(const Junction& junction) {
   });
 }
 
-/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round.
+/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round, at the same section.
 bool BranchWalk::returns(const Corrected& here) {
   BranchState half = here.state;
   half.duration *= 0.5;
   const OrbitPass pass = map_.pass(half, false);
-  const OrbitSection section(map_.model(), pass.begin);
   if (!pass.done()) return false;
+  const OrbitSection section(map_.model(), pass.begin);
   Vector gap = section.coordinates(pass.end) - section.coordinates(pass.begin);
-  std::swap(gap, half_);
-  return gap.size() == half_.size() && gap.dot(half_) < 0.0;
+  const bool comparable = half_.size() == gap.size() && half_section_ == map_.section();
+  const double along = comparable ? gap.dot(half_) : 0.0;
+  const bool turned = along < -alike * gap.norm() * half_.norm();
+  half_ = std::move(gap);
+  half_section_ = map_.section();
+  return turned;
 }
 
 }  // namespace signorini

@@ -99,7 +99,8 @@ class BranchWalk {
   bool located_ = false;  // the last point is a located one
   bool turning_ = false;  // the tangent is not the way of the branch (direction())
   bool doubled_ = false;  // it began at a flip
-  Vector half_;           // of a doubled branch: z(T/2) - z at the last point
+  double half_section_ = 0.0;
+  Vector half_;  // of a doubled branch: z(T/2) - z at the last point
 };
 
 }  // namespace signorini

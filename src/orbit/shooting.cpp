@@ -11,6 +11,8 @@ namespace signorini {
 namespace {
 
 constexpr int most_steps = 30, most_halvings = 6;
+// So many steps that do not halve the residual: Newton's method stagnates. Chosen.
+constexpr std::size_t patience = 8;
 constexpr double reached = 1e-2;  // of the tolerance: no step is tried from there on
 // Residual over amplitude at which an orbit is closed although the residual no longer falls: what rounding of a long
 // or stiff period leaves. Chosen; above it a search has failed.
@@ -141,6 +143,9 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     }
     if (shot.residual <= reached * tolerance) break;
     const double before = shot.residual;
+    if (shot.steps.size() >= patience &&
+        shot.residual > 0.5 * shot.steps[shot.steps.size() - patience].residual)
+      break;
     fell = damped_step(map, start, shot);
     if (shot.interrupted) return shot;
     if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
@@ -152,11 +157,11 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   shot.steps.push_back({shot.residual, 0.0});
   shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed});
   if (!shot.closed)
-    shot.reason = fmt::format(
-        "Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: no part of the "
-        "next step "
-        "reduces it",
-        shot.residual, shot.steps.size() - 1);
+    shot.reason =
+        fmt::format("Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}",
+                    shot.residual, shot.steps.size() - 1,
+                    fell ? "it falls too slowly, as where events appear and vanish between its steps"
+                         : "no part of the next step reduces it");
   return shot;
 }
 

@@ -492,6 +492,7 @@ TEST_CASE("a branch over friction locates Den Hartog's boundary of motions witho
   for (const BranchPoint& p : branch.points) {
     if (p.special == "sequence") {
       ++found;
+      CAPTURE(p.parameter);
       CHECK(std::abs(p.parameter - boundary) <= 1e-10);
     }
     if (std::abs(p.parameter - boundary) > 1e-6) CHECK(p.events == (p.parameter < boundary ? 2 : 4));

@@ -14,32 +14,47 @@
 namespace signorini {
 namespace {
 
-constexpr double shortest_step = 1e-7;  // in the norm
-constexpr int quick = 4;                // corrections, after which the next step may be longer
-constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double alike = 0.9;           // cosine of two directions. Chosen.
-constexpr double restart_step = 2e-3;   // of the range
+constexpr double shortest_step = 1e-7;   // in the norm
+constexpr int quick = 4;                 // corrections, after which the next step may be longer
+constexpr double shifted_to = 1e-3;      // residual over amplitude: what noise leaves of a shift. Chosen.
+constexpr double alike = 0.9;            // cosine of two directions. Chosen.
+constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
+constexpr double restart_step = 2e-3;    // of the range
 // In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
 
+/// An event at the section may count twice, or not at all.
+bool event_at_section(const Corrected& at) {
+  const double T = at.state.duration;
+  return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
+    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
+  });
+}
+
 }  // namespace
 
-/// Without a branch: a little further on, after a transient.
+/// Without a branch: a little further on, by damped steps of Newton's method from here, which find unstable orbits and those
+/// with another sequence of events, too; else after a transient.
 bool BranchWalk::restart(Corrected& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
-  if (next.s < 0.0 || next.s > 1.0 || map_.autonomous()) return false;
-  next.duration = map_.period(next.s);
+  if (next.s < 0.0 || next.s > 1.0) return false;
+  if (!map_.autonomous()) next.duration = map_.period(next.s);
+  next.state = map_.fitted(std::move(next.state), here.pass.begin.mode, next.s);
   const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
+  const auto close = [&](const OrbitState& state) {
+    const ShootingStart start{state, next.duration, map_.autonomous(), newton_.closed_at_last(), {}};
+    Shot shot = shoot(*at, start, corrected_to);
+    if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
+    here.state = {shot.state, shot.duration, next.s};
+    here.pass = std::move(shot.pass);
+    here.residual = shot.residual;
+    here.by_s = {};
+    return true;
+  };
+  if (close(next.state)) return true;
+  if (map_.autonomous()) return false;
   const OrbitPass transient = at->pass({next.state, restart_periods * next.duration, false});
-  if (!transient.done()) return false;
-  next.state = orbit_state(transient.end);
-  const Shot shot = shoot(*at, {next.state, next.duration, false, newton_.closed_at_last()}, corrected_to);
-  if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
-  here.state = {shot.state, next.duration, next.s};
-  here.pass = shot.pass;
-  here.residual = shot.residual;
-  here.by_s = {};
-  return true;
+  return transient.done() && close(orbit_state(transient.end));
 }
 
 /// A section away from events, if this one is near to one. The point before moves there, too.
@@ -131,7 +146,7 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
 std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
                                                                const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
-  if (sequence == sequence_of(next.pass)) return std::nullopt;
+  if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
   double other = 1.0;
   bool seen = true;  // another sequence at `other`, not a failure
@@ -149,7 +164,7 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
     point.part = middle;
     point.at = std::move(c);
   }
-  if (!point.at.done || !seen) return std::nullopt;
+  if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
   newton_.examine(point.at, t, here.ones);
   return point;
 }

@@ -120,10 +120,31 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
   return residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin));
 }
 
+std::optional<double> map_noise(const Model& model, const OrbitPass& first, const OrbitPass& second) {
+  if (first.end_rates.size() == 0 || !second.done()) return std::nullopt;
+  const OrbitSection section(model, first.begin);
+  if (OrbitSection(model, second.begin).size() != section.size()) return std::nullopt;
+  const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);
+  const Vector next = section.coordinates(second.end) - section.coordinates(first.end);
+  return residual_of(section, first, next - first.end_rates * (section.basis().transpose() * gap));
+}
+
 Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
   return section.basis().transpose() * pass.end_rates;
 }
+
+namespace {
+
+/// Whether what is left is the noise of the map.
+bool is_noise(const PeriodMap& map, const Shot& shot) {
+  if (shot.residual > of_noise_at_last * greatest_noise || shot.pass.end_rates.size() == 0) return false;
+  const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
+  const std::optional<double> noise = map_noise(map.model(), shot.pass, next);
+  return noise && shot.residual <= of_noise_at_last * std::min(*noise, greatest_noise);
+}
+
+}  // namespace
 
 Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   const Model& model = map.model();
@@ -155,7 +176,7 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     if (fell) shot.pass = map.pass({shot.state, shot.duration});
   }
   shot.steps.push_back({shot.residual, 0.0});
-  shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed});
+  shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);
   if (!shot.closed)
     shot.reason =
         fmt::format("Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}",

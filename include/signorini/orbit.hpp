@@ -76,8 +76,9 @@ struct Orbit {
 };
 
 /// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
-/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and ida have). A search that fails is a value: found is
-/// false, and `reason` says why. `recorder`: asked for `progress` only, which may stop the search.
+/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and
+/// ida have). A search that fails is a value: found is false, and `reason` says why. `recorder`: asked for `progress` only,
+/// which may stop the search.
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
 

@@ -213,10 +213,22 @@ std::vector<double> floors(const SeenRun& run, const Scales& scales, double rela
   return result;
 }
 
+/// Greatest displacement of the rows: gaps, slips, outputs.
+double greatest_displacement(const SeenRun& run) {
+  double greatest = 0.0;
+  for (std::size_t j = 0; j < run.columns.size(); ++j) {
+    const SeenColumn& c = run.columns[j];
+    if (c.unit.force != 0 || c.unit.length != 1 || c.unit.time != 0) continue;
+    for (const SeenRun::Row& row : run.rows)
+      if (std::isfinite(row.values[j])) greatest = std::max(greatest, std::abs(row.values[j]));
+  }
+  return greatest;
+}
+
 /// Forces of elements are k times a difference of displacements, which are known to some eps of the greatest.
-double rounding_of_element(const Model& model, const SeenColumn& column) {
+double rounding_of_element(const Model& model, const SeenColumn& column, double reached) {
   if (column.of != SeenColumn::Of::force) return 0.0;
-  double greatest = model.scales.displacement;
+  double greatest = std::max(model.scales.displacement, reached);
   for (Eigen::Index i = 0; i < model.u0.size(); ++i)
     if (!model.dofs[static_cast<std::size_t>(i)].rotation)
       greatest = std::max(greatest, std::abs(model.u0[i]));
@@ -495,8 +507,9 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   m_->open_start = !model.statics.doubts.empty();
   m_->shared_motion = shares_motion(model);
   m_->floor = floors(m_->run, model.scales, rounding_of_sums + relative);
+  const double reached = greatest_displacement(m_->run);
   for (std::size_t j = 0; j < m_->floor.size(); ++j)
-    m_->floor[j] += rounding_of_element(model, m_->run.columns[j]);
+    m_->floor[j] += rounding_of_element(model, m_->run.columns[j], reached);
 }
 
 RelationJudge::~RelationJudge() = default;

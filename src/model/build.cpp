@@ -20,6 +20,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/assembly/stiffness_range.hpp"
 #include "model/assembly/ties.hpp"
+#include "model/borrowed_springs.hpp"
 #include "model/carried.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
@@ -191,7 +192,9 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
+  const std::optional<BorrowedSprings> borrowed = borrow_springs(scene, map, assembly.dampers, model);
   start(scene, map, model);
+  if (borrowed) continue_borrowed(*borrowed, scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && doubted) set_load_factors(scene, map, closed, model);
@@ -220,6 +223,10 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
       model.warnings.emplace_back(
           "reduction.tolerance: this is the whole model; run, compare, study, sweep and verify look for the "
           "cutoff by trial runs first");
+  }
+  if (borrowed) {
+    check_unique(scene, model);
+    show_borrowed(*borrowed, model);
   }
   add_shear_elements(scene, model);
   name_tied(map, model);

@@ -36,6 +36,8 @@ struct Parameter {
   std::string path;
   double value = 0.0;
   double step = 0.0;  ///< of the differences of the model's data, in the key's unit
+  /// Whether the key may have this value: an inertia is never negative.
+  std::function<bool(double)> may_be = [](double) { return true; };
   /// Derivatives are known before this time, and why not after it; infinity: to the end.
   double until = std::numeric_limits<double>::infinity();
   std::string reason;
@@ -134,8 +136,8 @@ struct Swap {
   bool vanish = false;                               ///< they are of one contact
 };
 
-/// The least change of each parameter upwards, and downwards, at which two neighbours meet; none where no two
-/// do.
+/// The least change of each parameter upwards, and downwards, at which two neighbours meet. None where no two do, or where
+/// the key may not have that value.
 [[nodiscard]] std::vector<Swap> least_swaps(const Sensitivities& s);
 
 /// `recorder`: receives the run's own rows. Errors: SceneError, UsageError for a key that is no number, for

@@ -41,7 +41,9 @@ RunWitness::RunWitness(const Model& model, const WitnessedEngine& engine, Record
       recorder_(recorder),
       engine_(engine),
       witness_(model, engine.limits),
-      motion_(model, engine) {}
+      motion_(model, engine),
+      holds_(std::any_of(model.contacts.begin(), model.contacts.end(),
+                         [](const Contact& c) { return !c.has_spring(); })) {}
 
 namespace {
 
@@ -111,7 +113,7 @@ void RunWitness::instant(const Instant& now) {
   record.located = engine_.located && !now.adopted;
   record.forgiven = d.forgiven;
   record.dependence = now.dependence;
-  held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
+  if (holds_) held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
   for (std::size_t k = 0; k < passed_.size(); ++k)
     passed_[k].place = std::max(passed_[k].place, see(model_.contacts[k], k, record.before).place);
   if (recorder_.wants_instants()) recorder_.instant(row_of(record));

@@ -62,7 +62,8 @@ class RunWitness {
   WitnessedMotion motion_;
   WitnessedSide point_;  // between instants
   std::vector<PassedPeak> passed_;
-  double held_forces_ = 0.0;  // greatest Witness::held_forces
+  bool holds_ = false;        // some contact has no spring: its forces hold accelerations
+  double held_forces_ = 0.0;  // greatest Witness::held_forces, where one holds
   Testimony testimony_;
   std::string grave_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "base/number.hpp"
@@ -63,18 +64,38 @@ void read_masses(Table& top, Scene& scene, RecordedScene& record) {
 
 namespace {
 
+/// A key of a table, which a message may stand at.
+struct Blamed {
+  const Table& table;
+  const char* key;
+};
+
+/// Keys that contradict each other: the message stands at the one that --set gave, else at the first.
+[[noreturn]] void contradict(std::initializer_list<Blamed> keys, const std::string& message) {
+  const Blamed* at = keys.begin();
+  for (const Blamed& one : keys)
+    if (one.table.has(one.key) && one.table.place(one.key).line == SourcePlace::command_line) {
+      at = &one;
+      break;
+    }
+  at->table.fail(at->key, message);
+}
+
 /// Of a spring hanger: hot + stiffness travel = cold.
 void read_hanger(Table& table, Spring& spring) {
-  if (table.has("preload"))
-    table.fail("preload", "cannot be combined with hanger, whose cold load it is: expected one of the two");
   Table hanger = table.child("hanger");
+  if (table.has("preload"))
+    contradict({{table, "preload"}, {table, "hanger"}},
+               "preload cannot be combined with hanger, whose cold load it is: expected one of the two");
   const double hot = hanger.number("hot");
   const std::optional<double> cold = hanger.optional_number("cold"),
                               travel = hanger.optional_number("travel");
   const bool stiff = table.has("stiffness");
+  const Blamed hot_key{hanger, "hot"}, cold_key{hanger, "cold"}, travel_key{hanger, "travel"},
+      stiffness_key{table, "stiffness"};
   if ((cold ? 1 : 0) + (travel ? 1 : 0) + (stiff ? 1 : 0) != 2)
-    table.fail(
-        "hanger",
+    contradict(
+        {{table, "hanger"}, cold_key, travel_key, stiffness_key},
         "expected two of cold, travel and the spring's stiffness beside hot: cold = hot + stiffness travel");
   spring.hot_load = hot;
   spring.preload = cold ? *cold : hot + spring.stiffness * *travel;
@@ -83,15 +104,15 @@ void read_hanger(Table& table, Spring& spring) {
                 "found 0, expected a travel that is not zero, over which the load goes from cold to hot");
   if (!stiff) spring.stiffness = (*cold - hot) / *travel;
   if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
-    table.fail("hanger",
+    contradict({{table, "hanger"}, hot_key, cold_key, travel_key, stiffness_key},
                fmt::format("the stiffness would be {:.6g}, expected > 0: the load falls where the node moves "
                            "against direction (travel > 0)",
                            spring.stiffness));
   if (!(spring.preload >= 0.0))
-    hanger.fail("travel",
-                fmt::format("the load while nothing has moved would be {:.6g}, expected >= 0: it is "
-                            "hot + stiffness travel",
-                            spring.preload));
+    contradict({travel_key, hot_key, cold_key, stiffness_key},
+               fmt::format("the load while nothing has moved would be {:.6g}, expected >= 0: it is "
+                           "hot + stiffness travel",
+                           spring.preload));
   hanger.finish();
   table.record("hanger", hanger.record().inline_table());
 }

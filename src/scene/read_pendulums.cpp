@@ -19,8 +19,6 @@ ContactSpec part_of(const Table& table, const std::string& name) {
   part.name = name;
   part.place = table.place();
   part.table = table.path();
-  part.normal_force = constant_history(0.0);
-  part.surface_velocity = constant_history(0.0);
   return part;
 }
 

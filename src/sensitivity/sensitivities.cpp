@@ -5,6 +5,7 @@
 
 #include "model/build.hpp"
 #include "model/rescale.hpp"
+#include "scene/key_path.hpp"
 #include "sensitivity/discrete_run.hpp"
 #include "sensitivity/known_laws.hpp"
 #include "sensitivity/parameter.hpp"
@@ -82,6 +83,8 @@ Sensitivities sensitivities(const SceneReader& read, const std::vector<std::stri
     Parameter parameter;
     parameter.path = path;
     parameter.value = value_of(scene, path);
+    if (const Key* key = key_of(path))
+      parameter.may_be = [range = range_of(*key)](double value) { return range.has(value); };
     const double size =
         parameter.value != 0.0 ? std::abs(parameter.value) : typical_size(read, scene, model, path);
     derivatives.push_back(derivative(read, computed, path, parameter.value, size));
@@ -122,6 +125,7 @@ std::vector<Swap> least_swaps(const Sensitivities& s) {
       if (!(apart > 0.0) || !(std::abs(closing) > 0.0)) continue;
       const bool vanish = s.events[i].contact >= 0 && s.events[i].contact == s.events[i + 1].contact;
       const Swap swap{p, i, i + 1, apart / closing, vanish};
+      if (!s.parameters[p].may_be(s.parameters[p].value + swap.change)) continue;
       std::optional<Swap>& least = swap.change > 0.0 ? up : down;
       if (!least || std::abs(swap.change) < std::abs(least->change)) least = swap;
     }

@@ -162,7 +162,7 @@ double Bench::swing(const InstantRecord& record, std::size_t k) const {
 }
 
 Vector Bench::swung(const InstantRecord& record) const {
-  if (!(limits.step > 0.0) || record.captures.size() == 0) return {};
+  if (!(limits.step > 0.0) || record.captures.size() == 0 || record.captures.isZero(0.0)) return {};
   Vector impulse = Vector::Zero(model.size());
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);

@@ -66,17 +66,23 @@ void Finder::momentum() {
       rest[it.row()] += it.value() * jump[j];
       size[it.row()] += std::abs(it.value() * speed[j]);
     }
-  // What rests has velocities as great as forces make within the resolution of the clock.
-  const double clock = of_uncertainty * record_.resolution * bench_.balance(record_.after);
+  double clock = 0.0;
   const auto limit_of = [&](int i) { return rounding::of_elimination * size[i] + clock; };
-  int worst = -1;
-  double by = 1.0;
-  for (int i = 0; i < model_.size(); ++i) {
-    const double limit = limit_of(i);
-    if (!bench_.has_mass(i) || !(std::abs(rest[i]) > by * limit)) continue;
-    worst = i;
-    by = limit > 0.0 ? std::abs(rest[i]) / limit : std::numeric_limits<double>::max();
-  }
+  const auto worst_of = [&] {
+    int worst = -1;
+    double by = 1.0;
+    for (int i = 0; i < model_.size(); ++i) {
+      const double limit = limit_of(i);
+      if (!bench_.has_mass(i) || !(std::abs(rest[i]) > by * limit)) continue;
+      worst = i;
+      by = limit > 0.0 ? std::abs(rest[i]) / limit : std::numeric_limits<double>::max();
+    }
+    return worst;
+  };
+  if (worst_of() < 0) return;
+  // What rests has velocities as great as forces make within the resolution of the clock.
+  clock = of_uncertainty * record_.resolution * bench_.balance(record_.after);
+  const int worst = worst_of();
   if (worst < 0) return;
   const bool turns = model_.dofs[static_cast<std::size_t>(worst)].rotation;
   add(-1, "momentum", std::abs(rest[worst]), limit_of(worst), turns ? seen::moment_impulse : seen::impulse,
@@ -86,7 +92,7 @@ void Finder::momentum() {
 /// What no law of impact gives is no more than a contact that rests may have had. It is held still while others are
 /// stopped, and moves with them where it slides: what counts is the less of what its own capture does and of what all do.
 void Finder::captures() {
-  if (record_.captures.size() == 0) return;
+  if (record_.captures.size() == 0 || record_.captures.isZero(0.0)) return;
   Vector impulse = Vector::Zero(model_.size());
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(2 * k);

@@ -112,6 +112,17 @@ TEST_CASE("Euler's loads of four end conditions, at order 4") {
   }
 }
 
+TEST_CASE("what lies beside a column and is free, or has no stiffness of its own, leaves its factor alone") {
+  // Common null motions of K and K_g: three of each free frame, which are not along axes.
+  const double P = 0.3 * euler(2.0);
+  const std::string alone = column(fixed("A", "ux, uy, rz"), 8, P);
+  std::string beside = alone;
+  beside.insert(beside.find("[sections"),
+                "C = [1.1, 0.3]\nD = [3.4, 2.7]\nE = [2.2, 4.9]\nF = [5.0, 0.1]\nG = [5.9, 1.3]\n");
+  beside += member("C, D, E") + member("F, G", "elements = 3\n");
+  CHECK(first_factor(beside) == doctest::Approx(first_factor(alone)).epsilon(1e-9));
+}
+
 TEST_CASE("a column under its own weight buckles at Greenhill's length, at order 4") {
   // q L^3 / EI = 9/4 j^2, j: the first zero of the Bessel function of order -1/3
   const double critical = 2.25 * std::pow(1.866350858898855, 2) * EI / std::pow(length, 3);

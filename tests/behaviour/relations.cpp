@@ -81,9 +81,13 @@ TEST_SUITE("behaviour/relations") {
 TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
     // 11, 16: a start without the force that drives pendulums back moved at once; going on lost what K had of them. 19: of
-    // reduced models the stated error left out what cancels in a shape's stiffness.
-    for (const auto& [seed, relation] :
-         {std::pair{11U, "shifted"}, {11U, "in units"}, {16U, "going on"}, {19U, "turned"}}) {
+    // reduced models the stated error left out what cancels in a shape's stiffness. 73: a closed gap of a saved reduced
+    // state is zero to the rounding of its shapes only.
+    for (const auto& [seed, relation] : {std::pair{11U, "shifted"},
+                                         {11U, "in units"},
+                                         {16U, "going on"},
+                                         {19U, "turned"},
+                                         {73U, "going on"}}) {
       RelationSettings settings;
       settings.seed = 1;
       settings.bounds.seconds = 1e6;

@@ -119,6 +119,26 @@ TEST_CASE("a block rocks on two feet: ten impacts by the linear model's law") {
   }
 }
 
+TEST_CASE("ten seconds of rocking take a few steps for each impact, and the block comes to rest") {
+  // The impacts follow in a geometric series: t = 2 rate / slowing / (1 - ratio) to the last.
+  const Rocking block;
+  const double ratio =
+      (block.inertia() + block.m * (block.h * block.h - block.b * block.b)) / block.about_foot();
+  const double slowing = block.m * block.g * block.b / block.about_foot();
+  const double end = 2.0 * block.rate / slowing / (1.0 - ratio);
+  REQUIRE(end < 10.0);
+  for (const std::string& engine : engines) {
+    CAPTURE(engine);
+    const Scene scene = parse_scene(block.scene(engine), "test.toml", {{"run.t_end", "10.0"}});
+    const Result result = simulate(build_model(scene), scene.run);
+    CHECK(result.report.outcome.reason == "");
+    REQUIRE(!result.events.empty());
+    CHECK(result.events.back().t == doctest::Approx(end).epsilon(1e-2));
+    // A step or two for each event and nothing for rest: 10 s take milliseconds (benchmarks/README.md).
+    CHECK(result.report.counters.steps <= 3 * static_cast<long>(result.events.size()));
+  }
+}
+
 TEST_CASE("a mass at an offset: the parallel-axis theorem, wherever centre and support are") {
   const double m = 1.7, inertia = 0.23, k = 31.0, x = 0.6, y = -0.9;
   const double square = k / (inertia + m * (x * x + y * y));

@@ -239,6 +239,23 @@ TEST_CASE("the least changes at which neighbours meet, and keys that are refused
                  second = s.event_rates[swap.second][swap.parameter].t;
     CHECK(apart + swap.change * (second - first) == doctest::Approx(0.0));
   }
+  CHECK(s.parameters[0].may_be(-1e9));
+  CHECK_FALSE(s.parameters[1].may_be(-1e-9));  // of friction
+  CHECK(s.parameters[1].may_be(0.0));
+  // Two events 0.1 apart close by 2 for each unit of a key that is 0.03: they would meet at -0.02.
+  Sensitivities beyond;
+  beyond.parameters.resize(1);
+  beyond.parameters[0].value = 0.03;
+  beyond.events.resize(2);
+  beyond.events[0].t = 1.0;
+  beyond.events[1].t = 1.1;
+  beyond.event_rates.assign(2, std::vector<EventRates>(1));
+  beyond.event_rates[0][0].t = -2.0;
+  beyond.event_rates[1][0].t = 0.0;
+  REQUIRE(least_swaps(beyond).size() == 1);
+  CHECK(least_swaps(beyond)[0].change == doctest::Approx(-0.05));
+  beyond.parameters[0].may_be = s.parameters[1].may_be;
+  CHECK(least_swaps(beyond).empty());
   CHECK_THROWS_WITH_AS(rates_of(text, {"run.t_end"}), "--parameter run.t_end: it is no datum of the motion",
                        UsageError);
   CHECK_THROWS_AS(rates_of(text, {"contacts.c.name"}), UsageError);

@@ -9,6 +9,7 @@
 
 #include "differential/random.hpp"
 #include "differential/relation.hpp"
+#include "engine/tolerance.hpp"
 #include "result/run_directory.hpp"
 #include "scene/history_from_spec.hpp"
 #include "signorini/simulate.hpp"
@@ -118,8 +119,23 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
   return result;
 }
 
-std::optional<Related> related_going_on(const Scene& scene, std::uint64_t seed) {
+namespace {
+
+/// What a rebound is that rests follows from scales, and they from t_end: that of the whole run, said.
+Scene with_captures_told(Scene scene) {
+  const Model model = build_model(scene);
+  const double slowest = tolerance_of(model, scene.run).capture_velocity();
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    if (ContactSpec& c = scene.contacts[k]; model.contacts[k].takes_impulses() && !c.capture_velocity)
+      c.capture_velocity = slowest;
+  return scene;
+}
+
+}  // namespace
+
+std::optional<Related> related_going_on(const Scene& as_drawn, std::uint64_t seed) {
   Random draw(seed);
+  const Scene scene = as_drawn.matrices ? with_captures_told(as_drawn) : as_drawn;
   const double at = scene.run.t_end * draw.real(0.1, 0.9);
   // The whole run keeps the state: scales follow from t_end, and with them what a rebound is that rests.
   Scene whole = scene;

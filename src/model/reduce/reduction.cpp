@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/selection.hpp"
 #include "model/assembly/springs.hpp"
@@ -250,6 +251,30 @@ Vector amplitudes_of(const Basis& b, Eigen::Index modes, const Model& model, con
   return q;
 }
 
+/// What may be left of a form that was zero, after its motion was written as u = R q and q was found from u:
+///
+///   of_many sum_ij |n_i| |R_ij| |q_j|  +  sum_j |(R^T n)_j - N_j| |q_j|
+///
+/// The second is that of the shapes which the reduced form N leaves out, because only rounding moves them along n.
+double noise_of(const Basis& b, const Combination& physical, const Combination& reduced, const Vector& q) {
+  const Vector n = full(physical, static_cast<int>(b.shapes.rows()));
+  const Vector left_out = b.shapes.transpose() * n - full(reduced, static_cast<int>(b.shapes.cols()));
+  const Vector size = q.cwiseAbs();
+  return rounding::of_many * n.cwiseAbs().dot(b.shapes.cwiseAbs() * size) + left_out.cwiseAbs().dot(size);
+}
+
+/// A saved state of a reduced run has its closed gaps, and what closes there, to rounding only: they are zero again.
+void close_saved(const Model& model, const Basis& b, const std::vector<Contact>& contacts, const Vector& q,
+                 const Vector& w, std::vector<double>& gap, std::vector<double>& rate) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Combination& reduced = model.contacts[k].normal;
+    if (!contacts[k].takes_impulses()) continue;
+    if (std::abs(contacts[k].gap + gap[k]) > noise_of(b, contacts[k].normal, reduced, q)) continue;
+    gap[k] = -contacts[k].gap;
+    if (std::abs(rate[k]) <= noise_of(b, contacts[k].normal, reduced, w)) rate[k] = 0.0;
+  }
+}
+
 /// Amplitudes of the initial state: modes by the work of M, static shapes by that of K, so that a static
 /// state is met. What does not fit is reported.
 void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model& model,
@@ -270,6 +295,7 @@ void reduce_state(const Scene& scene, const Basis& b, Eigen::Index modes, Model&
     gap.push_back(c.normal.dot(model.u0));
     rate.push_back(c.normal.dot(model.v0));
   }
+  if (scene.initial.saved) close_saved(model, b, contacts, q, w, gap, rate);
   keep_gaps(model, b, gap, rate, q, w);
   const Vector du = model.u0 - b.shapes * q, dv = model.v0 - b.shapes * w;
   for (int i = 0; i < model.size(); ++i) {

@@ -178,6 +178,25 @@ TEST_CASE("hangers: two of cold load, travel and stiffness") {
       "the stiffness would be -100");
   has(refusal_of(spring("preload = 1.0\nhanger = { hot = 12.0, cold = 14.0, travel = 0.1 }")),
       "cannot be combined with hanger");
+  // A --set that contradicts the file is a wrong --set, whichever key the message would stand at in a file.
+  for (const auto& [keys, change, message] :
+       {std::tuple{"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }",
+                   Override{"springs.1.hanger.hot", "15.0"}, "the stiffness would be -50"},
+        {"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }", Override{"springs.1.stiffness", "3.0"},
+         "expected two of"},
+        {"hanger = { hot = 12.0, cold = 14.0, travel = 0.02 }", Override{"springs.1.preload", "3.0"},
+         "cannot be combined with hanger"},
+        {"preload = 3.0", Override{"springs.1.hanger", "{ hot = 12.0, cold = 14.0, travel = 0.02 }"},
+         "cannot be combined with hanger"},
+        {"stiffness = 10.0\nhanger = { hot = 12.0, travel = -1.0 }", Override{"springs.1.stiffness", "13.0"},
+         "nothing has moved would be -1"}}) {
+    CAPTURE(keys);
+    CAPTURE(change.path);
+    CHECK_THROWS_WITH_AS((void)parse_scene(spring(keys), "test.toml", {change}), doctest::Contains(message),
+                         UsageError);
+    CHECK_THROWS_WITH_AS((void)parse_scene(spring(keys), "test.toml", {change}),
+                         doctest::Contains(("--set " + change.path).c_str()), UsageError);
+  }
   has(refusal_of(scene_with("", "[[springs]]\nnode = \"A\"\nrotation_stiffness = 1.0\npreload = 2.0\n")),
       "needs a direction beside it");
 }

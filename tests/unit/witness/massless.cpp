@@ -168,6 +168,31 @@ TEST_CASE("what rests on a damper has velocities of rounding over its damping: t
   CHECK(broken(30.0 * noise));
 }
 
+TEST_CASE(
+    "a damper along one odd direction of a node: its velocity is known by forces along it, by rates across "
+    "it") {
+  // A damper of 5 along d = (0.6, 0.8) of the node; c = (-0.8, 0.6) across it. With N = 150 g and T = -0.5 N in K:
+  //   d^T C = 5 d = (3, 4),   c^T K = c^T ((200, 0), (-75, 20)) = (-205, 12)
+  //   (0.5/90 150, 1) = x_1 (3, 4) + x_2 (-205, 12):   x_1 = 215/856,  x_2 = -1/2568
+  const auto broken = [](double back) {
+    Chain chain;
+    for (const auto& [i, j, factor] :
+         {std::tuple(1, 1, 0.36), std::tuple(1, 2, 0.48), std::tuple(2, 1, 0.48), std::tuple(2, 2, 0.64)})
+      chain.model.damping.insert(i, j) = 5.0 * factor;
+    chain.rate = 0.0;
+    chain.follow(chain.u, -0.9, chain.load);
+    chain.v.setZero();
+    chain.v[2] = -back;
+    return tells_of(chain.instant(), "slip direction");
+  };
+  // The terms of the second row are 2 |T| at least, 20 x and T; all of both rows some twenty times as much.
+  const double T = std::abs(Chain().forces[1]);
+  const double noise = 1e3 * 2.220446e-16 * 215.0 / 856.0 * 0.8 * 2.0 * T;
+  CHECK_FALSE(broken(0.0));
+  CHECK_FALSE(broken(0.9 * noise));
+  CHECK(broken(100.0 * noise));
+}
+
 namespace {
 
 /// The chain's foot lets go of its static friction, 0.6; beside it a slider sticks.

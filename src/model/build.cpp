@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <optional>
 #include <tuple>
 
 #include "model/assembly/assembly.hpp"
@@ -169,6 +170,18 @@ void start(const Scene& scene, DofMap& map, Model& model) {
   });
 }
 
+/// What results show of the degrees of freedom that are computed.
+void add_results(const Scene& scene, const DofMap& map, const std::optional<BorrowedSprings>& borrowed,
+                 Model& model) {
+  if (borrowed) {
+    check_unique(scene, model);
+    show_borrowed(*borrowed, model);
+  }
+  add_shear_elements(scene, model);
+  name_tied(map, model);
+  make_outputs(scene, map, model);
+}
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -224,13 +237,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
           "reduction.tolerance: this is the whole model; run, compare, study, sweep and verify look for the "
           "cutoff by trial runs first");
   }
-  if (borrowed) {
-    check_unique(scene, model);
-    show_borrowed(*borrowed, model);
-  }
-  add_shear_elements(scene, model);
-  name_tied(map, model);
-  make_outputs(scene, map, model);
+  add_results(scene, map, borrowed, model);
   return model;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/listed.hpp"
+#include "base/number.hpp"
 #include "scene/readers.hpp"
 
 namespace signorini {

@@ -141,7 +141,7 @@ contact_mass = "none"
 name = "joint"
 slave = "high.bottom"
 master = "low.top"
-friction = {{ static = 0.35, kinetic = 0.3 }}
+friction = 0.3
 contact_mass = "none"
 {6}
 [[loads]]
@@ -223,7 +223,7 @@ TEST_CASE("rigid seams without mass: exact, ida and turned alike; laws, energy, 
 TEST_CASE("rigid seams without mass are the limit of compliant ones: differences fall like 1/k") {
   const Result limit = simulate(dragged("exact", 0.0, rigid_law));
   double before = 0.0;
-  for (const double k : {1e11, 1e12, 1e13}) {
+  for (const double k : {1e10, 1e11, 1e12}) {
     CAPTURE(k);
     const double now = farthest(limit, simulate(dragged("exact", 0.0, compliant_law(k))));
     if (before > 0.0) CHECK(before / now == doctest::Approx(10.0).epsilon(0.1));
@@ -240,7 +240,7 @@ TEST_CASE(
       static_cast<void>(build_model(parse_scene(text, "refused.toml")));
       FAIL("accepted");
     } catch (const SceneError& e) {
-      CHECK_MESSAGE(std::string(e.what()).find(message) != std::string::npos, e.what());
+      CHECK_MESSAGE(std::string(e.what()).find(message) != std::string::npos, std::string(e.what()));
     }
   };
   // A foot on a leg that leans: [k_xx k_xy; k_xy k_yy] = [2 1; 1 2] k, F_nn = F_tt, F_nt = -F_nn/2; unique below f = 2.
@@ -266,7 +266,7 @@ friction = {}
           "contacts.foot.friction: the forces of this contact are not unique while it slides");
   refused(leaning("0.5", "restitution = 0.5\n"),
           "contacts.foot.restitution: fy.u has no mass, so nothing rebounds");
-  refused(leaning("0.5", "[[loads]]\ndirection = { fx = 1.0 }\n"),
+  refused(leaning("0.5", "[[loads]]\ndirection = { fx = 1.0 }\namplitude = 1.0\n"),
           "acts on it: there a rigid contact takes no load");
   std::string damped = dragged_blocks("exact", 0.0, rigid_law);
   damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");

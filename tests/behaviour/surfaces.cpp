@@ -205,7 +205,7 @@ name = "foot"
       static_cast<void>(parse_scene(base + text, "surfaces.toml"));
       FAIL("accepted");
     } catch (const SceneError& e) {
-      CHECK_MESSAGE(std::string(e.what()).find(message) != std::string::npos, e.what());
+      CHECK_MESSAGE(std::string(e.what()).find(message) != std::string::npos, std::string(e.what()));
     }
   }
 }

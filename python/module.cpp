@@ -6,6 +6,9 @@
 //   compare(reference, other)                   -> differences of two directories of runs
 //   sensitivity(text, file, paths, settings, losses, discrete)
 //                                               -> derivatives of events, columns and figures by keys
+//   find_orbit(text, file, settings, options)   -> orbit.json as text, a Run of one period or None
+//   follow(text, file, settings, options, branch)
+//                                               -> columns of branch.csv, branch.json as text
 //
 // settings: [(path, value as TOML)]. The interpreter is free while a run is computed; it is asked now and then whether somebody
 // wants to interrupt. Errors of the library are signorini.Error, with the exit code of the program.
@@ -25,9 +28,12 @@
 #include "result/summary.hpp"
 #include "scene/schema.hpp"
 #include "signorini/certify.hpp"
+#include "signorini/orbit.hpp"
 #include "signorini/sensitivity.hpp"
 #include "study/check/check.hpp"
 #include "study/compare/comparison.hpp"
+#include "study/orbit/branch_files.hpp"
+#include "study/orbit/orbit_files.hpp"
 
 namespace py = pybind11;
 
@@ -311,13 +317,17 @@ py::dict rates_by(const Sensitivities& s, std::size_t p) {
   return entry;
 }
 
-py::dict sensitivity(const std::string& text, const std::string& file, const std::vector<std::string>& paths,
-                     const Settings& settings, bool losses, bool discrete) {
-  const SceneReader read = [&](const std::vector<Override>& changes) {
+SceneReader reader_of(const std::string& text, const std::string& file, const Settings& settings) {
+  return [=](const std::vector<Override>& changes) {
     std::vector<Override> all = overrides(settings);
     all.insert(all.end(), changes.begin(), changes.end());
     return parse_scene(text, file, all);
   };
+}
+
+py::dict sensitivity(const std::string& text, const std::string& file, const std::vector<std::string>& paths,
+                     const Settings& settings, bool losses, bool discrete) {
+  const SceneReader read = reader_of(text, file, settings);
   Kept kept(nullptr, nullptr);
   std::optional<Sensitivities> s;
   {
@@ -339,6 +349,82 @@ py::dict sensitivity(const std::string& text, const std::string& file, const std
   result["parameters"] = parameters;
   if (losses) result["landings"] = landings_of(*s);
   return result;
+}
+
+OrbitOptions orbit_options(const std::optional<double>& period, int times, int transient) {
+  OrbitOptions options;
+  options.period = period;
+  options.times = times;
+  options.transient = transient;
+  return options;
+}
+
+py::tuple find_orbit_of(const std::string& text, const std::string& file, const Settings& settings,
+                        const std::optional<double>& period, int times, int transient) {
+  const SceneReader read = reader_of(text, file, settings);
+  Kept kept(nullptr, nullptr);
+  std::string json;
+  std::unique_ptr<Run> once;
+  {
+    const py::gil_scoped_release free;
+    const Orbit orbit = find_orbit(read, orbit_options(period, times, transient), &kept);
+    if (!kept.interrupted()) json = orbit_json(build_model(read({})), orbit);
+    if (orbit.found && !kept.interrupted())
+      once = std::make_unique<Run>(orbit_scene(read, orbit), std::nullopt, false, nullptr);
+  }
+  if (kept.interrupted() || (once && once->interrupted())) throw py::error_already_set();
+  return py::make_tuple(json, std::move(once));
+}
+
+/// Columns of branch.csv; `stable` is 1, 0, or nan where it is undecided.
+py::dict branch_table(const std::vector<std::string>& outputs, const Branch& branch) {
+  py::dict table;
+  const auto add = [&](const std::string& name, const auto& value) {
+    table[name.c_str()] = column(branch.points, value);
+  };
+  add("parameter", [](const BranchPoint& p) { return p.parameter; });
+  add("period", [](const BranchPoint& p) { return p.period; });
+  add("amplitude", [](const BranchPoint& p) { return p.amplitude; });
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    add(outputs[i] + " minimum", [i](const BranchPoint& p) { return p.minima[i]; });
+    add(outputs[i] + " maximum", [i](const BranchPoint& p) { return p.maxima[i]; });
+  }
+  add("max_multiplier", [](const BranchPoint& p) { return p.max_multiplier; });
+  add("multiplier_error", [](const BranchPoint& p) { return p.multiplier_error; });
+  add("residual", [](const BranchPoint& p) { return p.residual; });
+  add("stable", [](const BranchPoint& p) {
+    return p.stable ? (*p.stable ? 1.0 : 0.0) : std::numeric_limits<double>::quiet_NaN();
+  });
+  add("sequence", [](const BranchPoint& p) { return p.sequence; });
+  add("events", [](const BranchPoint& p) { return static_cast<double>(p.events); });
+  add("branch", [](const BranchPoint& p) { return p.branch; });
+  py::list losses, special;
+  for (const BranchPoint& p : branch.points) {
+    losses.append(to_string(p.loss));
+    special.append(p.special);
+  }
+  table["loss"] = losses;
+  table["special"] = special;
+  return table;
+}
+
+py::tuple follow_of(const std::string& text, const std::string& file, const Settings& settings,
+                    const std::optional<double>& period, int times, int transient, const std::string& path,
+                    double from, double to, double step, int most_points, int switches) {
+  const SceneReader read = reader_of(text, file, settings);
+  BranchOptions options{orbit_options(period, times, transient), path, from, to, step, most_points, switches};
+  Kept kept(nullptr, nullptr);
+  Branch branch;
+  Scene first;
+  {
+    const py::gil_scoped_release free;
+    first = read({});
+    branch = follow(read, options, &kept);
+  }
+  if (kept.interrupted()) throw py::error_already_set();
+  std::vector<std::string> outputs;
+  for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
+  return py::make_tuple(branch_table(outputs, branch), branch_json(options, first.units, branch));
 }
 
 std::string check_scene(const std::string& text, const std::string& file, const Settings& settings) {
@@ -407,5 +493,7 @@ PYBIND11_MODULE(_signorini, module) {
   module.def("check", &check_scene);
   module.def("compare", &compare);
   module.def("sensitivity", &sensitivity);
+  module.def("find_orbit", &find_orbit_of);
+  module.def("follow", &follow_of);
   module.def("schema", &scene_schema);
 }

@@ -3,6 +3,7 @@
 //   z = (u, v, T of contacts with a tangential spring)      the state at a section of the period
 //   R(z) = z(T; z) - z = 0                                  forced: T is that of the loads, or n times it
 //   R(z, T) = 0,  z' . dz = 0                               driven by itself (belts): T is unknown, too
+//   R(z, T) = 0,  z' . dz = 0,  E(z) = E*                   conservative, at a given energy
 //   Phi = dz(T)/dz,   multipliers = eig Phi                 |multiplier| < 1: disturbances die out
 //
 // Newton's method solves R = 0. Phi goes through every event (sensitivity.hpp), so the convergence is quadratic as
@@ -27,6 +28,9 @@ namespace signorini {
 struct OrbitOptions {
   /// Of the loads; absent: as the scene's periodic loads say.
   std::optional<double> period = {};
+  /// Of a conservative motion: what is stored, all the time. Nothing drives such a scene; `period` is then the guess that the
+  /// search begins with.
+  std::optional<double> energy = {};
   int times = 1;       ///< the orbit closes after so many periods of the loads
   int transient = 20;  ///< periods that are run before Newton's method begins
   /// Residual over amplitude that Newton's method aims at; it goes on as long as the residual falls.
@@ -72,7 +76,7 @@ struct Orbit {
 };
 
 /// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
-/// `period`, for engines and laws that have no tangents (exact and ida have). A search that fails is a value: found is
+/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and ida have). A search that fails is a value: found is
 /// false, and `reason` says why. `recorder`: asked for `progress` only, which may stop the search.
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
@@ -87,7 +91,10 @@ struct BranchOptions {
   double from = 0.0, to = 0.0;  ///< its first and last value
   double step =
       0.02;  ///< greatest, of the range; a step counts changes of the state by parts of the amplitude as well
-  int most_points = 1000;
+  int most_points = 1000;  ///< of each branch
+  /// So many times in a row the walk changes to a branch that leaves at a flip, with twice the period, or at a branch
+  /// point. 0: the first branch alone.
+  int switches = 0;
 };
 
 struct BranchPoint {
@@ -99,10 +106,21 @@ struct BranchPoint {
   int sequence =
       0;  ///< number of the sequence of events, from 1 on, in the order in which the branch meets them
   long events = 0;  ///< in one period
+  int branch = 1;   ///< 1: of the first orbit; else that of Branch::sides
   /// A point that was located: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last one
   /// with its sequence). Else what lies between the point before and this one: "stability" (gained or lost), "sequence",
-  /// "restart" (the branch before could not be followed on); several with "+"
+  /// "restart" (the branch before could not be followed on); "switched": the first point beside the branch that it leaves;
+  /// several with "+"
   std::string special;
+};
+
+/// A branch that leaves another one.
+struct SideBranch {
+  int number = 2, from = 1;  ///< of BranchPoint::branch
+  std::string kind;          ///< "flip", "branch point"
+  double parameter = 0.0;    ///< where it leaves
+  std::string end;           ///< why it ends, one sentence
+  bool complete = false;     ///< it reached an end of the range, or returned
 };
 
 struct Branch {
@@ -111,6 +129,7 @@ struct Branch {
   std::string end;                     ///< why it ends, one sentence
   bool complete = false;               ///< it reached `to`, or `from` again behind a fold
   bool interrupted = false;
+  std::vector<SideBranch> sides;  ///< in the order in which they were followed
 };
 
 /// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: hears of every point, and may stop.

@@ -25,7 +25,7 @@ from . import _signorini
 from ._signorini import Error
 
 __version__ = _signorini.version
-__all__ = ["Error", "Result", "check", "columns", "compare", "run", "schema", "sensitivity", "sweep", "to_toml"]
+__all__ = ["Error", "Result", "check", "columns", "compare", "find_orbit", "follow", "run", "schema", "sensitivity", "sweep", "to_toml"]
 
 
 def _quoted(text: str) -> str:
@@ -218,6 +218,41 @@ def sensitivity(scene, parameters, settings=None, *, losses=False, discrete=Fals
     result = _signorini.sensitivity(text, file, paths, _settings(settings), losses, discrete)
     result["events"] = {name: numpy.asarray(values) for name, values in result["events"].items()}
     return result
+
+
+def find_orbit(scene, settings=None, *, period=None, times=1, transient=20) -> dict:
+    """The periodic motion of a scene, and its stability: what orbit.json has (docs/command-line.md), with
+
+    multipliers    an array of complex numbers, by magnitude, descending
+    result         the Result of a run over one period; None where no orbit was found: `reason` says why
+
+    Units are those of the scene. period: of the loads; times: periods of them after which the orbit closes; transient:
+    periods that are run before Newton's method begins.
+    """
+    text, file = _text(scene)
+    found, once = _signorini.find_orbit(text, file, _settings(settings), period, times, transient)
+    orbit = json.loads(found)
+    orbit["multipliers"] = numpy.asarray([complex(*mu) for mu in orbit["multipliers"]], dtype=complex)
+    orbit["result"] = None if once is None else Result(once)
+    return orbit
+
+
+def follow(scene, path, start, stop, settings=None, *, step=0.02, most_points=1000, switches=0, period=None, times=1,
+           transient=20) -> dict:
+    """A branch of orbits over a key of the scene, from one value to another, past folds: what branch.json has, with
+
+    points    the columns of branch.csv as arrays: parameter, period, amplitude, "NAME minimum" and "NAME maximum" of every
+              output, max_multiplier, stable (1, 0, or nan where undecided), loss, sequence, events, special, branch, ...
+
+    step: the greatest, as a part of the range. switches: so many times in a row the walk changes to branches that leave at
+    flips and branch points. A branch that ends early raises nothing: `complete` is False, and `end` says why.
+    """
+    text, file = _text(scene)
+    points, told = _signorini.follow(text, file, _settings(settings), period, times, transient, path, float(start),
+                                     float(stop), step, most_points, switches)
+    branch = json.loads(told)
+    branch["points"] = _table(points)
+    return branch
 
 
 def schema() -> dict:

@@ -48,5 +48,27 @@ def sensitivity(
     losses: bool = False,
     discrete: bool = False,
 ) -> dict[str, Any]: ...
+def find_orbit(
+    scene: Scene,
+    settings: Settings | None = None,
+    *,
+    period: float | None = None,
+    times: int = 1,
+    transient: int = 20,
+) -> dict[str, Any]: ...
+def follow(
+    scene: Scene,
+    path: str,
+    start: float,
+    stop: float,
+    settings: Settings | None = None,
+    *,
+    step: float = 0.02,
+    most_points: int = 1000,
+    switches: int = 0,
+    period: float | None = None,
+    times: int = 1,
+    transient: int = 20,
+) -> dict[str, Any]: ...
 def schema() -> dict[str, Any]: ...
 def to_toml(value: Any) -> str: ...

@@ -14,9 +14,9 @@ namespace {
 /// The system w - M z - d z0 = q in the present basis. Columns: w, z, z0, right side.
 class Tableau {
  public:
-  Tableau(const Eigen::MatrixXd& M, const Eigen::VectorXd& q)
+  Tableau(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, const Eigen::VectorXd& d)
       : n_(q.size()), t_(n_, 2 * n_ + 2), basis_(static_cast<std::size_t>(n_)) {
-    t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -Eigen::VectorXd::Ones(n_), q;
+    t_ << Eigen::MatrixXd::Identity(n_, n_), -M, -d, q;
     for (Eigen::Index i = 0; i < n_; ++i) basis_[static_cast<std::size_t>(i)] = i;
     // What an elimination leaves of a zero.
     zero_ = rounding::of_many * std::max(1.0, M.cwiseAbs().maxCoeff());
@@ -29,10 +29,10 @@ class Tableau {
   [[nodiscard]] const std::vector<Eigen::Index>& basis() const { return basis_; }
 
   /// The row that is most negative first makes the start feasible.
-  [[nodiscard]] Eigen::Index first_row() const {
+  [[nodiscard]] Eigen::Index first_row(const Eigen::VectorXd& d) const {
     Eigen::Index best = 0;
     for (Eigen::Index i = 1; i < n_; ++i)
-      if (lexicographically_less(i, 1.0, best, 1.0)) best = i;
+      if (lexicographically_less(i, d[i], best, d[best])) best = i;
     return best;
   }
 
@@ -115,10 +115,15 @@ Eigen::VectorXd refined(const Eigen::MatrixXd& M, const Eigen::VectorXd& q, cons
 }  // namespace
 
 std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q) {
+  return solve_complementarity(M, q, Eigen::VectorXd::Ones(q.size()));
+}
+
+std::optional<Eigen::VectorXd> solve_complementarity(const Eigen::MatrixXd& M, const Eigen::VectorXd& q,
+                                                     const Eigen::VectorXd& d) {
   const Eigen::Index n = q.size();
   if (n == 0 || q.minCoeff() >= 0.0) return Eigen::VectorXd::Zero(n);
-  Tableau tableau(M, q);
-  Eigen::Index left = tableau.pivot(tableau.first_row(), tableau.artificial());
+  Tableau tableau(M, q, d);
+  Eigen::Index left = tableau.pivot(tableau.first_row(d), tableau.artificial());
   // Lexicographic pivots never return to a basis; rounding might, so there is an end all the same.
   const Eigen::Index most = 100 + 50 * n;
   for (Eigen::Index i = 0; i < most; ++i) {

@@ -218,7 +218,8 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const Compani
   for (TimedEvent& event : own.events) event.uncertainty *= static_cast<float>(plan.local);
   const Track track{std::move(own.events),      report.outcome.t, "", report.forgiven_at, {},
                     objection_of(report, model)};
-  Verdict verdict = judge(track, tracks, plan.factor, names);
+  Verdict verdict =
+      judge(track, tracks, plan.factor, names, name_of(run.engine).accuracy == Accuracy::rounding);
   BoundSettings settings{plan.factor, tolerance_of(model, run)};
   if (name_of(run.engine).accuracy != Accuracy::tolerance) settings.tolerance = {};
   const Kept kept_run{&own.rows, &report};

@@ -49,8 +49,8 @@ bool same(const TimedEvent& a, const TimedEvent& b) {
 class Judge {
  public:
   Judge(const Track& run, const std::vector<Track>& companions, double factor,
-        const std::vector<std::string>& names)
-      : run_(run), companions_(companions), factor_(factor), names_(names) {}
+        const std::vector<std::string>& names, bool rounded)
+      : run_(run), companions_(companions), factor_(factor), names_(names), rounded_(rounded) {}
 
   Verdict verdict() {
     deviation_.assign(run_.events.size(), 0.0);
@@ -107,7 +107,13 @@ class Judge {
     past.off = off;
     // The time since the contact's event before: errors that both share shift no event past another.
     const double since = i > 0 ? a->t - run_.events[own[i - 1]].t : never;
-    if (same(*a, *b) && factor_ * change <= 0.5 * since) {
+    // Each has its own rounding besides; changes at one instant share it.
+    const double apart =
+        rounded_ && i > 0 && since > 0.0
+            ? static_cast<double>(a->uncertainty) + static_cast<double>(run_.events[own[i - 1]].uncertainty)
+            : 0.0;
+    const double shift = factor_ * change + apart;
+    if (same(*a, *b) && shift <= 0.5 * since) {
       if (!flies_or_rests(*a, *b, past)) return false;
       deviation_[own[i]] = std::max(deviation_[own[i]], std::abs(off));
       uncertainty_[own[i]] = std::max(uncertainty_[own[i]], b->uncertainty);
@@ -117,7 +123,7 @@ class Judge {
       horizon_.at(
           std::min(a->t, b->t),
           fmt::format("{} follows the contact's event before by {:.2g}, and this time has an error of {:.2g}",
-                      describe(*a), since, factor_ * change));
+                      describe(*a), since, shift));
       return false;
     }
     horizon_.at(std::min(a->t, b->t),
@@ -214,6 +220,7 @@ class Judge {
   const std::vector<Track>& companions_;
   double factor_;
   const std::vector<std::string>& names_;
+  bool rounded_;
   Horizon horizon_;
   std::vector<double> deviation_, errors_;
   std::vector<float> uncertainty_;  // of a run's event or of its partner, if that is less sharp
@@ -240,8 +247,8 @@ TimedEvent timed(const Event& event) {
 }
 
 Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
-              const std::vector<std::string>& names) {
-  return Judge(run, companions, factor, names).verdict();
+              const std::vector<std::string>& names, bool rounded) {
+  return Judge(run, companions, factor, names, rounded).verdict();
 }
 
 }  // namespace signorini

@@ -6,7 +6,7 @@
 //
 // The sequence ends to be certain where neighbours of one contact have
 //
-//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| > (t_i - t_i-1) / 2
+//   c |(t_i - t'_i) - (t_i-1 - t'_i-1)| + u_i + u_i-1 > (t_i - t_i-1) / 2        u: uncertainties that are roundings
 //
 // Or where a contact that touched rests or flies on by less than its speed may be off, r being that speed over
 // the slowest that flies (Event::departure), R_k the greatest of the contact's last five differences:
@@ -79,8 +79,9 @@ struct Verdict {
   double spread = 0.0;  ///< c D at `until`, or at the end
 };
 
-/// `names` of the contacts, for the reason; `factor`: c. Cost: proportional to the events.
+/// `names` of the contacts, for the reason; `factor`: c; `rounded`: uncertainties are roundings, which no two events share.
+/// Cost: proportional to the events.
 [[nodiscard]] Verdict judge(const Track& run, const std::vector<Track>& companions, double factor,
-                            const std::vector<std::string>& names);
+                            const std::vector<std::string>& names, bool rounded = false);
 
 }  // namespace signorini

@@ -17,6 +17,7 @@
 #include "result/run_directory.hpp"
 #include "signorini/certify.hpp"
 #include "study/orbit/orbit_files.hpp"
+#include "study/orbit/orbit_pictures.hpp"
 
 namespace signorini::cli {
 
@@ -30,6 +31,7 @@ struct OrbitCommand : OutputOptions {
   std::vector<std::string> settings;
   OrbitOptions search;
   std::string over;
+  int switches = 0;
 };
 
 fs::path directory_of(const OrbitCommand& options) {
@@ -122,6 +124,8 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     BranchOptions over;
     read_over(options.over, over);
     over.orbit = options.search;
+    if (options.switches < 0) throw UsageError("--switch: expected an integer of at least 0");
+    over.switches = options.switches;
     return run_over(options.scene, reader_of(options.scene, changes), over, path, options);
   }
   check_run_directory(path, options.force);
@@ -142,9 +146,14 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   if (options.json) print(orbit_json(model, orbit));
   if (options.tables()) print(text_of(scene, model, orbit, path));
   const bool done = certified.report.outcome.kind == Outcome::Kind::done;
-  const std::string drawn = options.no_plots || !done ? ""
-                                                      : draw_pictures(path, write_plots(path),
-                                                                      " (signorini plot draws them later)");
+  std::vector<fs::path> scripts;
+  if (!options.no_plots && done) {
+    scripts = write_plots(path);
+    for (fs::path& more : orbit_pictures(path, scene.title, scene.units, orbit).write(path))
+      scripts.push_back(std::move(more));
+  }
+  const std::string drawn =
+      scripts.empty() ? "" : draw_pictures(path, scripts, " (signorini plot draws them later)");
   if (options.tables()) print(drawn);
   if (!done) print_error("the run of one period stopped: " + certified.report.outcome.reason);
   return done ? ExitCode::done : ExitCode::stopped;
@@ -167,6 +176,10 @@ void add_orbit(Program& program) {
           "period of the loads, in the scene's unit of time (default: as the loads say); without periodic "
           "loads the guess that the search begins with")
       ->option_text("T");
+  command
+      ->add_option("--energy", options->search.energy,
+                   "of a conservative motion: what is stored, in the scene's units; --period is then a guess")
+      ->option_text("E");
   command->add_option("--times", options->search.times, "the orbit closes after so many periods of the loads")
       ->option_text("N");
   command
@@ -177,6 +190,12 @@ void add_orbit(Program& program) {
       ->add_option("--over", options->over,
                    "follow the orbit over a key, from its first value to its last: branch.csv")
       ->option_text("PATH=FROM:TO");
+  command
+      ->add_option(
+          "--switch", options->switches,
+          "with --over: change so many times in a row to branches that leave at flips and branch points "
+          "(default: 0)")
+      ->option_text("N");
   add_settings(*command, options->settings);
   add_output_options(*command, *options, "replace an earlier orbit, or run, in the directory", "orbit.json");
   command->callback([&program, options] {

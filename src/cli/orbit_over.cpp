@@ -5,11 +5,16 @@
 #include <limits>
 
 #include "base/number.hpp"
+#include "cli/gnuplot.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/owned_folder.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
+#include "result/plot_folder.hpp"
+#include "scene/unit_of_output.hpp"
+#include "signorini/output.hpp"
 #include "study/orbit/branch_files.hpp"
+#include "study/orbit/branch_pictures.hpp"
 
 namespace signorini::cli {
 namespace {
@@ -42,7 +47,11 @@ std::string branch_table(const BranchOptions& over, const Branch& branch) {
                            : std::string("no, ") + to_string(p.loss),
                std::to_string(p.events), p.special});
   }
-  return table.str();
+  std::string text = table.str();
+  for (const SideBranch& side : branch.sides)
+    text += fmt::format("branch {} leaves branch {} at a {}, {} = {:.9g}: {}\n", side.number, side.from,
+                        side.kind, over.path, side.parameter, side.end);
+  return text;
 }
 
 }  // namespace
@@ -75,11 +84,23 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, const Branc
   const Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   const std::string json = branch_json(over, first.units, branch);
   write_file(path / "branch.json", json);
+  std::vector<std::string> labels;
+  for (const OutputSpec& output : first.outputs) {
+    const std::string unit = unit_text(unit_of_output(output, first.outputs), first.units);
+    labels.push_back(output.name + (unit.empty() ? "" : " [" + unit + "]"));
+  }
+  clear_plot_folder(path / "plots", is_picture_of_branch);
+  const std::vector<fs::path> scripts =
+      options.no_plots ? std::vector<fs::path>()
+                       : branch_pictures(first.title, first.units, over, labels, branch).write(path);
   if (options.json) print(json);
   if (options.tables())
     print(branch_table(over, branch) +
           fmt::format("\n{} points: {}\nresults: {}/ (branch.csv, branch.json)\n", branch.points.size(),
                       branch.end, path.string()));
+  const std::string drawn =
+      scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
+  if (options.tables()) print(drawn);
   if (Interrupt::asked()) {
     print_error("interrupted; the points up to here are kept in " + path.string());
     return ExitCode::interrupted;

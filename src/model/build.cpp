@@ -8,9 +8,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <tuple>
 
+#include "base/rounding.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dof_place.hpp"
@@ -182,6 +185,21 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Borr
   make_outputs(scene, map, model);
 }
 
+/// A saved state at rest has velocities of rounding alone. Displacements are known to rounding, and within the period of
+/// the fastest mode that makes
+///     |v| <= of_many omega_max max |u|,   translations and rotations each.
+/// They would tell which way a contact at its limit slips.
+void take_out_rounding(Model& model) {
+  double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
+  for (int i = 0; i < model.size(); ++i) {
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    u[turns] = std::max(u[turns], std::abs(model.u0[i]));
+    v[turns] = std::max(v[turns], std::abs(model.v0[i]));
+  }
+  const double rate = rounding::of_many * model.omega_max;
+  if (v[0] <= rate * u[0] && v[1] <= rate * u[1]) model.v0.setZero();
+}
+
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
 Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   DofMap map = scene.matrices ? number_matrices(*scene.matrices) : number_nodes(scene);
@@ -218,6 +236,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   set_damping(scene, assembly.dampers, model);
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
+  if (scene.initial.saved) take_out_rounding(model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   if (const SavedState* before = same_run(scene); before && before->scales) {
     const auto& s = *before->scales;

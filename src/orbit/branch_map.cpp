@@ -3,18 +3,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/eigen_dense.hpp"
 #include "base/number.hpp"
 #include "model/rescale.hpp"
-#include "run/choose_engine.hpp"
+#include "orbit/orbit_engine.hpp"
+#include "orbit/shooting.hpp"
 
 namespace signorini {
 namespace {
 
-// Of the range: differences of the map over it have its second derivative times it, and noise over it. Chosen: of `exact`
-// the noise is rounding, 1e-10 at most (shooting.cpp), of `ida` a few of its tolerance.
-constexpr double difference = 1e-7, difference_of_steps = 1e-4;
+// Of the range: differences of the map over it have its second derivative times it, and noise over it, which the residual
+// of an orbit shows: the square root of it balances both. Chosen: the bounds of `exact`, and what `ida` takes.
+constexpr double difference = 1e-7, greatest_difference = 1e-5, difference_of_steps = 1e-4;
 constexpr std::size_t most_kept = 4;  // maps: those of a point, of its difference, of the next point
 constexpr double most_periods = restart_periods + 4.0;  // of a transient, and of the orbit itself
 constexpr double same_time = 1e-9;  // of a period: rounding of times that are written as text
@@ -41,6 +43,15 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
     start_.state.slips.push_back(c.initial_slip);
   }
   start_.duration = first.period / machine_.time;
+}
+
+BranchMap BranchMap::doubled() const {
+  BranchMap twice = *this;
+  twice.options_.orbit.times *= 2;
+  twice.section_ *= 0.5;  // a part of the period
+  twice.start_.duration *= 2.0;
+  twice.kept_.clear();
+  return twice;
 }
 
 double BranchMap::parameter(double s) const {
@@ -90,7 +101,7 @@ BranchMap::Kept BranchMap::make(double s) const {
   const Scene scene = scene_at(s);
   Model model = build_model(scene);
   RunSpec run = scene.run;
-  run.engine = choose_engine(model, run).engine;
+  run.engine = orbit_engine(model, run, start_.duration * machine_.time);
   model = rescaled(std::move(model), inverse(machine_));
   check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
@@ -156,7 +167,10 @@ Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) 
     return section.coordinates(other.end) - section.coordinates(other.begin);
   };
   const Vector here = section.coordinates(pass.end) - section.coordinates(pass.begin);
-  const double h = at(state.s)->run().engine == Engine::exact ? difference : difference_of_steps;
+  const double noise = residual_of(section, pass, here);
+  const double h = at(state.s)->run().engine == Engine::exact
+                       ? std::clamp(std::sqrt(noise), difference, greatest_difference)
+                       : difference_of_steps;
   const double side = state.s < 0.5 ? h : -h;  // within the range
   if (const auto other = gap(state.s + side)) return (*other - here) / side;
   if (const auto other = gap(state.s - side)) return (here - *other) / side;

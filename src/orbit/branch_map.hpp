@@ -26,6 +26,8 @@ class BranchMap {
  public:
   BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
 
+  /// The same over twice the period.
+  [[nodiscard]] BranchMap doubled() const;
   [[nodiscard]] bool autonomous() const { return autonomous_; }
   [[nodiscard]] double parameter(double s) const;
   /// The loads' period at s, times `times`; machine's.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/eigen_dense.hpp"
 #include "orbit/shooting.hpp"
@@ -15,36 +16,58 @@ constexpr int most_corrections = 10;
 constexpr double longest_correction = 0.1;  // in the norm; steps are shorter. Chosen.
 constexpr double slow = 0.02;  // of the residual: more is left where dG/ds is that of another point
 constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
-constexpr double singular = 1e-9;           // as in shooting.cpp
+// A residual is a difference of two states with the noise of the map: it does not fall below a few times the noise, and
+// reaches ten times it. Chosen, as is the greatest noise with which a branch can be followed.
+constexpr double of_noise = 4.0, of_noise_at_last = 10.0, greatest_noise = 1e-6;
+constexpr double held_from = 0.7;    // |t_s|: from there on the parameter is held by corrections. Chosen.
+constexpr double least_size = 1e-3;  // of a coordinate in the norm; chosen
+constexpr double singular = 1e-9;    // as in shooting.cpp
 constexpr double amplitudes_a_range =
     5.0;  // in which the state may change as far as the parameter in its range
 // Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
 constexpr double shifts_by = 1e-3;
+
+/// sqrt(m_i/m) of coordinates at a section, in scales; 1 where there is no mass.
+Vector mass_weights(const Model& model, const OrbitSection& section) {
+  const auto n = model.size();
+  Vector root(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Scales& s = model.scales;
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    root[i] = std::sqrt(std::max(0.0, model.mass.coeff(i, i))) * (turns ? s.rotation : s.displacement);
+  }
+  const double greatest = root.size() > 0 ? root.maxCoeff() : 0.0;
+  for (Eigen::Index i = 0; i < n; ++i)
+    root[i] = greatest > 0.0 && root[i] > 0.0 ? std::max(least_size, root[i] / greatest) : 1.0;
+  return section.spread(root);
+}
 
 }  // namespace
 
 BranchState BranchNewton::moved(const BranchState& from, const OrbitPass& pass, const Vector& dy) const {
   const OrbitSection section(map_.model(), pass.begin);
   BranchState to = from;
-  to.state = section.moved(orbit_state(pass.begin), amplitude_ * dy.head(section.size()));
+  to.state = section.moved(orbit_state(pass.begin), sizes_.cwiseProduct(dy.head(section.size())));
   to.s = std::clamp(from.s + dy[dy.size() - 1], 0.0, 1.0);  // outside, the key may mean nothing
   to.state = map_.fitted(std::move(to.state), pass.begin.mode, to.s);
   to.duration = map_.autonomous() ? from.duration * (1.0 + dy[section.size()]) : map_.period(to.s);
   return to;
 }
 
-/// dG/dy, columns in the norm: x by the amplitude, T by itself. With the phase condition where T is unknown.
+/// dG/dy, rows and columns in the norm: x by its sizes, T by itself. With the phase condition where T is unknown.
 Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass& pass,
                                        const Vector& by_s) const {
   const OrbitSection section(map_.model(), pass.begin);
   const Eigen::MatrixXd& B = section.basis();
   const Eigen::Index n = section.size(), extra = map_.autonomous() ? 1 : 0;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + extra, n + extra + 1);
-  J.topLeftCorner(n, n) = B.transpose() * pass.end_rates - Eigen::MatrixXd::Identity(n, n);
-  J.block(0, n + extra, n, 1) = by_s / amplitude_;
+  const Vector over = sizes_.cwiseInverse();
+  J.topLeftCorner(n, n) = over.asDiagonal() * (B.transpose() * pass.end_rates) * sizes_.asDiagonal();
+  J.topLeftCorner(n, n) -= Eigen::MatrixXd::Identity(n, n);
+  if (by_s.size() == n) J.block(0, n + extra, n, 1) = over.cwiseProduct(by_s);
   if (extra == 1) {
-    J.block(0, n, n, 1) = B.transpose() * section.rates(pass.end) * state.duration / amplitude_;
-    Vector along = B.transpose() * section.rates(pass.begin);
+    J.block(0, n, n, 1) = over.cwiseProduct(B.transpose() * section.rates(pass.end)) * state.duration;
+    Vector along = sizes_.cwiseProduct(B.transpose() * section.rates(pass.begin));
     J.block(n, 0, 1, n) = (along / along.norm()).transpose();
   }
   return J;
@@ -57,31 +80,35 @@ std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) 
   return size(pass) != unknowns ? "the contact state at the section changes" : "";
 }
 
-Corrected BranchNewton::correct(BranchState guess, const Vector& t, const Vector& by_s) const {
+double BranchNewton::closed_at_last() const { return std::max(corrected_at_last, of_noise_at_last * noise_); }
+
+Corrected BranchNewton::correct(BranchState guess, const Vector& direction, const Vector& by_s) const {
   Corrected c;
   c.state = std::move(guess);
-  Vector slope = by_s;
+  const bool held = holds(direction);
+  Vector t = direction, slope = by_s;
+  if (held) t = Vector::Unit(t.size(), t.size() - 1);
+  const double enough = std::max(corrected_to, of_noise * noise_);
   double before = 0.0;
   for (c.iterations = 0; c.iterations <= most_corrections; ++c.iterations) {
     c.pass = map_.pass(c.state);
     c.reason = refusal(c.pass, t.size());
     if (!c.reason.empty()) return c;
     c.residual = orbit_residual(map_.model(), c.pass);
-    const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= corrected_at_last;
-    if (c.residual <= corrected_to || stands) {
+    const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= closed_at_last();
+    if (c.residual <= enough || stands) {
       c.done = true;
       return c;
     }
     const bool stale = c.iterations > 0 && c.residual > slow * before;
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
-    if (slope.size() != section.size() || stale) slope = by_parameter(c.state, c.pass);
+    if (!held && (slope.size() != section.size() || stale)) slope = by_parameter(c.state, c.pass);
     Eigen::MatrixXd A(t.size(), t.size());
     A << jacobian(c.state, c.pass, slope), t.transpose();
     Vector b = Vector::Zero(t.size());
-    b.head(section.size()) = -section.basis().transpose() *
-                             (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)) /
-                             amplitude_;
+    b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
+        section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
     const Vector dy = shortest_solution(A, b, singular);
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
@@ -94,14 +121,19 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& t, const Vector
   return c;
 }
 
-Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones) const {
+bool BranchNewton::holds(const Vector& t) { return std::abs(t[t.size() - 1]) >= held_from; }
+
+Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
   Eigen::MatrixXd A(before.size(), before.size());
   A << jacobian(at.state, at.pass, at.by_s), before.transpose();
-  Vector b = Vector::Zero(before.size());
-  b[b.size() - 1] = 1.0;
-  Vector t = shortest_solution(A, b, singular);
-  t = t.norm() > 0.0 ? Vector(t / t.norm()) : before;
+  const Vector t = shortest_solution(A, Vector::Unit(before.size(), before.size() - 1), singular);
+  return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
+}
+
+Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones,
+                             bool known) const {
+  const Vector t = known ? before : tangent(at, before);
   at.monodromy = monodromy(map_.model(), at.pass);
   at.multipliers = multipliers_of(at.monodromy);
   at.ones = ones.value_or(std::max<std::size_t>(count_ones(at.multipliers), map_.autonomous() ? 1 : 0));
@@ -111,19 +143,75 @@ Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<
 
 void BranchNewton::measure(const OrbitPass& pass, Vector* t) {
   const OrbitSection section(map_.model(), pass.begin);
-  const auto u = static_cast<double>(section.displacements()), v = static_cast<double>(section.velocities());
-  const double T = static_cast<double>(section.basis().rows()) - u - v;
-  const double square = u * pass.u_amplitude * pass.u_amplitude + v * pass.v_amplitude * pass.v_amplitude +
-                        T * pass.T_amplitude * pass.T_amplitude;
+  const Vector weights = mass_weights(map_.model(), section);
+  double square = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(weights.size()); ++i) {
+    const std::size_t u = section.displacements(), v = section.velocities();
+    const double amplitude = i < u ? pass.u_amplitude : i < u + v ? pass.v_amplitude : pass.T_amplitude;
+    const double part = weights[static_cast<Eigen::Index>(i)] * amplitude;
+    square += part * part;
+  }
   const double amplitude = amplitudes_a_range * (square > 0.0 ? std::sqrt(square) : 1.0);
-  if (t != nullptr) t->head(t->size() - (map_.autonomous() ? 2 : 1)) *= amplitude_ / amplitude;
-  amplitude_ = amplitude;
+  const Vector by = (section.basis().cwiseAbs2().transpose() * weights.cwiseAbs2()).cwiseSqrt();
+  const Vector before = std::exchange(sizes_, amplitude * by.cwiseInverse());
+  if (t != nullptr && before.size() == sizes_.size())
+    t->head(sizes_.size()) = t->head(sizes_.size()).cwiseProduct(before).cwiseQuotient(sizes_).eval();
+}
+
+Vector BranchNewton::flip_direction(const Corrected& at) const {
+  const Eigen::Index n = at.monodromy.rows();
+  const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
+                            (at.monodromy + Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
+  Vector away = Vector::Zero(size(at.pass));
+  away.head(n) = sizes_.cwiseProduct(symmetric_eigen(A.transpose() * A).vectors.col(0));
+  return away;
+}
+
+Vector BranchNewton::other_direction(Corrected at, const Vector& t) const {
+  if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
+  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
+  // t is one of the two vectors that J takes to zero: with its row, the other one is left.
+  Eigen::MatrixXd A(J.rows() + 1, J.cols());
+  A << J, t.transpose();
+  Vector away = symmetric_eigen(A.transpose() * A).vectors.col(0);
+  away.head(sizes_.size()) = away.head(sizes_.size()).cwiseProduct(sizes_).eval();
+  return away;
+}
+
+Vector BranchNewton::in_norm(const Vector& raw) const {
+  Vector t = raw;
+  t.head(sizes_.size()) = raw.head(sizes_.size()).cwiseQuotient(sizes_);
+  return t / t.norm();
+}
+
+std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Corrected& to) const {
+  const OrbitSection section(map_.model(), to.pass.begin), before(map_.model(), from.begin);
+  if (before.size() != section.size() || before.basis().rows() != section.basis().rows()) return std::nullopt;
+  Vector t(size(to.pass));
+  t.head(section.size()) =
+      (section.basis().transpose() * (section.coordinates(to.pass.begin) - section.coordinates(from.begin)))
+          .cwiseQuotient(sizes_);
+  if (map_.autonomous()) t[section.size()] = (to.state.duration - from.duration) / to.state.duration;
+  t[t.size() - 1] = to.state.s - from.s;
+  const double length = t.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  return Vector(t / length);
+}
+
+void BranchNewton::hear_noise(const OrbitPass& first, const OrbitPass& second) {
+  if (first.end_rates.size() == 0 || !second.done()) return;
+  const OrbitSection section(map_.model(), first.begin);
+  if (OrbitSection(map_.model(), second.begin).size() != section.size()) return;
+  const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);
+  const Vector next = section.coordinates(second.end) - section.coordinates(first.end);
+  const Vector left = next - first.end_rates * (section.basis().transpose() * gap);
+  noise_ = std::min(greatest_noise, residual_of(section, first, left));
 }
 
 std::optional<double> BranchNewton::shift(const Corrected& at, const Vector& t) const {
   if (map_.autonomous()) return std::nullopt;
   const OrbitSection section(map_.model(), at.pass.begin);
-  const Vector x = amplitude_ * t.head(section.size());
+  const Vector x = sizes_.cwiseProduct(t.head(section.size()));
   const Vector along = section.basis().transpose() * section.rates(at.pass.begin);
   if (!(along.norm() > 0.0) || !(t.head(section.size()).norm() > shifts_by)) return std::nullopt;
   const double time = along.dot(x) / along.squaredNorm();

@@ -4,7 +4,11 @@
 //   [ dG/dy ]        [ -G ]
 //   [  t^T  ] dy  =  [  0 ]         so that folds are passed
 //
-// Norm: the range of the parameter counts as 1, and a state all of whose kinds change by a few of their amplitudes.
+// Norm: the range of the parameter counts as 1, and a state all of whose kinds change by a few of their amplitudes. A
+// coordinate with little mass counts less, by sqrt(m_i/m): the fast mode shapes of a fine mesh are in it.
+//
+// Far from folds the parameter is held while Newton's method corrects the state: a key that moves the period turns the
+// phases of fast mode shapes by omega dT, and dG/ds means little a step further on.
 #pragma once
 
 #include "orbit/branch_map.hpp"
@@ -12,8 +16,14 @@
 
 namespace signorini {
 
-/// Residual over amplitude that corrections aim at.
+/// Residual over amplitude that corrections aim at, unless the noise of the map is greater.
 inline constexpr double corrected_to = 1e-11;
+
+/// A point of the branch, as a secant needs it.
+struct BranchPlace {
+  OrbitPoint begin;
+  double duration = 0.0, s = 0.0;
+};
 
 /// What a correction ended with.
 struct Corrected {
@@ -51,12 +61,30 @@ class BranchNewton {
   /// by_s: of the point before, which serves as long as Newton's method converges; empty: none.
   [[nodiscard]] Corrected correct(BranchState guess, const Vector& t, const Vector& by_s) const;
   /// The direction of the branch, towards where `before` points; multipliers and test functions. ones: as many multipliers
-  /// are 1 for reasons of their own as at the point before; absent: those that are, where no special point is near.
-  Vector examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones = {}) const;
+  /// are 1 for reasons of their own as at the point before; absent: those that are, where no special point is near. known:
+  /// `before` is the direction.
+  Vector examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones = {},
+                 bool known = false) const;
+  /// Whether corrections hold the parameter along this direction.
+  [[nodiscard]] static bool holds(const Vector& t);
+  /// Coordinates at the section, dT/T, s of the orbit of twice the period that leaves at a flip.
+  [[nodiscard]] Vector flip_direction(const Corrected& at) const;
+  /// The same of the branch that crosses the one along t at a branch point.
+  [[nodiscard]] Vector other_direction(Corrected at, const Vector& t) const;
+  /// Of such coordinates, of length 1.
+  [[nodiscard]] Vector in_norm(const Vector& raw) const;
+  /// From a point before to this one; nothing where the state at the section has other unknowns, or both are one.
+  [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
+  /// The noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, where z1, z2 are the images of z0, z1. It is what
+  /// the next corrections can reach.
+  void hear_noise(const OrbitPass& first, const OrbitPass& second);
+  /// Residual at which a correction is done that gets no further.
+  [[nodiscard]] double closed_at_last() const;
   /// Where dz/ds is along the motion: the time by which the orbit at the section is later, a unit of s.
   [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
 
  private:
+  [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass,
                                          const Vector& by_s) const;
@@ -65,7 +93,8 @@ class BranchNewton {
   }
 
   BranchMap& map_;
-  double amplitude_ = 1.0;  // of x, in scales: what counts as 1 in the norm
+  Vector sizes_;        // of x, in scales: what counts as 1 in the norm
+  double noise_ = 0.0;  // of the map, over the amplitude
 };
 
 }  // namespace signorini

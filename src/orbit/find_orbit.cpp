@@ -8,9 +8,9 @@
 #include "model/rescale.hpp"
 #include "orbit/load_period.hpp"
 #include "orbit/multipliers.hpp"
+#include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/shooting.hpp"
-#include "run/choose_engine.hpp"
 #include "sensitivity/known_laws.hpp"
 #include "signorini/simulate.hpp"
 
@@ -62,6 +62,8 @@ double long_enough(const LoadPeriod& loads, const OrbitOptions& options) {
 void check_options(const OrbitOptions& options) {
   if (options.times < 1) throw UsageError("--times: expected an integer of at least 1");
   if (options.transient < 0) throw UsageError("--transient: expected an integer of at least 0");
+  if (options.energy && !(*options.energy > 0.0 && std::isfinite(*options.energy)))
+    throw UsageError("--energy: expected an energy > 0");
   if (options.period && !(*options.period > 0.0 && std::isfinite(*options.period)))
     throw UsageError("--period: expected a time > 0");
 }
@@ -73,11 +75,20 @@ Search::Search(const SceneReader& read, const OrbitOptions& options, Recorder* r
   set_period(scene);
 }
 
+/// Energy is kept where nothing acts, damps or rubs.
+void check_conservative(const Scene& scene, const LoadPeriod& loads) {
+  if (!scene.loads.empty() || loads.period || loads.surfaces_move)
+    throw UsageError("--energy: expected a scene without loads and belts");
+}
+
 /// The model, its engine, and what the loads say of the period.
 void Search::set_period(const Scene& scene) {
-  LoadPeriod loads = options_.period ? check_period(scene, *options_.period) : load_period(scene);
+  const bool conservative = options_.energy.has_value();
+  LoadPeriod loads =
+      options_.period && !conservative ? check_period(scene, *options_.period) : load_period(scene);
   orbit_.autonomous = !loads.period || (options_.period && !load_period(scene).period && loads.surfaces_move);
-  if (orbit_.autonomous && !loads.surfaces_move)
+  if (conservative) check_conservative(scene, loads);
+  if (orbit_.autonomous && !loads.surfaces_move && !conservative)
     throw SceneError(
         {}, "loads",
         "found no load that repeats itself and no surface that moves, expected one of them, or --period");
@@ -85,15 +96,17 @@ void Search::set_period(const Scene& scene) {
   const Scene longer = read_({{"run.t_end", shortest(t_end)}});
   given_ = build_model(longer);
   check_tangent_laws(longer, given_);
+  if (conservative && given_.damping.norm() > 0.0)
+    throw UsageError("--energy: the scene has damping, expected none: energy is not kept");
   run_ = longer.run;
-  run_.engine = choose_engine(given_, run_).engine;
+  run_.engine = orbit_engine(given_, run_, loads.period.value_or(scene.run.t_end) * options_.times);
   if (run_.engine != Engine::exact && run_.engine != Engine::ida)
     throw SceneError(
         scene.run.place, "run.engine",
         fmt::format("found \"{}\", expected \"exact\" or \"ida\": orbits need the motion between events to "
                     "rounding, or its tangents",
                     to_string(run_.engine)));
-  closed_ = run_.engine == Engine::ida ? 100.0 * run_.rtol : 0.0;
+  closed_ = orbit_state_error(run_);
   const Factors to_machine = inverse(given_.machine);
   first_ = rescaled(given_, to_machine);
   run_ = rescaled(run_, to_machine);
@@ -105,7 +118,7 @@ void Search::set_period(const Scene& scene) {
   }
   initial_.u = first_.u0;
   initial_.v = first_.v0;
-  const double period = loads.period.value_or(0.0);
+  const double period = conservative ? options_.period.value_or(0.0) : loads.period.value_or(0.0);
   period_ = period * options_.times / unit_;
   const double whole = period > 0.0 ? std::ceil(loads.settled / period - 1e-9) * period : loads.settled;
   before_ = std::max(0.0, whole) / unit_;
@@ -150,6 +163,10 @@ bool Search::by_itself() {
   const OrbitPass transient = scene.pass({initial_, length, false});
   if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
   const Recurrence found = recurrence(first_, transient.instants);
+  if (!(found.period > 0.0) && period_ > 0.0) {
+    map_.emplace(first_, run_, recorder_);
+    return close(initial_, 0.0, period_);
+  }
   if (!(found.period > 0.0))
     return stop(fmt::format(
         "no event of the transient, up to t = {:.6g}, comes back to a state near to an earlier one; "
@@ -163,7 +180,7 @@ bool Search::by_itself() {
 }
 
 bool Search::close(const OrbitState& state, double section, double period) {
-  shot_ = shoot(*map_, {state, period, orbit_.autonomous, closed_}, tolerance_);
+  shot_ = shoot(*map_, {state, period, orbit_.autonomous, closed_, options_.energy}, tolerance_);
   orbit_.steps = shot_.steps;
   orbit_.residual = shot_.residual;
   if (!shot_.closed) return stop(shot_.reason);
@@ -187,7 +204,8 @@ void Search::stability() {
                                     ? monodromy(model, next)
                                     : Eigen::MatrixXd();
   const Multipliers all = multipliers_of(phi);
-  const std::size_t ones = count_ones(all), of_time = orbit_.autonomous ? 1 : 0;
+  // Along the motion, and of conservative ones from energy to energy.
+  const std::size_t ones = count_ones(all), of_time = options_.energy ? 2 : orbit_.autonomous ? 1 : 0;
   std::size_t families = ones > of_time ? ones - of_time : 0;
   for (std::size_t c = 0; c < pass.held.size(); ++c) {
     const Contact& contact = model.contacts[c];
@@ -197,7 +215,7 @@ void Search::stability() {
     --families;
   }
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
-  set_multipliers(all, phi, again, orbit_.families.size() + of_time, orbit_);
+  set_multipliers(all, phi, again, orbit_.families.size() + of_time, closed_, orbit_);
 }
 
 /// The run from the orbit's time 0.

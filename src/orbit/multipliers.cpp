@@ -70,10 +70,10 @@ std::size_t count_ones(const Multipliers& all) {
 }
 
 void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again,
-                     std::size_t ones, Orbit& orbit) {
+                     std::size_t ones, double state_error, Orbit& orbit) {
   orbit.multipliers = all;
   const double size = phi.size() == 0 ? 0.0 : phi.cwiseAbs().maxCoeff();
-  orbit.multiplier_error = static_cast<double>(phi.rows()) * rounding::eps * size;
+  orbit.multiplier_error = (static_cast<double>(phi.rows()) * rounding::eps + state_error) * size;
   if (again.size() > 0) orbit.multiplier_error += apart(orbit.multipliers, multipliers_of(again));
   const Multipliers rest = without_ones(orbit.multipliers, ones);
   orbit.max_multiplier = rest.empty() ? 0.0 : std::abs(rest.front());

@@ -121,6 +121,14 @@ Vector OrbitSection::coordinates(const Vector& u, const Vector& v, const Vector&
   return z.cwiseQuotient(scales_);
 }
 
+Vector OrbitSection::spread(const Vector& of_dofs) const {
+  Vector z = Vector::Ones(scales_.size());
+  Eigen::Index at = 0;
+  for (const Eigen::Index i : u_) z[at++] = of_dofs[i];
+  for (const Eigen::Index i : v_) z[at++] = of_dofs[i];
+  return z;
+}
+
 Vector OrbitSection::coordinates(const OrbitPoint& point) const {
   return coordinates(point.u, point.v, point.forces);
 }

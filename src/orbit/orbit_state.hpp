@@ -50,6 +50,8 @@ class OrbitSection {
   [[nodiscard]] Vector rates(const OrbitPoint& point) const;
   /// From derivatives of u, v and forces.
   [[nodiscard]] Vector coordinates(const Vector& u, const Vector& v, const Vector& forces) const;
+  /// Entries of u and v from one figure a degree of freedom; 1 of shears.
+  [[nodiscard]] Vector spread(const Vector& of_dofs) const;
   /// state + B x
   [[nodiscard]] OrbitState moved(OrbitState state, const Vector& x) const;
   /// dz, of coordinates, as displacements, velocities and shears.

@@ -216,6 +216,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   pass.outcome = report.outcome;
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;
   pass.response = report.response;
+  pass.energy = report.audit.initial.stored();
   pass.cycle = change(report.audit.initial, report.audit.final);
   if (pass.done()) follower.finish();
   return pass;

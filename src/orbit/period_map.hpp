@@ -18,6 +18,7 @@ struct OrbitPass {
   std::vector<OrbitPoint> instants;  ///< those in between at which a state changed, just after
   std::vector<Event> events;         ///< without jumps of loads
   Energy cycle;
+  double energy = 0.0;  ///< stored at the beginning; the scene's units
   /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known

@@ -21,8 +21,30 @@ constexpr double least_singular = 1e-9;
 
 double over(double value, double amplitude) { return amplitude > 0.0 ? value / amplitude : value; }
 
+/// dE/dz B, in the scene's units.
+Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section) {
+  const Vector Ma = model.mass * pass.begin.a, Mv = model.mass * pass.begin.v;
+  const double unit = model.unit.force * model.unit.length;
+  Vector slope(section.size());
+  for (Eigen::Index k = 0; k < slope.size(); ++k) {
+    const OrbitState d = section.unscaled(section.basis().col(k));
+    slope[k] = Mv.dot(d.v) - Ma.dot(d.u);
+    for (std::size_t c = 0; c < d.shears.size(); ++c)
+      if (const auto& kt = model.contacts[c].tangential_stiffness)
+        slope[k] += pass.begin.forces[static_cast<Eigen::Index>(2 * c + 1)] * d.shears[c] / *kt;
+  }
+  return unit * slope;
+}
+
+/// Of the state, and of the energy where it is given.
+double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
+  const double gap = orbit_residual(model, pass);
+  return start.energy ? std::max(gap, std::abs(pass.energy - *start.energy) / *start.energy) : gap;
+}
+
 /// (x, dT)
-Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) {
+Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStart& start) {
+  const bool free_period = start.free_period;
   const OrbitSection section(model, pass.begin);
   const Eigen::MatrixXd& B = section.basis();
   const Vector gap = B.transpose() * (section.coordinates(pass.end) - section.coordinates(pass.begin));
@@ -37,6 +59,13 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
     A.block(0, n, n, 1) = B.transpose() * section.rates(pass.end);
     A.block(n, 0, 1, n) = (B.transpose() * section.rates(pass.begin)).transpose();
   }
+  if (start.energy) {
+    A.conservativeResize(all + 1, all);
+    b.conservativeResize(all + 1);
+    A.row(all).setZero();
+    A.row(all).head(n) = energy_slope(model, pass, section).transpose() / *start.energy;
+    b[all] = (*start.energy - pass.energy) / *start.energy;
+  }
   return shortest_solution(A, b, least_singular, phi.norm());
 }
 
@@ -45,7 +74,7 @@ Vector newton_step(const Model& model, const OrbitPass& pass, bool free_period) 
 bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
-  const Vector x = newton_step(model, shot.pass, start.free_period);
+  const Vector x = newton_step(model, shot.pass, start);
   const OrbitState from = orbit_state(shot.pass.begin);
   double part = 1.0;
   for (int h = 0; h <= most_halvings; ++h, part *= 0.5) {
@@ -58,7 +87,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
       shot.reason = "interrupted";
       return false;
     }
-    const double residual = pass.done() ? orbit_residual(model, pass) : shot.residual;
+    const double residual = pass.done() ? residual_to(model, start, pass) : shot.residual;
     if (residual < shot.residual) {
       shot.steps.push_back({shot.residual, part});
       shot.state = std::move(state);
@@ -73,9 +102,7 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
 
 }  // namespace
 
-double orbit_residual(const Model& model, const OrbitPass& pass) {
-  const OrbitSection section(model, pass.begin);
-  const Vector gap = section.coordinates(pass.end) - section.coordinates(pass.begin);
+double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap) {
   double worst = 0.0;
   const std::size_t nu = section.displacements(), nv = section.velocities();
   for (Eigen::Index i = 0; i < gap.size(); ++i) {
@@ -84,6 +111,11 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
     worst = std::max(worst, over(std::abs(gap[i]), amplitude));
   }
   return worst;
+}
+
+double orbit_residual(const Model& model, const OrbitPass& pass) {
+  const OrbitSection section(model, pass.begin);
+  return residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin));
 }
 
 Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
@@ -100,7 +132,7 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     shot.reason = "the run over one period stopped: " + shot.pass.outcome.reason;
     return shot;
   }
-  shot.residual = orbit_residual(model, shot.pass);
+  shot.residual = residual_to(model, start, shot.pass);
   bool fell = true;
   while (fell && static_cast<int>(shot.steps.size()) < most_steps) {
     if (!shot.pass.reason.empty()) {

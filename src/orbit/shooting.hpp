@@ -4,6 +4,8 @@
 //   [ B^T Phi B - I   z'(T) ] [ x  ]   [ -B^T (z(T) - z) ]
 //   [ z'(0)^T B         0   ] [ dT ] = [        0         ]        driven by itself
 //
+// and of a conservative motion a row more: dE/dz B x = E* - E, E: what is stored, dE/dz = (-M a, M v, T/kt).
+//
 // x is the shortest solution: directions with a multiplier of 1 are left as they are. A step is halved until the
 // residual falls. The residual is relative to the amplitude of the motion: that of u, v and T each by its own.
 #pragma once
@@ -18,6 +20,7 @@ struct ShootingStart {
   double duration;
   bool free_period = false;
   double closed = 0.0;  ///< residual with which an orbit is closed whose residual no longer falls; 0: 1e-9
+  std::optional<double> energy = {};  ///< E* of a conservative motion; the scene's units
 };
 
 /// Where the iteration ended.
@@ -34,6 +37,9 @@ struct Shot {
 
 /// max |z(T) - z| over the amplitude of its kind. Where nothing moves: over the scales.
 [[nodiscard]] double orbit_residual(const Model& model, const OrbitPass& pass);
+
+/// The same of another difference of states at the pass's section, in coordinates.
+[[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
 /// B^T Phi B of a pass that has tangents.
 [[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);

@@ -109,7 +109,7 @@ void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, 
                       forcing.pressing(k, t, 0),
                       forcing.pressing(k, t, 1),
                       forcing.pressing(k, t, 2),
-                      k < lightness_.size() ? lightness_[k] * std::sqrt(energy_) : 0.0,
+                      k < speeds_.size() ? speeds_[k] : 0.0,
                       step_ > 0.0 ? step_ * step_ / 12.0 *
                                         (jerk_[k] + std::abs(forcing.surface(k, t, 3)) +
                                          step_ * std::abs(forcing.surface(k, t, 4)))
@@ -132,6 +132,9 @@ void WitnessedMotion::reach(const Witness& witness, const Vector& u, const Vecto
   energy_ = std::max(energy_, witness.twice_energy(u));
   for (std::size_t k = lightness_.size(); k < model_.contacts.size(); ++k)
     lightness_.push_back(witness.lightness(k));
+  const double root = std::sqrt(energy_);
+  speeds_.resize(lightness_.size());
+  for (std::size_t k = 0; k < speeds_.size(); ++k) speeds_[k] = lightness_[k] * root;
   if (!sums_over_modes_) return;
   const std::array<double, 2> of_u = witness.modal_size(u), of_v = witness.modal_size(v);
   const std::array<double, 2> by_energy = witness.modal_size(std::sqrt(energy_));

@@ -59,7 +59,7 @@ class WitnessedMotion {
   std::vector<double> jerk_;  // |s'''| of each surface just after the last instant
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
   double energy_ = 0.0;                                                // greatest Witness::twice_energy
-  std::vector<double> lightness_;                                      // of each contact
+  std::vector<double> lightness_, speeds_;  // of each contact; times the root of energy_
   std::array<double, 2> u_modal_ = {0.0, 0.0}, v_modal_ = {0.0, 0.0};  // Witness::modal_size
 };
 

@@ -123,6 +123,17 @@ TEST_CASE("what lies beside a column and is free, or has no stiffness of its own
   CHECK(first_factor(beside) == doctest::Approx(first_factor(alone)).epsilon(1e-9));
 }
 
+TEST_CASE("a contact without friction holds nothing along its surface: the factor is that of the free end") {
+  const double P = 0.3 * euler(2.0);
+  const std::string alone = column(fixed("A", "ux, uy, rz"), 8, P);
+  // It takes 1e-7 of the load.
+  const std::string contact =
+      "[[contacts]]\nname = \"top\"\nnode = \"B\"\nlaw = \"compliant\"\nnormal = [0.0, 1.0]\n"
+      "normal_stiffness = 0.01\ntangential_stiffness = 1e3\nfriction = ";
+  CHECK(first_factor(alone + contact + "0.0\n") == doctest::Approx(first_factor(alone)).epsilon(1e-6));
+  CHECK(first_factor(alone + contact + "0.5\n") > 5.0 * first_factor(alone));  // as if it held
+}
+
 TEST_CASE("a column under its own weight buckles at Greenhill's length, at order 4") {
   // q L^3 / EI = 9/4 j^2, j: the first zero of the Bessel function of order -1/3
   const double critical = 2.25 * std::pow(1.866350858898855, 2) * EI / std::pow(length, 3);

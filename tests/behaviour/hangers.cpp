@@ -129,6 +129,12 @@ TEST_CASE("what is told of hangers: cold, at the start, designed, and when they 
   CHECK(warned(model("stiffness = 100.0\npreload = -3.0"), "the other way"));
   CHECK(!warned(model("stiffness = 100.0\npreload = 14.0", ""), "spring 1"));
   CHECK(model("stiffness = 100.0").hangers.empty());
+  // The damper beside it is no part of what it bears, though its support moves at the start.
+  std::string moved = hung("stiffness = 100.0\npreload = 14.0\ndamping = 5.0\nagainst = \"S\"", "", "");
+  moved = with(moved, "[[masses]]", "S = [1.0, 5.0]\n[[masses]]") +
+          "[[supports]]\nnode = \"S\"\nfix = [\"ux\"]\n[[supports]]\nnode = \"S\"\nfix = [\"uy\"]\n"
+          "motion = { type = \"harmonic\", amplitude = 0.1, omega = 2.0 }\n";
+  CHECK(build_model(parse_scene(moved, "test.toml", {})).hangers[0].at_start == doctest::Approx(14.0));
   // A cold load that follows is none below zero, as one that is given.
   CHECK_THROWS_WITH_AS((void)model("stiffness = 400.0\nhanger = { hot = 20.0, travel = -0.06 }"),
                        doctest::Contains("travel: the load while nothing has moved would be -4"), SceneError);

@@ -322,6 +322,56 @@ TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes again
   CHECK(std::abs((phi * phi).trace() - squares.real()) <= 1e-7);
 }
 
+TEST_CASE(
+    "a conservative motion at a given energy: one mass between two elastic stops, Code_Aster's SDND122") {
+  // Stops kc at +-y0. A quarter of a period: from 0 to y0 with w0^2 = k/m, then about yc = kc y0/(k + kc) with
+  // w1^2 = (k + kc)/m:  A = sqrt(2 E/k),  t1 = asin(y0/A)/w0,  v1 = w0 sqrt(A^2 - y0^2),  t2 = atan2(v1/w1, y0 - yc)/w1
+  const double y0 = 0.5, kc = 20.0, m = 2.0, k = 3.0, E = 3.0;
+  const std::string text =
+      matrix_scene("t_end = 30.0\nengine = \"exact\"\ninitial = { u = [0.2], v = [1.0] }",
+                   "mass = [[2.0]]\nstiffness = [[3.0]]",
+                   "law = \"compliant\"\nnormal = { d0 = -1.0 }\ngap = 0.5\nnormal_stiffness = 20.0",
+                   "[[contacts]]\nname = \"d\"\nlaw = \"compliant\"\nnormal = { d0 = 1.0 }\ngap = "
+                   "0.5\nnormal_stiffness = 20.0\n"
+                   "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
+  OrbitOptions options;
+  options.energy = E;
+  const Orbit orbit = orbit_of(text, options);
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  const double w0 = std::sqrt(k / m), w1 = std::sqrt((k + kc) / m), A = std::sqrt(2.0 * E / k);
+  const double yc = kc * y0 / (k + kc), v1 = w0 * std::sqrt(A * A - y0 * y0);
+  const double T = 4.0 * (std::asin(y0 / A) / w0 + std::atan2(v1 / w1, y0 - yc) / w1);
+  CHECK(std::abs(orbit.period - T) <= 1e-10 * T);
+  // The ratio y0/B of SDND122 with kc/k kept: B = yc + amplitude of contact, from 1/2 k B^2 + 1/2 kc (B - y0)^2 = E.
+  const double B = yc + std::sqrt(v1 * v1 / (w1 * w1) + (y0 - yc) * (y0 - yc));
+  const OutputExtremes x = run_on(text, orbit).report.response.front();
+  CHECK(std::abs(x.maximum - B) <= 1e-10);
+  CHECK(std::abs(0.5 * k * B * B + 0.5 * kc * (B - y0) * (B - y0) - E) <= 1e-12);
+  CHECK(orbit.multipliers.size() == 2);
+  CHECK_THROWS_AS(orbit_of(jenkins(), options), UsageError);
+}
+
+TEST_CASE(
+    "the error of multipliers contains the tolerance of ida; auto takes exact for an impact oscillator") {
+  const auto text = [](const std::string& engine) {
+    return matrix_scene(
+        "t_end = 100.0\nengine = \"" + engine + "\"\nrtol = 1e-7",
+        "mass = [[2.0]]\nstiffness = [[2.0]]\ndamping = [[1.2]]",
+        "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.1\nrestitution = 0.8",
+        "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 2.0\nhistory = { type = \"harmonic\", "
+        "omega = 2.3 }\n");
+  };
+  const Orbit exact = orbit_of(text("exact")), ida = orbit_of(text("ida")), chosen = orbit_of(text("auto"));
+  REQUIRE((exact.found && ida.found && chosen.found));
+  REQUIRE(ida.multipliers.size() == exact.multipliers.size());
+  CHECK(ida.multiplier_error < 1e-3);
+  for (std::size_t i = 0; i < exact.multipliers.size(); ++i)
+    CHECK(std::abs(ida.multipliers[i] - exact.multipliers[i]) <= ida.multiplier_error);
+  CHECK(chosen.residual == exact.residual);
+  CHECK(chosen.multipliers == exact.multipliers);
+}
+
 TEST_CASE("scenes without an orbit say why") {
   const auto text = [](const std::string& loads, const std::string& run = "") {
     return matrix_scene("t_end = 9.0\n" + run, "mass = [[1.0]]\nstiffness = [[1.0]]",
@@ -419,6 +469,54 @@ TEST_CASE("a branch locates the flip of an impact oscillator where the closed fo
   CHECK(found == 1);
 }
 
+TEST_CASE("the branch of twice the period leaves at the flip of an impact oscillator") {
+  // As above; beyond the flip the stable orbit closes after two periods: a run on it repeats itself after 2 T, not after T.
+  const std::string text = matrix_scene(
+      "t_end = 100.0\nengine = \"exact\"", "mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[0.0]]",
+      "law = \"rigid\"\nnormal = { d0 = -1.0 }\ngap = 0.0\nrestitution = 0.8",
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
+      "\"harmonic\", omega = 2.6, phase = 1.5707963267948966 }\n"
+      "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = { d0 = 1.0 }\n");
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 2.6;
+  options.to = 2.68;
+  options.step = 0.1;
+  options.switches = 1;
+  const Branch branch = follow(reader_of_text(text), options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  REQUIRE(branch.sides.size() == 1);
+  CAPTURE(branch.sides.front().end);
+  CHECK(branch.sides.front().kind == "flip");
+  long points = 0;
+  const BranchPoint* last = nullptr;
+  for (const BranchPoint& p : branch.points) {
+    if (p.branch != 2) continue;
+    ++points;
+    last = &p;
+    CHECK(std::abs(p.period - 4.0 * pi / p.parameter) <= 1e-12);
+    CHECK(p.residual <= 1e-9);
+  }
+  REQUIRE(points > 2);
+  CHECK(last->parameter > branch.sides.front().parameter);
+  // Independent: a transient to the orbit of twice the period, with its own Newton's method.
+  const SceneReader there = [&](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"loads.1.history.omega", fmt::format("{}", last->parameter)}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return reader_of_text(text)(all);
+  };
+  OrbitOptions twice;
+  twice.times = 2;
+  twice.transient = 200;
+  const Orbit orbit = find_orbit(there, twice);
+  REQUIRE(orbit.found);
+  CHECK(orbit.stable == last->stable);
+  CHECK(std::abs(orbit.max_multiplier - last->max_multiplier) <= 1e-6);
+  const OutputExtremes x = simulate(orbit_scene(there, orbit)).report.response.front();
+  CHECK(std::abs(x.minimum - last->minima.front()) <= 1e-8);
+}
+
 TEST_CASE(
     "a branch of stick-slip orbits over the belt's speed v: period pi + 2 atan 2 v + 1/v at each point") {
   BranchOptions options;
@@ -439,6 +537,33 @@ TEST_CASE(
     CHECK(std::abs(p.period - (pi + 2.0 * std::atan(2.0 * v) + 1.0 / v)) <= 1e-9);
     CHECK(p.stable.value_or(false));
   }
+}
+
+TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not shorten its steps") {
+  // The highest mode shapes turn by hundreds of radians where the period changes by a step.
+  const SceneReader read = reader_of(std::string(SIGNORINI_MODELS) + "/pipeline.toml",
+                                     {{"run.engine", "exact"},
+                                      {"loads.1.amplitude", "20.0"},
+                                      {"loads.1.history", "{ type = \"harmonic\", omega = 100.0 }"}});
+  BranchOptions options;
+  options.path = "loads.1.history.omega";
+  options.from = 100.0;
+  options.to = 106.0;
+  options.step = 0.4;
+  options.most_points = 12;
+  const Branch branch = follow(read, options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  for (const BranchPoint& p : branch.points) CHECK(p.residual <= 1e-9);
+  // Another way to the last point: a transient.
+  const Orbit last = find_orbit([&](const std::vector<Override>& changes) {
+    std::vector<Override> all{{"loads.1.history.omega", "106.0"}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read(all);
+  });
+  REQUIRE(last.found);
+  CHECK(branch.points.back().events == static_cast<long>(last.sequence.size()));
+  CHECK(std::abs(branch.points.back().max_multiplier - last.max_multiplier) <= 1e-6);
 }
 
 TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {

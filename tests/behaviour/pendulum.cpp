@@ -106,6 +106,30 @@ TEST_CASE("a pendulum without friction swings with the period 2 pi sqrt(R/g), wh
   }
 }
 
+TEST_CASE("a rigid rim stops a pendulum on either side, and it swings back from there") {
+  Bearing b;
+  b.friction = "0.0";
+  b.more = "stop = 0.15\n";
+  b.t_end = 2.0;
+  b.start = 0.5;  // of the velocity
+  const double omega = std::sqrt(g / b.R), hit = std::asin(0.15 * omega / 0.5) / omega;
+  for (const double side : {1.0, -1.0}) {
+    std::string text = b.scene();
+    text.replace(text.find("ux = 0.5"), 8, side > 0.0 ? "vx = 0.5" : "vx = -0.5");
+    for (const char* engine : {"exact", "ida"}) {
+      CAPTURE(engine);
+      const Result result = run_text(text, engine, "1e-11");
+      REQUIRE(!result.events.empty());
+      CHECK(result.events[0].type == EventType::impact);
+      CHECK(result.events[0].contact == (side > 0.0 ? 1 : 2));  // after the bearing itself
+      CHECK(result.events[0].t == doctest::Approx(hit).epsilon(1e-9));
+      CHECK(result.events[0].vn == doctest::Approx(-0.5 * std::cos(omega * hit)).epsilon(1e-9));
+      CHECK(result.rows.back().u[0] ==
+            doctest::Approx(side * 0.15 * std::cos(omega * (2.0 - hit))).epsilon(1e-8));
+    }
+  }
+}
+
 TEST_CASE("with friction a pendulum turns every half period, 2 f R nearer each time, and sticks within f R") {
   const Bearing b;  // 0.3, 0.08 the other way: 0.3 - 2 * 0.05 * 2.2 = 0.08 < f R = 0.11
   const double half = pi * std::sqrt(b.R / g);

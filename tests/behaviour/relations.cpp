@@ -79,6 +79,34 @@ TEST_SUITE("behaviour/relations") {
 }
 
 TEST_SUITE("slow/behaviour/relations") {
+  TEST_CASE("random scenes and one relation that parted from them") {
+    // 977: rounding of velocities told which way a contact at its limit slips. 1234, 1395: parts of a run had other captures.
+    // 537, 851: a rigid contact and a slider share a motion. 1243: nothing holds the start.
+    for (const auto& [seed, relation] : {std::pair{977U, "going on"},
+                                         {1234U, "going on"},
+                                         {1395U, "going on"},
+                                         {537U, "permuted"},
+                                         {851U, "shifted"},
+                                         {1243U, "turned"}}) {
+      RelationSettings settings;
+      settings.seed = 1;
+      settings.bounds.seconds = 1e6;
+      settings.only = relation;
+      long compared = 0;
+      CAPTURE(seed);
+      examine_relations(draw_whole_scene(seed), "drawn", settings,
+                        [&](const char*, const Related& related, const Likeness& found) {
+                          ++compared;
+                          CAPTURE(related.name);
+                          CAPTURE(found.what);
+                          CHECK(is_explained(found.verdict));
+                          const bool open = seed == 537U || seed == 851U || seed == 1243U;
+                          CHECK((found.verdict == Likeness::Class::undetermined) == open);
+                        });
+      CHECK(compared == 1);
+    }
+  }
+
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
     // 11, 16: a start without the force that drives pendulums back moved at once; going on lost what K had of them. 19: of
     // reduced models the stated error left out what cancels in a shape's stiffness. 73: a closed gap of a saved reduced

@@ -227,6 +227,24 @@ TEST_CASE("reactions of supports at three nodes of a body, and their sum") {
   CHECK(values[2] == doctest::Approx(-6.0).epsilon(1e-12));
 }
 
+TEST_CASE(
+    "two supports that hold the same motion of a body leave its turn free; of a point they bear the load") {
+  // L and R stand at one height: both hold ux, one uy, none rz.
+  const Model model =
+      built(head + run_table(1.0, 0.1) + "[nodes]\nL = [-1.0, 0.0]\nR = [1.5, 0.0]\n" +
+            body("block", "[0.0, 2.0]", "L, R", 3.0, 1.0) + fixed("L, R", "ux") + fixed("L", "uy"));
+  CHECK(model.size() == 1);
+  // All nodes of a body at its centre: it has no size, and its support still bears it.
+  const Scene scene = parse_scene(
+      head + "gravity = [0.0, -10.0]\n" + run_table(1.0, 0.5, "static") + "[nodes]\nP = [1.0, 2.0]\n" +
+          body("point", "[1.0, 2.0]", "P", 3.0, 1.0) + fixed("P", "uy") + spring("P", "[1.0, 0.0]", 4.0) +
+          "[[springs]]\nnode = \"P\"\nrotation_stiffness = 2.0\n" +
+          "[[output]]\nname = \"P\"\nkind = \"reaction\"\nat = \"P\"\ndirection = [0.0, 1.0]\n",
+      "test.toml", {{"run.engine", "exact"}});
+  CHECK(simulate(build_model(scene), scene.run).responses.back().values[0] ==
+        doctest::Approx(30.0).epsilon(1e-12));
+}
+
 TEST_CASE("reactions of supports that bear a body together are refused") {
   const std::string text =
       head + run_table(1.0, 0.1) + "[nodes]\nA = [0.0, 0.0]\nB = [4.0, 0.0]\nC = [8.0, 0.0]\n" +

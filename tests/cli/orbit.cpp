@@ -127,6 +127,16 @@ TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of
   CHECK(rows_of(table) == branch.at("points").get<std::size_t>() + 1);
   CHECK(table.find("\n3,") != std::string::npos);
   CHECK(table.find("\n3.5,") != std::string::npos);
+  const std::string script = shell.read("branch/plots/branch.gp");
+  CHECK(script.find("greatest multiplier") != std::string::npos);
+  CHECK(script.find("x [m]") != std::string::npos);
+  CHECK(rows_of(shell.read("branch/plots/branch.csv")) == rows_of(table));
+  const Ending none = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.1", "-o", "branch",
+                                 "--force", "--no-plots", "--switch", "1"});
+  CAPTURE(none.err);
+  CHECK(none.code == 0);
+  CHECK(!exists(shell, "branch/plots/branch.gp"));
+  CHECK(shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3:4", "--switch", "-1"}).code == 2);
 }
 
 TEST_SUITE_END();

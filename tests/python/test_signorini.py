@@ -225,6 +225,47 @@ class Manners(unittest.TestCase):
         self.assertGreater(sum(start < t < end for t in counts), 3)
 
 
+class Orbits(unittest.TestCase):
+    belt = {
+        "schema": 1,
+        "units": {"force": "N", "mass": "kg", "length": "m", "time": "s"},
+        "run": {"t_end": 60.0, "engine": "exact"},
+        "nodes": {"block": [0.0, 0.0]},
+        "masses": [{"node": "block", "mass": 1.0}],
+        "supports": [{"node": "block", "fix": ["uy"]}],
+        "springs": [{"node": "block", "direction": [1.0, 0.0], "stiffness": 1.0}],
+        "contacts": [{"name": "belt", "node": "block", "law": "slider", "tangent": [1.0, 0.0], "normal_force": 1.0,
+                      "friction": {"static": 1.0, "kinetic": 0.5}, "surface_velocity": 0.2}],
+    }
+
+    def test_the_period_of_a_block_on_a_belt(self):
+        orbit = signorini.find_orbit(self.belt)
+        self.assertTrue(orbit["found"], orbit["reason"])
+        self.assertAlmostEqual(orbit["period"], np.pi + 2.0 * np.arctan(0.4) + 5.0, places=10)
+        self.assertTrue(orbit["stable"])
+        self.assertEqual(orbit["multipliers"].dtype, complex)
+        once = orbit["result"].history["block.ux"]
+        self.assertAlmostEqual(once[0], once[-1], places=10)
+
+    def test_a_branch_over_the_speed_of_the_belt(self):
+        branch = signorini.follow(self.belt, "contacts.belt.surface_velocity", 0.2, 0.4, step=0.2)
+        self.assertTrue(branch["complete"], branch["end"])
+        v = branch["points"]["parameter"]
+        self.assertGreater(len(v), 3)
+        np.testing.assert_allclose(branch["points"]["period"], np.pi + 2.0 * np.arctan(2.0 * v) + 1.0 / v, atol=1e-8)
+        self.assertTrue(np.all(branch["points"]["stable"] == 1.0))
+        self.assertEqual(set(branch["points"]["branch"]), {1.0})
+
+    def test_no_orbit_is_a_value_and_no_period_an_error(self):
+        lost = signorini.find_orbit(self.belt, {"run.t_end": 1.0})
+        self.assertFalse(lost["found"])
+        self.assertIsNone(lost["result"])
+        self.assertTrue(lost["reason"])
+        with self.assertRaises(signorini.Error) as refused:
+            signorini.find_orbit({**self.belt, "contacts": []})
+        self.assertEqual(refused.exception.code, 3)
+
+
 class Tutorial(unittest.TestCase):
     def test_its_programs_run_and_print_what_it_says(self):
         text = (root / "docs" / "python.md").read_text()

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "differential/transform.hpp"
+#include "model/assembly/springs.hpp"
 
 namespace signorini::differential {
 namespace {
@@ -226,6 +227,18 @@ double rounding_of_element(const Model& model, const SeenColumn& column) {
   return 0.0;
 }
 
+/// Two contacts of different kinds stick rigidly along one direction: their forces are not unique (docs/theory.md), and which
+/// of them slips first is nobody's datum.
+bool shares_motion(const Model& model) {
+  for (const Contact& a : model.contacts)
+    for (const Contact& b : model.contacts) {
+      if (!a.sticks_rigidly() || !b.sticks_rigidly() || a.takes_impulses() == b.takes_impulses()) continue;
+      const Vector x = full(a.tangent, model.size()), y = full(b.tangent, model.size());
+      if (std::abs(x.dot(y)) >= (1.0 - rounding_of_sums) * x.norm() * y.norm()) return true;
+    }
+  return false;
+}
+
 /// Where a row may be on an event's other side.
 bool near_event(const SeenRun& run, double t, double t_end, double from) {
   // What a disturbance moves an event by is in its error; a restart's and the clock's rounding are not.
@@ -241,10 +254,16 @@ bool near_event(const SeenRun& run, double t, double t_end, double from) {
 }  // namespace
 
 const char* to_string(Class verdict) {
-  constexpr const char* names[] = {
-      "same",       "certain part ended before", "other order of one instant", "stopped alike",
-      "too long",   "stopped on one side",       "refused on one side",        "STATED ERROR TOO SMALL",
-      "UNEXPLAINED"};
+  constexpr const char* names[] = {"same",
+                                   "certain part ended before",
+                                   "other order of one instant",
+                                   "stopped alike",
+                                   "too long",
+                                   "not determined by the data",
+                                   "stopped on one side",
+                                   "refused on one side",
+                                   "STATED ERROR TOO SMALL",
+                                   "UNEXPLAINED"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -259,6 +278,8 @@ struct RelationJudge::Members {
   bool with_peaks = true;
   SeenRun run;
   std::vector<double> floor;
+  bool open_start = false;     ///< by the start's own words
+  bool shared_motion = false;  ///< a rigid contact and a slider may stick to one motion
   mutable std::optional<Spread> spread, spread_of_steps;
 
   [[nodiscard]] Spread spread_by(const std::vector<Scene>& neighbours, double factor) const {
@@ -471,6 +492,8 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   // Two runs of ida err by so much a step even where the exact flow is near one of them.
   const double relative = m_->scene.run.engine == Engine::ida ? of_steps * m_->scene.run.rtol : 0.0;
   const Model model = build_model(m_->scene);
+  m_->open_start = !model.statics.doubts.empty();
+  m_->shared_motion = shares_motion(model);
   m_->floor = floors(m_->run, model.scales, rounding_of_sums + relative);
   for (std::size_t j = 0; j < m_->floor.size(); ++j)
     m_->floor[j] += rounding_of_element(model, m_->run.columns[j]);
@@ -532,6 +555,15 @@ Likeness RelationJudge::compare(const Related& related) const {
 }
 
 Likeness RelationJudge::compare(const Related& related, SeenRun other) const {
+  Likeness result = compared(related, std::move(other));
+  const bool one_side =
+      result.verdict == Class::refused_one_side || result.verdict == Class::stopped_one_side;
+  if (!is_explained(result.verdict) && (m_->open_start || (m_->shared_motion && one_side)))
+    result.verdict = Class::undetermined;
+  return result;
+}
+
+Likeness RelationJudge::compared(const Related& related, SeenRun other) const {
   Likeness result;
   if (m_->ends_differ(other, result)) return result;
   write_back(m_->run, related, other);

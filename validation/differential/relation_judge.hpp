@@ -23,6 +23,7 @@ struct Likeness {
     other_order,    ///< the same but for the order of events closer than their errors
     stopped_alike,  ///< both refused, or both stopped at the same place
     too_long,       ///< given up
+    undetermined,  ///< the start says that the data leave it open; or two contacts share what sticks, and one run is refused for it
     stopped_one_side,
     refused_one_side,
     understated,  ///< copies with every datum off by one rounding part as far: t_error, or the certain part, is too sharp
@@ -55,6 +56,7 @@ class RelationJudge {
   [[nodiscard]] Likeness compare(const Related& related, SeenRun other) const;
 
  private:
+  [[nodiscard]] Likeness compared(const Related& related, SeenRun other) const;
   struct Members;
   std::unique_ptr<Members> m_;
 };

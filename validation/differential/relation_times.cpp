@@ -121,7 +121,7 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
 
 namespace {
 
-/// What a rebound is that rests follows from scales, and they from t_end: that of the whole run, said.
+/// Which rebounds rest follows from scales, and they from t_end; in both parts as in the whole run.
 Scene with_captures_told(Scene scene) {
   const Model model = build_model(scene);
   const double slowest = tolerance_of(model, scene.run).capture_velocity();
@@ -135,7 +135,7 @@ Scene with_captures_told(Scene scene) {
 
 std::optional<Related> related_going_on(const Scene& as_drawn, std::uint64_t seed) {
   Random draw(seed);
-  const Scene scene = as_drawn.matrices ? with_captures_told(as_drawn) : as_drawn;
+  const Scene scene = with_captures_told(as_drawn);
   const double at = scene.run.t_end * draw.real(0.1, 0.9);
   // The whole run keeps the state: scales follow from t_end, and with them what a rebound is that rests.
   Scene whole = scene;

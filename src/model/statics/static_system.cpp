@@ -172,9 +172,42 @@ std::vector<FreeMotion> hold_motions(const StaticProblem& problem, const Eigen::
   return result;
 }
 
+namespace {
+
+/// Springs of contacts that are stiffer than K along their normals: beside them one matrix keeps too few digits of K, and along
+/// axes that are not theirs a soft motion is off by 1e-12 of itself. Their forces kn (n . u + g0) n are summed apart.
+struct StiffContacts {
+  const StaticProblem& problem;
+  std::vector<bool> soft;  ///< closed contacts, without these
+  std::vector<std::size_t> list;
+
+  StiffContacts(const StaticProblem& of, const std::vector<bool>& closed) : problem(of), soft(closed) {
+    for (std::size_t c = 0; c < closed.size(); ++c) {
+      const Contact& contact = of.contacts[c];
+      if (!closed[c] || !contact.has_spring()) continue;
+      if (!(contact.normal_stiffness > own_stiffness(of.stiffness, contact.normal))) continue;
+      soft[c] = false;
+      list.push_back(c);
+    }
+  }
+  /// load - matrix u less their forces; with_gaps: g0 is not in the load.
+  [[nodiscard]] Vector rest(const SparseMatrix& matrix, const Vector& load, const Vector& u,
+                            bool with_gaps) const {
+    Vector rest = load - matrix * u;
+    for (const std::size_t c : list) {
+      const Contact& contact = problem.contacts[c];
+      const double g = with_gaps ? contact.gap_at(u) : contact.normal.dot(u);
+      contact.normal.add_to(rest, -contact.normal_stiffness * g);
+    }
+    return rest;
+  }
+};
+
+}  // namespace
+
 HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& closed,
                      const std::vector<FreeMotion>& held) {
-  SparseMatrix k = problem.matrix(closed);
+  const SparseMatrix whole = problem.matrix(closed);
   std::vector<LineSpring> springs;
   bool loose = false;
   for (const FreeMotion& f : held) {
@@ -183,20 +216,27 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
       continue;
     }
     const Combination& t = problem.contacts[static_cast<std::size_t>(f.holder)].tangent;
-    springs.push_back({t, own_stiffness(k, t)});
+    springs.push_back({t, own_stiffness(whole, t)});
   }
-  k = with_springs(k, springs);
+  const StiffContacts stiff(problem, closed);
+  SparseMatrix k = with_springs(problem.matrix(stiff.soft), springs);
   const SparseMatrix unsupported = k;
-  if (loose) k += weak_support(problem.map, k);
-  const SymmetricSolver solver(k);
-  const Vector p = problem.right_side(closed);
-  const auto refined = [&](const Vector& load) {
-    const Vector u = solver.solve(load);
-    const Vector better =
-        u + solver.solve(load - k * u);  // contact springs may be much stiffer than the rest
-    return loose && problem.forces ? Vector(better + solver.solve(load - unsupported * better)) : better;
+  if (loose) k += weak_support(problem.map, with_springs(whole, springs));
+  std::vector<LineSpring> apart;
+  for (const std::size_t c : stiff.list)
+    apart.push_back({problem.contacts[c].normal, problem.contacts[c].normal_stiffness});
+  const SymmetricSolver solver(apart.empty() ? k : with_springs(k, apart));
+  // load: with the gaps of soft contacts; of_scene: it is that of the scene, so gaps of stiff ones count.
+  const auto refined = [&](const Vector& load, bool of_scene) {
+    const Vector first = of_scene ? problem.right_side(closed) : load;
+    const Vector u = solver.solve(first);
+    const Vector better = u + solver.solve(stiff.rest(k, load, u, of_scene));
+    return loose && problem.forces
+               ? Vector(better + solver.solve(stiff.rest(unsupported, load, better, of_scene)))
+               : better;
   };
-  HeldState state{refined(p), std::vector<double>(problem.contacts.size(), 0.0)};
+  HeldState state{refined(problem.right_side(stiff.soft), true),
+                  std::vector<double>(problem.contacts.size(), 0.0)};
   std::vector<std::size_t> rigid;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c)
     if (closed[c] && problem.contacts[c].takes_impulses()) rigid.push_back(c);
@@ -206,7 +246,7 @@ HeldState solve_held(const StaticProblem& problem, const std::vector<bool>& clos
     Eigen::VectorXd miss(m);
     for (Eigen::Index j = 0; j < m; ++j)
       answer.col(j) =
-          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()));
+          refined(full(problem.contacts[rigid[static_cast<std::size_t>(j)]].normal, problem.size()), false);
     for (Eigen::Index i = 0; i < m; ++i) {
       const std::size_t c = rigid[static_cast<std::size_t>(i)];
       miss[i] = -problem.gap(c, state.u);

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
 #include <random>
 
 #include "base/complementarity.hpp"
@@ -179,6 +181,45 @@ TEST_CASE("up to six contacts all states are tried, and no more") {
     const Enumerated all = all_solutions(p);
     CHECK(all.solutions.size() == (count == most_enumerated ? 1 : 0));
     CHECK(std::isnan(all.least_miss) == (count > most_enumerated));
+  }
+}
+
+TEST_CASE("a seam of contacts that share few smooth motions: a hit has a solution, and it is found") {
+  // W is semidefinite, its condition is beyond 1e10; all normals but one rest, to rounding. Stewart and Trinkle: a solution exists.
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int round = 0; round < 150; ++round) {
+    CAPTURE(round);
+    constexpr Eigen::Index m = 11, modes = 19;
+    MatrixXd rows(2 * m, modes);
+    for (Eigen::Index j = 0; j < modes; ++j) {
+      const double n = uniform(random), t = uniform(random), shift = uniform(random);
+      for (Eigen::Index i = 0; i < m; ++i) {
+        const double place = static_cast<double>(i) / (m - 1), size = std::pow(1.6, -static_cast<double>(j));
+        rows(2 * i, j) = n * size * std::cos(3.0 * static_cast<double>(j) * place + shift);
+        rows(2 * i + 1, j) = t * size * std::sin(3.0 * static_cast<double>(j) * place - shift);
+      }
+    }
+    const auto hit = static_cast<Eigen::Index>(round % m);
+    MatrixXd resting(m - 1, modes);
+    for (Eigen::Index i = 0, at = 0; i < m; ++i)
+      if (i != hit) resting.row(at++) = rows.row(2 * i);
+    VectorXd v = random_matrix(random, modes, 1);
+    for (int twice = 0; twice < 2; ++twice) {
+      const VectorXd off = resting * v;
+      v -= resting.completeOrthogonalDecomposition().solve(off);
+    }
+    if (rows.row(2 * hit).dot(v) > 0.0) v = -v;
+    CoulombProblem p{rows * rows.transpose(), rows * v, {}};
+    for (Eigen::Index i = 0; i < m; ++i) {
+      CoulombItem item;
+      item.kind = Kind::frictional;
+      item.static_friction = item.kinetic_friction = 0.4;
+      p.items.push_back(item);
+    }
+    const auto solution = solve(p);
+    CHECK(solution);
+    if (solution) check_conditions(p, *solution);
   }
 }
 

@@ -125,6 +125,23 @@ TEST_CASE("judge: a shift that events share ends nothing, one that changes betwe
   CHECK(changes.reason.find("has an error of 0.06") != std::string::npos);
 }
 
+TEST_CASE(
+    "judge: events of a contact that follow each other by less than their own uncertainties are not "
+    "certain") {
+  for (const bool close : {false, true}) {
+    Track run = track({1.0, 2.0, 2.5});
+    run.events[1].uncertainty = 0x1p-3F;
+    run.events[2].uncertainty = close ? 0x1.1p-3F : 0x1p-3F;  // half of the time between them is 0.25
+    const Verdict verdict = judge(run, {run}, 2.0, names, true);
+    CHECK(certain(verdict) == (close ? 2 : 3));
+    CHECK(verdict.reason.empty() != close);
+    CHECK(judge(run, {run}, 2.0, names).reason.empty());  // what a tolerance leaves is shared
+  }
+  Track at_once = track({1.0, 2.0, 2.0});
+  for (TimedEvent& e : at_once.events) e.uncertainty = 0x1p-3F;
+  CHECK(judge(at_once, {at_once}, 2.0, names, true).reason.empty());
+}
+
 TEST_CASE("judge: what lies within its error of the horizon may lie beyond it") {
   Track run = track({1.0, 1.95});
   run.events.push_back(event(2.0, 1, 0));

@@ -109,6 +109,7 @@ TEST_CASE("what is wrong with a section is said") {
       "sections.s.pipe.wall: found 0.15, expected less than half the diameter 0.3");
   has(refused("pipe = { diameter = 0.3, E = 1.0, density = 1.0 }"), "sections.s.pipe.wall: missing");
   has(refused("pipe = { diameter = 0.3, wall = 0.01, E = 1.0, density = 1.0, contents = 1.0 }"), "content");
+  CHECK(refused("box = { width = 0.1, height = 0.3, wall = 0.0499, E = 1.0, density = 1.0 }") == "");
   has(refused("box = { width = 0.1, height = 0.3, wall = 0.05, E = 1.0, density = 1.0 }"),
       "expected less than half the width 0.1");
   has(refused("i = { width = 0.1, height = 0.3, web = 0.2, flange = 0.01, E = 1.0, density = 1.0 }"),

@@ -1,0 +1,393 @@
+#include "orbit/branch_walk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/rescale.hpp"
+#include "orbit/orbit_engine.hpp"
+#include "orbit/recurrence.hpp"
+#include "orbit/shooting.hpp"
+#include "signorini/simulate.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double shortest_step = 1e-7;  // in the norm
+constexpr int quick = 4;                // corrections, after which the next step may be longer
+constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
+constexpr double alike = 0.9;           // cosine of tangent and secant. Chosen.
+constexpr double restart_step = 2e-3;   // of the range
+constexpr double shortest_part = 1e-6;  // of the range: so closely changes of the sequence are located
+
+}  // namespace
+
+/// Without a branch: a little further on, after a transient.
+bool BranchWalk::restart(Corrected& here, double sign) {
+  BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
+  if (next.s < 0.0 || next.s > 1.0 || map_.autonomous()) return false;
+  next.duration = map_.period(next.s);
+  const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
+  const OrbitPass transient = at->pass({next.state, restart_periods * next.duration, false});
+  if (!transient.done()) return false;
+  next.state = orbit_state(transient.end);
+  const Shot shot = shoot(*at, {next.state, next.duration, false, newton_.closed_at_last()}, corrected_to);
+  if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
+  here.state = {shot.state, next.duration, next.s};
+  here.pass = shot.pass;
+  here.residual = shot.residual;
+  here.by_s = {};
+  return true;
+}
+
+/// A section away from events, if this one is near to one. The point before moves there, too.
+void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
+  if (map_.autonomous()) return;
+  const double T = here.state.duration;
+  const double later = section_away_from(here.pass.instants, T);
+  if (later == 0.0) return;
+  const OrbitPass to = map_.at(here.state.s)->pass({here.state.state, later, false});
+  if (!to.done()) return;
+  std::optional<BranchPlace> place_there;
+  if (place) {
+    const OrbitPass same =
+        map_.at(place->s)->pass({orbit_state(place->begin), later / T * place->duration, false});
+    if (same.done()) place_there = BranchPlace{same.end, place->duration, place->s};
+  }
+  const double before = map_.section();
+  map_.move_section(std::fmod(before + later / T, 1.0));
+  Corrected moved = here;
+  moved.state.state = orbit_state(to.end);
+  moved.pass = map_.pass(moved.state);
+  moved.by_s = {};
+  if (!(moved.pass.done() && moved.pass.end_rates.size() > 0)) {
+    map_.move_section(before);
+    return;
+  }
+  here = std::move(moved);
+  place = std::move(place_there);
+}
+
+/// Of the next step: the tangent, as long as it agrees with the way that the branch has come. Where fast mode shapes take
+/// part it does not: their phases turn within a step. The tangent, a difference of the map, is not asked for again there.
+Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected& here, const Vector& before) {
+  const std::optional<Vector> secant =
+      place && !map_.autonomous() ? newton_.secant(*place, here) : std::nullopt;
+  if (!secant) return newton_.examine(here, before);
+  if (turning_ && newton_.holds(*secant)) {
+    newton_.examine(here, *secant, {}, true);
+    return *secant;
+  }
+  const Vector tangent = newton_.examine(here, *secant);
+  turning_ = tangent.dot(*secant) < alike;
+  return turning_ ? *secant : tangent;
+}
+
+/// It begins where it is least in alphabetical order: the section may move.
+std::string BranchWalk::sequence_of(const OrbitPass& pass) const {
+  std::vector<std::string> list;
+  for (const Event& e : pass.events)
+    list.push_back(map_.model().contacts[static_cast<std::size_t>(e.contact)].name + " " + to_string(e.type));
+  std::vector<std::string> least = list;
+  for (std::size_t k = 1; k < list.size(); ++k) {
+    std::rotate(list.begin(), list.begin() + 1, list.end());
+    least = std::min(least, list);
+  }
+  return least.empty() ? "none" : fmt::format("{}", fmt::join(least, ", "));
+}
+
+int BranchWalk::number_of_sequence(const OrbitPass& pass) {
+  const std::string text = sequence_of(pass);
+  const auto found = std::find(branch_.sequences.begin(), branch_.sequences.end(), text);
+  const auto number = static_cast<int>(found - branch_.sequences.begin()) + 1;
+  if (found == branch_.sequences.end()) branch_.sequences.push_back(text);
+  return number;
+}
+
+/// Where a test function is zero on the step from here to next.
+std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
+                                                       const Corrected& next, const Vector& t,
+                                                       double ds) const {
+  const double a = here.tests.*kind.value, b = next.tests.*kind.value;
+  if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // that is what a fold does
+  Located point{0.0, kind.name, {}, {}};
+  const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
+    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
+    if (!c.done) return std::nullopt;
+    point.t = newton_.examine(c, t, here.ones);
+    point.at = std::move(c);
+    return point.at.tests.*kind.value;
+  });
+  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
+  point.part = *part;
+  return point;
+}
+
+/// The last point with the sequence of here.
+std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
+                                                               const Vector& t, double ds) const {
+  const std::string sequence = sequence_of(here.pass);
+  if (sequence == sequence_of(next.pass)) return std::nullopt;
+  Located point{0.0, "sequence", {}, {}};
+  double other = 1.0;
+  while ((other - point.part) * ds > shortest_part) {
+    const double middle = 0.5 * (point.part + other);
+    const Corrected& from = point.at.done ? point.at : here;
+    Corrected c =
+        newton_.correct(newton_.moved(from.state, from.pass, (middle - point.part) * ds * t), t, from.by_s);
+    if (!c.done || sequence_of(c.pass) != sequence) {
+      other = middle;
+      continue;
+    }
+    point.part = middle;
+    point.at = std::move(c);
+  }
+  if (!point.at.done) return std::nullopt;
+  newton_.examine(point.at, t, here.ones);
+  return point;
+}
+
+std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, const Corrected& next,
+                                                     const Vector& t, double ds) const {
+  std::vector<Located> all;
+  const auto take = [&](std::optional<Located> point) {
+    if (point) all.push_back(std::move(*point));
+  };
+  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, ds));
+  take(end_of_sequence(here, next, t, ds));
+  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
+  return all;
+}
+
+/// False: nobody wants more.
+bool BranchWalk::add(const Corrected& here, const std::string& special) {
+  const Model& model = map_.model();
+  Orbit orbit;
+  const OrbitPass next =
+      map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
+  const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
+  newton_.hear_noise(here.pass, next);
+  set_multipliers(here.multipliers, here.monodromy, known ? monodromy(model, next) : Eigen::MatrixXd(),
+                  here.ones, orbit_state_error(map_.at(here.state.s)->run()), orbit);
+  BranchPoint point;
+  point.parameter = map_.parameter(here.state.s);
+  point.period = here.state.duration * model.unit.time;
+  point.amplitude = here.pass.u_amplitude * model.scales.displacement * model.unit.length;
+  point.max_multiplier = orbit.max_multiplier;
+  point.multiplier_error = orbit.multiplier_error;
+  point.stable = orbit.stable;
+  point.loss = orbit.loss;
+  point.residual = here.residual;
+  point.events = static_cast<long>(here.pass.events.size());
+  point.sequence = number_of_sequence(here.pass);
+  for (const OutputExtremes& x : next.response) {
+    point.minima.push_back(x.minimum);
+    point.maxima.push_back(x.maximum);
+  }
+  const bool point_is_located = !special.empty() && special != "restart" && special != "switched";
+  std::vector<std::string> what;
+  if (!special.empty()) what.push_back(special);
+  point.branch = number_;
+  if (points_ > 0 && !located_ && !point_is_located) {
+    const BranchPoint& last = branch_.points.back();
+    if (last.stable != point.stable) what.emplace_back("stability");
+    if (last.sequence != point.sequence) what.emplace_back("sequence");
+  }
+  point.special = fmt::format("{}", fmt::join(what, "+"));
+  located_ = point_is_located;
+  branch_.points.push_back(point);
+  ++points_;
+  if (seen_) seen_(branch_.points.back());
+  branch_.interrupted = here.pass.interrupted || next.interrupted;
+  return !branch_.interrupted;
+}
+
+/// The first point. False: the branch ends there.
+bool BranchWalk::begin(Corrected& here) {
+  here.state = map_.start();
+  here.pass = map_.pass(here.state);
+  std::optional<BranchPlace> none;
+  cut_anew(here, none);
+  newton_.measure(here.pass);
+  here = newton_.correct(here.state, newton_.upwards(here.pass, 1.0), {});
+  if (!here.done) end_ = "the first orbit could not be followed: " + here.reason;
+  return here.done;
+}
+
+/// To the next point, or to the end of the range where it is nearer.
+Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bool last) const {
+  if (!last) return newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, here.by_s);
+  BranchState end = newton_.moved(here.state, here.pass, ds * t);
+  end.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
+  end.state = map_.fitted(std::move(end.state), here.pass.begin.mode, end.s);
+  if (!map_.autonomous()) end.duration = map_.period(end.s);
+  return newton_.correct(std::move(end), newton_.upwards(here.pass, 1.0), here.by_s);
+}
+
+/// The orbit is the same for all values of the key, but shifted in time: at the end of the range, too.
+bool BranchWalk::only_shifts(const Corrected& here, const Vector& t) const {
+  const std::optional<double> shift = newton_.shift(here, t);
+  if (!shift) return false;
+  const double T = here.state.duration;
+  double time = std::fmod(*shift * (1.0 - here.state.s), T);
+  if (time < 0.0) time += T;
+  BranchState end{here.state.state, map_.period(1.0), 1.0};
+  if (time > 0.0) {
+    const OrbitPass to = map_.at(here.state.s)->pass({here.state.state, time, false});
+    if (!to.done()) return false;
+    end.state = orbit_state(to.end);
+  }
+  const OrbitPass pass = map_.pass(end, false);
+  return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
+}
+
+/// end_ stays empty where it ends for what the caller wants.
+void BranchWalk::walk(Corrected here, Vector t) {
+  double ds = 0.25 * options_.step;
+  while (points_ < options_.most_points) {
+    const double along = t[t.size() - 1];
+    const double left = along > 0.0   ? (1.0 - here.state.s) / along
+                        : along < 0.0 ? here.state.s / -along
+                                      : 2.0 * ds;
+    const bool last = left <= ds;
+    const double length = std::min(ds, left);
+    Corrected next = step(here, t, length, last);
+    branch_.interrupted = next.pass.interrupted;
+    if (branch_.interrupted) return;
+    std::string special;
+    if (next.done) {
+      newton_.examine(next, t);
+      if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
+      for (const Located& point : located(here, next, t, length)) {
+        if (!add(point.at, point.kind)) return;
+        keep_junction(point);
+      }
+    } else {
+      ds = 0.5 * length;
+      if (ds >= shortest_step) continue;
+      const std::string why = next.reason;
+      next = here;
+      special = "restart";
+      if (!restart(next, along < 0.0 ? -1.0 : 1.0)) {
+        end_ = fmt::format("at {} = {:.9g} no step is short enough, and no orbit is found beyond: {}",
+                           options_.path, value(here), why);
+        return;
+      }
+      ds = 0.25 * options_.step;
+    }
+    std::optional<BranchPlace> place;
+    if (special.empty()) place = BranchPlace{here.pass.begin, here.state.duration, here.state.s};
+    cut_anew(next, place);
+    const Vector before =
+        t.size() == newton_.size(next.pass) ? t : newton_.upwards(next.pass, along < 0.0 ? -1.0 : 1.0);
+    here = std::move(next);
+    t = before;
+    newton_.measure(here.pass, &t);
+    t = direction(place, here, t);
+    if (!add(here, special)) return;
+    complete_ = last && special.empty();
+    if (complete_) {
+      end_ = fmt::format("reached {} = {:.9g}", options_.path, value(here));
+      return;
+    }
+    if (doubled_ && returns(here)) {
+      end_ =
+          fmt::format("returned to an orbit of half the period near {} = {:.9g}", options_.path, value(here));
+      complete_ = true;
+      return;
+    }
+  }
+}
+
+void BranchWalk::walk_from_start() {
+  Corrected here;
+  if (!begin(here)) return;
+  const Vector t = newton_.examine(here, newton_.upwards(here.pass, 1.0));
+  if (!add(here, "")) return;
+  if (only_shifts(here, t)) {
+    end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
+                       options_.path);
+    return;
+  }
+  walk(std::move(here), t);
+}
+
+/// What a scene refuses on the way ends the branch, which keeps its points.
+void BranchWalk::guarded(const std::function<void()>& walk) {
+  try {
+    walk();
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::file || points_ < 2) throw;
+    end_ = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
+                       branch_.points.back().parameter, error.what());
+  }
+  if (end_.empty())
+    end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, no more were asked for", points_);
+}
+
+void BranchWalk::follow() {
+  guarded([&] { walk_from_start(); });
+}
+
+void BranchWalk::keep_junction(const Located& point) {
+  if (generation_ >= options_.switches) return;
+  const auto keep = [&](BranchMap map, const Vector& away) {
+    junctions_.push_back({std::move(map), point.at, away, point.kind, number_, generation_ + 1});
+  };
+  if (point.kind == "flip") keep(map_.doubled(), newton_.flip_direction(point.at));
+  if (point.kind != "branch point") return;
+  const Vector other = newton_.other_direction(point.at, point.t);
+  keep(map_, other);
+  keep(map_, -other);
+}
+
+/// The first point on the other branch, and its direction there.
+bool BranchWalk::depart(const Junction& junction, Corrected& here, Vector& t) {
+  here = junction.at;
+  if (doubled_) here.state.duration *= 2.0;
+  here.pass = map_.pass(here.state);
+  if (!here.pass.done() || here.pass.end_rates.size() == 0) return false;
+  here.by_s = {};
+  newton_.measure(here.pass);
+  t = newton_.in_norm(junction.away);
+  for (double ds = 0.25 * options_.step; ds >= shortest_step; ds *= 0.5) {
+    Corrected next = newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, {});
+    if (!next.done) continue;
+    const std::optional<BranchPlace> place{BranchPlace{here.pass.begin, here.state.duration, here.state.s}};
+    here = std::move(next);
+    t = direction(place, here, t);
+    return true;
+  }
+  return false;
+}
+
+void BranchWalk::leave(const Junction& junction) {
+  doubled_ = junction.kind == "flip";
+  guarded([&] {
+    Corrected here;
+    Vector t;
+    if (!depart(junction, here, t)) {
+      end_ = fmt::format("no orbit is found beside the {} at {} = {:.9g}", junction.kind, options_.path,
+                         value(junction.at));
+      return;
+    }
+    if (add(here, "switched") && !(doubled_ && returns(here))) walk(std::move(here), t);
+  });
+}
+
+/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round.
+bool BranchWalk::returns(const Corrected& here) {
+  BranchState half = here.state;
+  half.duration *= 0.5;
+  const OrbitPass pass = map_.pass(half, false);
+  const OrbitSection section(map_.model(), pass.begin);
+  if (!pass.done()) return false;
+  Vector gap = section.coordinates(pass.end) - section.coordinates(pass.begin);
+  std::swap(gap, half_);
+  return gap.size() == half_.size() && gap.dot(half_) < 0.0;
+}
+
+}  // namespace signorini

@@ -1,0 +1,99 @@
+// branch_walk.hpp: one branch of orbits, point by point.
+//
+//   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
+//   (special_points.hpp)
+//
+// Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
+// Where another branch begins the walk keeps a junction:
+//
+//   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
+//   branch point    two directions t, w with dG/dy t = dG/dy w = 0: the other branch leaves along w and -w
+#pragma once
+
+#include "orbit/branch_newton.hpp"
+
+namespace signorini {
+
+/// Where another branch begins.
+struct Junction {
+  BranchMap map;  ///< of the other branch
+  Corrected at;   ///< the point of the branch that it leaves
+  Vector away;    ///< coordinates at the section, dT/T where T is unknown, s
+  std::string kind;
+  int from = 1;        ///< number of the branch that it leaves
+  int generation = 1;  ///< so many switches led there
+};
+
+class BranchWalk {
+ public:
+  /// Points and sequences are added to `branch`. All but map must outlive it.
+  BranchWalk(const BranchOptions& options, BranchMap map, Branch& branch, int number, int generation,
+             const std::function<void(const BranchPoint&)>& seen)
+      : options_(options),
+        map_(std::move(map)),
+        branch_(branch),
+        number_(number),
+        generation_(generation),
+        seen_(seen) {}
+  BranchWalk(const BranchWalk&) = delete;
+  BranchWalk& operator=(const BranchWalk&) = delete;
+
+  /// From the map's first orbit on.
+  void follow();
+  /// From a junction on.
+  void leave(const Junction& junction);
+
+  [[nodiscard]] const std::string& end() const { return end_; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] std::vector<Junction>& junctions() { return junctions_; }
+
+ private:
+  [[nodiscard]] bool begin(Corrected& here);
+  [[nodiscard]] bool depart(const Junction& junction, Corrected& here, Vector& t);
+  void walk_from_start();
+  void walk(Corrected here, Vector t);
+  [[nodiscard]] Corrected step(const Corrected& here, const Vector& t, double ds, bool last) const;
+  [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
+  [[nodiscard]] bool restart(Corrected& here, double sign);
+  [[nodiscard]] bool returns(const Corrected& here);
+  void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
+  [[nodiscard]] Vector direction(const std::optional<BranchPlace>& place, Corrected& here,
+                                 const Vector& before);
+  bool add(const Corrected& here, const std::string& special);
+  /// A point between two others, and where.
+  struct Located {
+    double part = 0.0;  // of the step
+    std::string kind;
+    Corrected at;
+    Vector t;
+  };
+  [[nodiscard]] std::vector<Located> located(const Corrected& here, const Corrected& next, const Vector& t,
+                                             double ds) const;
+  [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
+                                               const Corrected& next, const Vector& t, double ds) const;
+  [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
+                                                       const Vector& t, double ds) const;
+  void keep_junction(const Located& point);
+  [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
+  [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
+  [[nodiscard]] double value(const Corrected& at) const { return map_.parameter(at.state.s); }
+  /// Runs a walk; a scene that is refused on the way ends it.
+  void guarded(const std::function<void()>& walk);
+
+  const BranchOptions& options_;
+  BranchMap map_;
+  BranchNewton newton_{map_};
+  Branch& branch_;
+  int number_, generation_;
+  const std::function<void(const BranchPoint&)>& seen_;
+  std::vector<Junction> junctions_;
+  std::string end_;
+  bool complete_ = false;
+  int points_ = 0;
+  bool located_ = false;  // the last point is a located one
+  bool turning_ = false;  // the tangent is not the way of the branch (direction())
+  bool doubled_ = false;  // it began at a flip
+  Vector half_;           // of a doubled branch: z(T/2) - z at the last point
+};
+
+}  // namespace signorini

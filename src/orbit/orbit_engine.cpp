@@ -1,0 +1,32 @@
+#include "orbit/orbit_engine.hpp"
+
+#include "model/decay.hpp"
+#include "run/choose_engine.hpp"
+#include "run/engines.hpp"
+#include "signorini/error.hpp"
+
+namespace signorini {
+namespace {
+
+// Chosen: a series takes a step for every 5 decay times, some hundred steps a period.
+constexpr double most_decays = 2000.0;
+constexpr double of_tolerance = 100.0;  // chosen: errors of a step add up over the steps of a period
+
+}  // namespace
+
+Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
+  if (run.engine != Engine::automatic) return run.engine;
+  try {
+    engine_row(Engine::exact).refuse(model, run);
+  } catch (const SceneError&) {
+    return Engine::ida;
+  }
+  if (fastest_decay(model) * duration <= most_decays) return Engine::exact;
+  return choose_engine(model, run).engine;
+}
+
+double orbit_state_error(const RunSpec& run) {
+  return run.engine == Engine::ida ? of_tolerance * run.rtol : 0.0;
+}
+
+}  // namespace signorini

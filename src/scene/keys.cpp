@@ -29,6 +29,7 @@ constexpr Key table_of_keys[] = {
     {"", "lines", tables, "", "", "", "Nodes in a row, at equal distances."},
     {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
     {"", "bodies", tables, "", "", "", "Plane continua: meshes of rectangles and rings, or from files of Gmsh."},
+    {"", "surfaces", tables, "", "", "", "With [matrices]: boundaries, by places and degrees of freedom, for seams."},
     {"", "seams", tables, "", "", "", "Boundaries of bodies that touch each other, the ground or a line: contacts by dual mortar."},
     {"", "masses", tables, "", "", "", "Point masses."},
     {"", "rigid", tables, "", "", "", "Rigid bodies: nodes that move with a centre, which has their mass and inertia."},
@@ -190,9 +191,18 @@ constexpr Key table_of_keys[] = {
 
     {"bodies[].points", "*", vector, "length", "", "", "Place [x, y] of a node of the mesh, which gets this name."},
 
+    {"surfaces[]", "name", name, "", "required", "", "Name of the boundary, for slave and master of seams."},
+    {"surfaces[]", "x", numbers, "length", "required", "", "Places of its nodes along x, in the course of the boundary with the body to its left."},
+    {"surfaces[]", "y", numbers, "length", "required", "", "The same along y."},
+    {"surfaces[]", "ux", texts, "", "required", "", "Degree of freedom of each node along x; \"\" where it is held."},
+    {"surfaces[]", "uy", texts, "", "required", "", "The same along y."},
+    {"surfaces[]", "quadratic", flag, "", "false", "", "Nodes are end, middle, end, ... of edges with three nodes."},
+    {"surfaces[]", "closed", flag, "", "false", "", "The last node is followed by the first."},
+    {"surfaces[]", "thickness", positive, "length", "1.0", "", "Extent out of the plane."},
+
     {"seams[]", "name", name, "", "required", "", "Name of the seam; its contacts are NAME.1, NAME.2, ... along the slave boundary."},
-    {"seams[]", "slave", text, "", "required", "", "Boundary \"BODY.GROUP\" whose nodes are the contacts; the finer mesh, as a rule."},
-    {"seams[]", "master", text, "", "", "", "Boundary \"BODY.GROUP\" that it touches, or \"ground\": what rests where the undeformed slave is; or line."},
+    {"seams[]", "slave", text, "", "required", "", "Boundary \"BODY.GROUP\", or surface with [matrices], whose nodes are the contacts; the finer mesh, as a rule."},
+    {"seams[]", "master", text, "", "", "", "Boundary \"BODY.GROUP\", or surface with [matrices], that it touches, or \"ground\": what rests where the undeformed slave is; or line."},
     {"seams[]", "line", table, "", "", "", "A straight line at rest that the slave touches, instead of master."},
     {"seams[]", "law", choice, "", "required", "compliant rigid tied", "As of contacts; \"tied\": the slave boundary follows the master, without contacts."},
     {"seams[]", "normal_stiffness", positive, "force/length^3", "", "", "compliant: stiffness for each area; or layer."},

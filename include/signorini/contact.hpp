@@ -76,6 +76,8 @@ struct Contact {
   double gap = 0.0;
   double normal_stiffness = 0.0;
   std::optional<double> tangential_stiffness;
+  /// Rigid, on parts without mass: its springs are compliance of the structure (model/borrowed_springs.hpp).
+  bool borrows = false;
   std::optional<ShearElement> shear;  ///< tangential_stiffness is empty then
   std::optional<Bowl> bowl;           ///< not of rigid contacts
   double normal_damping = 0.0;        ///< dashpot beside the normal spring

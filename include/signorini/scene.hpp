@@ -275,9 +275,22 @@ struct BodySpec {
   SourcePlace place = {};
 };
 
+/// A boundary of what [matrices] assemble: places, and degrees of freedom by name; empty: held.
+struct SurfaceNode {
+  double x = 0.0, y = 0.0;
+  std::string ux = {}, uy = {};
+};
+struct SurfaceSpec {
+  std::string name = {};
+  std::vector<PlaneMesh::Edge> edges = {};  ///< indices into Scene::surface_nodes
+  double thickness = 1.0;
+  SourcePlace place = {};
+};
+
 /// A node of a seam: one of Scene::contacts each, in the same order.
 struct SeamNode {
-  int node = 0;                            ///< index into Scene::nodes
+  int node = 0;                            ///< index into Scene::nodes, or Scene::surface_nodes
+  std::array<double, 2> at{0.0, 0.0};      ///< its place
   double length = 0.0;                     ///< of the arc that belongs to it
   std::array<double, 2> normal{0.0, 0.0};  ///< in which it opens; the tangent is (ny, -nx)
 };
@@ -536,7 +549,9 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Member> members;
   std::vector<BodySpec> bodies;
-  std::vector<SeamSpec> seams;  ///< but for tied ones
+  std::vector<SurfaceSpec> surfaces;       ///< with matrices
+  std::vector<SurfaceNode> surface_nodes;  ///< of all of them, each once
+  std::vector<SeamSpec> seams;             ///< but for tied ones
   std::vector<TieSpec> ties;
   std::vector<PointMass> masses;
   std::vector<RigidBody> rigid;

@@ -416,6 +416,24 @@ void add_strobe(CLI::App& command, SweepOptions& options, const CLI::Validator& 
   command.add_flag("--back", options.back, "with --carry: then run the same values in reverse order");
 }
 
+void add_sampling(CLI::App& command, SweepOptions& options, const CLI::Validator& given) {
+  command
+      .add_option(
+          "--sample", options.samples,
+          "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
+          "triangular(least,likely,greatest); keys separated by commas get the same sample (may be repeated)")
+      ->option_text("PATH[,PATH...]=DISTRIBUTION")
+      ->allow_extra_args(false);
+  command.add_option("--samples", options.sample_count, "number of samples (default: 1000)")
+      ->option_text("N")
+      ->check(given);
+  command.add_option("--seed", options.seed, "seed of the samples (default: 1)")
+      ->option_text("S")
+      ->check(given);
+  command.add_option("--sequence", options.sequence, "kind of samples: random (default) or sobol")
+      ->option_text("NAME");
+}
+
 }  // namespace
 
 void add_sweep(Program& program) {
@@ -425,8 +443,7 @@ void add_sweep(Program& program) {
   command->add_option("SCENE", options->scene, "the scene file (TOML)");
   command
       ->add_option("--vary", options->varied,
-                   "range start:stop:step (stop included) or list value,value,...; several --vary are "
-                   "combined (all combinations)")
+                   "start:stop:step (stop included) or value,value,...; several give all combinations")
       ->option_text("PATH=VALUES")
       ->allow_extra_args(false);
   command->add_flag("--together", options->together,
@@ -438,21 +455,9 @@ void add_sweep(Program& program) {
           "contact; count:EVENT or count:EVENT@CONTACT (may be repeated)")
       ->option_text("QUERY")
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--sample", options->samples,
-          "draw values: normal(mean,sd), lognormal(mean,sd), uniform(from,to), "
-          "triangular(least,likely,greatest); keys separated by commas get the same sample (may be repeated)")
-      ->option_text("PATH[,PATH...]=DISTRIBUTION")
-      ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
                              "");
-  command->add_option("--samples", options->sample_count, "how many draws (default: 1000)")
-      ->option_text("N")
-      ->check(given);
-  command->add_option("--seed", options->seed, "of the draws (default: 1)")->option_text("S")->check(given);
-  command->add_option("--sequence", options->sequence, "kind of samples: random (default) or sobol")
-      ->option_text("NAME");
+  add_sampling(*command, *options, given);
   command
       ->add_option("-o,--output", options->directory,
                    "directory of the sweep (default: SCENE's name with -sweep); an unfinished sweep in DIR "

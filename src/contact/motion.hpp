@@ -46,4 +46,16 @@ void set_acceleration(const Contact& contact, const A& a, double surface_acceler
   return slip_of(contact, m.ut, m.T);
 }
 
+/// Of a contact that borrows springs: the motion of the surfaces that touch, without what its springs give.
+inline void leave_out_borrowed(const Contact& contact, State state, ContactMotion& m) {
+  if (!contact.borrows || is_open(state)) return;
+  if (contact.tangential_stiffness) {
+    const int s = slip_sign(state);
+    const double ratio = contact.normal_stiffness / *contact.tangential_stiffness;
+    m.ut = slip_of(contact, m);
+    m.vt = s == 0 ? 0.0 : m.vt + s * contact.friction.kinetic * ratio * m.vn;
+  }
+  m.gap = m.vn = 0.0;
+}
+
 }  // namespace signorini

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "base/rounding.hpp"
@@ -23,6 +24,7 @@
 #include "model/assembly/springs.hpp"
 #include "model/assembly/stiffness_range.hpp"
 #include "model/assembly/ties.hpp"
+#include "model/borrowed_springs.hpp"
 #include "model/carried.hpp"
 #include "model/doubts.hpp"
 #include "model/frictional_start.hpp"
@@ -171,6 +173,18 @@ void start(const Scene& scene, DofMap& map, Model& model) {
   });
 }
 
+/// What results show of the degrees of freedom that are computed.
+void add_results(const Scene& scene, const DofMap& map, const std::optional<BorrowedSprings>& borrowed,
+                 Model& model) {
+  if (borrowed) {
+    check_unique(scene, model);
+    show_borrowed(*borrowed, model);
+  }
+  add_shear_elements(scene, model);
+  name_tied(map, model);
+  make_outputs(scene, map, model);
+}
+
 /// A saved state at rest has velocities of rounding alone. Displacements are known to rounding, and within the period of
 /// the fastest mode that makes
 ///     |v| <= of_many omega_max max |u|,   translations and rotations each.
@@ -209,7 +223,9 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
+  const std::optional<BorrowedSprings> borrowed = borrow_springs(scene, map, assembly.dampers, model);
   start(scene, map, model);
+  if (borrowed) continue_borrowed(*borrowed, scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);
   const std::vector<bool> closed = closed_at_start(model);
   if (model.geometric && doubted) set_load_factors(scene, map, closed, model);
@@ -240,9 +256,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
           "reduction.tolerance: this is the whole model; run, compare, study, sweep and verify look for the "
           "cutoff by trial runs first");
   }
-  add_shear_elements(scene, model);
-  name_tied(map, model);
-  make_outputs(scene, map, model);
+  add_results(scene, map, borrowed, model);
   return model;
 }
 

@@ -25,20 +25,6 @@ constexpr double dependent = 1e-12;       // what is left of a unit normal when 
   throw SceneError(spec.place, spec.key(key), why);
 }
 
-void check_mass(const Scene& scene, const Model& model, std::size_t k) {
-  const Contact& contact = model.contacts[k];
-  for (const Combination* form : {&contact.normal, &contact.tangent}) {
-    if (form == &contact.tangent && !contact.has_friction()) continue;
-    for (const auto& [dof, factor] : form->terms)
-      if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
-        refuse(
-            scene, k, "law",
-            fmt::format("a rigid contact needs mass where it acts, and {} has none; give it a mass, or the "
-                        "contact law = \"compliant\"",
-                        d.displacement));
-  }
-}
-
 /// Friction that depends on the slip rate, and a curved surface, need motions that are data of an instant.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
@@ -159,7 +145,6 @@ void check_rigid_contacts(const Scene& scene, Model& model) {
     const Contact& contact = model.contacts[k];
     check_known_motion(scene, model, k);
     if (!contact.takes_impulses()) continue;
-    check_mass(scene, model, k);
     closed[k] = close_gap(scene, model, k);
     rigid.push_back(k);
     normals.push_back(contact.normal);

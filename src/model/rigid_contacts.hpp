@@ -1,6 +1,6 @@
 // rigid_contacts.hpp: what rigid contacts need of a structure.
 //
-//   n . M^-1 n > 0 (and t . M^-1 t > 0 with friction): where they act there is mass
+//   where they act there is mass; else they borrow springs (model/borrowed_springs.hpp) and are none of these
 //   g(u0) >= 0: nothing starts inside
 //   no c, not zero, with sum_i c_i n_i = 0 and sum_i c_i g0_i = 0 over contacts that may close together: such
 //   contacts share one motion, and nobody can say which of them carries the force

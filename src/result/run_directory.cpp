@@ -73,7 +73,7 @@ struct RunDirectory::Writers {
   }
 
   void add_seams(const Scene& scene, const Sample& sample) {
-    for (const SeamSpec& seam : scene.seams) seams->add(seam_row(scene, seam, sample.t, sample.contacts));
+    for (const SeamSpec& seam : scene.seams) seams->add(seam_row(seam, sample.t, sample.contacts));
     if (seams) seams->flush();
   }
 

@@ -10,17 +10,13 @@ const CsvTable<SeamRow>& seam_table() {
   return table;
 }
 
-SeamRow seam_row(const Scene& scene, const SeamSpec& seam, double t,
-                 const std::vector<ContactSample>& contacts) {
+SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample>& contacts) {
   SeamRow row{t, seam.name};
   double length = 0.0, x = 0.0, y = 0.0;
-  const auto place = [&](const SeamNode& k) -> const Node& {
-    return scene.nodes[static_cast<std::size_t>(k.node)];
-  };
   for (const SeamNode& k : seam.nodes) {
     length += k.length;
-    x += k.length * place(k).x;
-    y += k.length * place(k).y;
+    x += k.length * k.at[0];
+    y += k.length * k.at[1];
   }
   x /= length;
   y /= length;
@@ -31,7 +27,7 @@ SeamRow seam_row(const Scene& scene, const SeamSpec& seam, double t,
     row.T += c.T;
     const auto [nx, ny] = k.normal;  // the tangent is (ny, -nx)
     const double fx = -c.N * nx - c.T * ny, fy = -c.N * ny + c.T * nx;
-    row.moment += (place(k).x - x) * fy - (place(k).y - y) * fx;
+    row.moment += (k.at[0] - x) * fy - (k.at[1] - y) * fx;
     (is_open(c.state) ? row.open : kind_of(c.state) == State::stick ? row.stick : row.slip) += k.length;
   }
   return row;

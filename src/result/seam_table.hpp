@@ -23,7 +23,6 @@ struct SeamRow {
 
 [[nodiscard]] const CsvTable<SeamRow>& seam_table();
 /// contacts: one a contact of the scene.
-[[nodiscard]] SeamRow seam_row(const Scene& scene, const SeamSpec& seam, double t,
-                               const std::vector<ContactSample>& contacts);
+[[nodiscard]] SeamRow seam_row(const SeamSpec& seam, double t, const std::vector<ContactSample>& contacts);
 
 }  // namespace signorini

@@ -118,14 +118,14 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   const Report* report = run != nullptr ? &run->report : nullptr;
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
-               {"law", to_string(contact.law)},
+               {"law", to_string(contact.borrows ? Law::rigid : contact.law)},
                {"static_friction", contact.friction.static_},
                {"kinetic_friction", contact.friction.kinetic}};
   if (contact.has_gap()) {
     json["gap"] = contact.gap;
     if (contact.takes_impulses())
       json["restitution"] = contact.restitution;
-    else
+    else if (!contact.borrows)
       json["normal_stiffness"] = contact.normal_stiffness;
   }
   for (const FrictionConstant& constant : friction_constants)
@@ -136,7 +136,8 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
     json["tangential_stiffness"] = contact.shear->stiffness;
     json["tangential_damping"] = contact.shear->damping;
   }
-  if (contact.tangential_stiffness) json["tangential_stiffness"] = *contact.tangential_stiffness;
+  if (contact.tangential_stiffness && !contact.borrows)
+    json["tangential_stiffness"] = *contact.tangential_stiffness;
   if (const auto reaction = static_reaction(model, k)) json["static_reaction"] = *reaction;
   if (report == nullptr) return json;
   if (k < report->supports.size()) json["load"] = support_json(report->supports[k]);

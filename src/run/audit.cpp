@@ -65,8 +65,7 @@ void Auditor::add(const Works& works) {
 
 void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& forcing, const Point& point) {
   for (std::size_t k = 0; k < peaks_.size(); ++k)
-    at_start_.push_back({model_.contacts[k].normal.dot(point.u),
-                         slide_of(model_.contacts[k], k, forcing, decision.jet.t, point.u, point.v).ut});
+    at_start_.push_back(place_of(k, forcing, decision.jet.t, decision.mode[k].state, point));
   for (std::size_t k = 0; k < supports_.size(); ++k) {
     const ContactMotion m = motion(k, forcing, decision.jet.t, point);
     SupportLoad& load = supports_[k];
@@ -100,6 +99,16 @@ double Auditor::slip(std::size_t contact, const ContactState& state, const Conta
   return anchored ? state.anchor : slip_of(model_.contacts[contact], m);
 }
 
+Auditor::Place Auditor::place_of(std::size_t k, const Forcing& forcing, double t, State state,
+                                 const Point& point) const {
+  const Contact& contact = model_.contacts[k];
+  if (!contact.borrows)
+    return {contact.normal.dot(point.u), slide_of(contact, k, forcing, t, point.u, point.v).ut};
+  ContactMotion m = motion(k, forcing, t, point);
+  leave_out_borrowed(contact, state, m);
+  return {m.gap - contact.gap, m.ut};
+}
+
 void Auditor::observe(const Forcing& forcing, double t, const Mode& mode, const Point& point) {
   for (std::size_t k = 0; k < mode.size(); ++k) observe(k, forcing, t, mode, point);
 }
@@ -109,9 +118,9 @@ void Auditor::observe(std::size_t k, const Forcing& forcing, double t, const Mod
   const ContactMotion m = motion(k, forcing, t, point);
   const int index = static_cast<int>(k);
   Peak& peak = peaks_[k];
-  const double ut = slide_of(contact, k, forcing, t, point.u, point.v).ut;
-  peak.tangential = std::max(peak.tangential, std::abs(ut - at_start_[k].ut));
-  peak.normal = std::max(peak.normal, std::abs(contact.normal.dot(point.u) - at_start_[k].normal));
+  const Place place = place_of(k, forcing, t, mode[k].state, point);
+  peak.tangential = std::max(peak.tangential, std::abs(place.ut - at_start_[k].ut));
+  peak.normal = std::max(peak.normal, std::abs(place.normal - at_start_[k].normal));
   bears(k, t, m.N, m.T);
   supports_[k].slip_at_end = slip(k, mode[k], m);
   landings_.observe(k, m.N);
@@ -192,7 +201,8 @@ Energy Auditor::stored(const Mode& mode, const Point& point) const {
     m.T = point.T(k);
     m.gap = contact.gap_at(point.u);
     m.vn = gap_rate(contact, point.v);
-    e.contact += stored_energy(contact, mode[k].state, m);
+    const double springs = stored_energy(contact, mode[k].state, m);
+    (contact.borrows ? e.elastic : e.contact) += springs;
     if (contact.shear) {  // a spring of the contact, though it stands among those of the structure
       const double strain = contact.shear->body.dot(point.u) - contact.tangent.dot(point.u);
       const double energy = 0.5 * contact.shear->stiffness * strain * strain;
@@ -247,6 +257,13 @@ ContactSample Auditor::sample(std::size_t k, const Forcing& forcing, double t, c
   s.N = m.N;
   s.T = m.T;
   s.slip = slip(k, state, m);
+  if (model_.contacts[k].borrows) {
+    ContactMotion touching = m;
+    leave_out_borrowed(model_.contacts[k], state.state, touching);
+    s.gap = touching.gap;
+    s.ut = touching.ut;
+    s.vt = touching.vt;
+  }
   if (model_.contacts[k].own) s.memory = state.anchor;
   return s;
 }

@@ -72,6 +72,8 @@ class Auditor {
   struct Place {
     double normal = 0.0, ut = 0.0;
   };
+  [[nodiscard]] Place place_of(std::size_t contact, const Forcing& forcing, double t, State state,
+                               const Point& point) const;
   std::vector<Place> at_start_;
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;

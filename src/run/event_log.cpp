@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/rounding.hpp"
+#include "contact/motion.hpp"
 #include "run/physical.hpp"
 
 namespace signorini {
@@ -44,9 +45,16 @@ void settle(const Contact& contact, double error, Event& event) {
 }
 
 /// What the decision knows of a contact; the guard is left out.
-Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool has_gap) {
+Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, const Contact& contact) {
   const Decision& decision = *now.decision;
-  const ContactMotion &before = decision.before[k], &after = decision.after[k];
+  ContactMotion before = decision.before[k], after = decision.after[k];
+  double vt = decision.slides_before[k].vt, vt_after = decision.slides_after[k].vt;
+  if (contact.borrows) {
+    leave_out_borrowed(contact, (*now.before)[k].state, before);
+    leave_out_borrowed(contact, decision.mode[k].state, after);
+    vt = before.vt;
+    vt_after = after.vt;
+  }
   Event event;
   event.t = now.t;
   event.contact = static_cast<int>(k);
@@ -57,15 +65,15 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, bool
     event.impulse_n = decision.impulses[k].normal;
     event.impulse_t = decision.impulses[k].tangent;
   }
-  if (has_gap) event.gap = after.gap;
+  if (contact.has_gap()) event.gap = after.gap;
   event.N = before.N;
   event.T = before.T;
   event.N_after = after.N;
   event.T_after = after.T;
   event.vn = before.vn;
   event.vn_after = after.vn;
-  event.vt = decision.slides_before[k].vt;
-  event.vt_after = decision.slides_after[k].vt;
+  event.vt = vt;
+  event.vt_after = vt_after;
   event.departure = departure_of(decision, k);
   return event;
 }
@@ -151,7 +159,7 @@ void EventLog::load_jump(const Instant& now) {
 
 void EventLog::contact(const Instant& now, std::size_t k, EventType type, const Stepper& stepper) {
   if (type != EventType::time) ++report_.events_by_type[to_string(type)];
-  Event event = event_of(now, k, type, model_.contacts[k].has_gap());
+  Event event = event_of(now, k, type, model_.contacts[k]);
   add_conditioning(now, stepper, k, event);
   recorder_.event(event);
   latest_.push_back(std::move(event));

@@ -110,9 +110,15 @@ void visit_structure(Scene& scene, const Visit& visit) {
     visit(b.thickness, length);
     visit_history(b.temperature, plain, visit);
   }
+  for (SurfaceSpec& surface : scene.surfaces) visit(surface.thickness, length);
+  for (SurfaceNode& node : scene.surface_nodes) {
+    visit(node.x, length);
+    visit(node.y, length);
+  }
   for (SeamSpec& seam : scene.seams) {
     visit(seam.thickness, length);
-    for (SeamNode& node : seam.nodes) visit(node.length, length);
+    for (SeamNode& node : seam.nodes)
+      for (double* x : {&node.length, &node.at[0], &node.at[1]}) visit(*x, length);
   }
   for (Support& s : scene.supports)
     if (s.motion) {

@@ -166,6 +166,7 @@ Scene build(const std::string& text, const std::string& file, const std::vector<
   read_contacts(top, scene, record);  // compressions are checked up to t_end
   read_stops(top, scene, record);
   read_pendulums(top, scene, record);
+  read_surfaces(top, scene, record);
   read_seams(top, scene, record);
   read_loads(top, scene, record);
   read_base_motion(top, scene, record);

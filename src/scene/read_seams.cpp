@@ -51,6 +51,11 @@ void read_springs_of(Table& table, SeamLaw& law) {
                "friction that falls with its rate leaves its motion undecided");
 }
 
+/// Not recorded: whoever reads the key does that.
+bool is_word(Table& table, const char* key, std::string_view word) {
+  return table.has(key) && table.raw(key)->value_or(std::string()) == word;
+}
+
 SeamLaw read_seam_law(Table& table, const Scene& scene) {
   SeamLaw law;
   ContactSpec& contact = law.contact;
@@ -59,7 +64,9 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   contact.law = table.choice("law") == "rigid" ? Law::rigid : Law::compliant;
   contact.friction = read_friction(table);
   contact.normal_force = constant_history(0.0);
-  if (contact.law == Law::rigid) {
+  if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
+    // nothing rebounds there
+  } else if (contact.law == Law::rigid) {
     contact.restitution = table.number("restitution");
     contact.capture_velocity = table.optional_number("capture_velocity");
   } else {
@@ -70,9 +77,42 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   return law;
 }
 
+/// Of a body, or a surface.
+struct Boundary {
+  const std::vector<PlaneMesh::Edge>* edges;
+  double thickness;
+  std::optional<std::size_t> body;
+};
+
+Boundary find_side(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
+  if (!scene.matrices) {
+    const BoundaryRef found = find_boundary(table, key, name, scene);
+    return {&found.group->edges, scene.bodies[found.body].thickness, found.body};
+  }
+  std::vector<std::string> there;
+  for (const SurfaceSpec& surface : scene.surfaces) {
+    if (surface.name == name) return {&surface.edges, surface.thickness, {}};
+    there.push_back(surface.name);
+  }
+  table.fail(key, fmt::format("no surface is named \"{}\"; there are: {}", name,
+                              there.empty() ? "none" : listed(there, 8)));
+}
+
+PlanePoint place_in(const Scene& scene, int n) {
+  const auto i = static_cast<std::size_t>(n);
+  if (scene.matrices) return {scene.surface_nodes[i].x, scene.surface_nodes[i].y};
+  return {scene.nodes[i].x, scene.nodes[i].y};
+}
+
+std::string mesh_name(int n, const Scene& scene) {
+  const auto i = static_cast<std::size_t>(n);
+  if (!scene.matrices) return scene.nodes[i].name;
+  return fmt::format("[{:.9g}, {:.9g}]", scene.surface_nodes[i].x, scene.surface_nodes[i].y);
+}
+
 std::vector<std::string> mesh_names(const std::vector<int>& nodes, const Scene& scene) {
   std::vector<std::string> names;
-  for (const int n : nodes) names.push_back(scene.nodes[static_cast<std::size_t>(n)].name);
+  for (const int n : nodes) names.push_back(mesh_name(n, scene));
   return names;
 }
 
@@ -81,7 +121,7 @@ void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) 
   std::set<int> master;
   for (const MortarNode& k : seam.nodes)
     for (const auto& [node, weight] : k.master) master.insert(node);
-  const std::string first = scene.nodes[static_cast<std::size_t>(seam.nodes.front().node)].name;
+  const std::string first = mesh_name(seam.nodes.front().node, scene);
   std::erase_if(seam.nodes, [&](const MortarNode& k) { return master.contains(k.node); });
   if (seam.nodes.empty())
     table.fail("master",
@@ -91,26 +131,23 @@ void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) 
 }
 
 /// The mortar of a table, checked.
-MortarSeam read_mortar(Table& table, const BoundaryRef& slave, const Scene& scene) {
-  const PlaceOf place = [&](int n) {
-    const Node& node = scene.nodes[static_cast<std::size_t>(n)];
-    return PlanePoint{node.x, node.y};
-  };
+MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
+  const PlaceOf place = [&](int n) { return place_in(scene, n); };
   if (table.has("master") == table.has("line")) table.fail("master", "expected one of master and line");
   MortarSeam seam;
   if (table.has("line")) {
     Table line = table.child("line");
     const auto point = line.vector("point");
-    seam = mortar_on_line(slave.group->edges, point, read_unit_vector(line, "normal"), place);
+    seam = mortar_on_line(*slave.edges, point, read_unit_vector(line, "normal"), place);
     line.finish();
     table.record("line", line.record().inline_table());
   } else if (const std::string master = table.text("master"); master == "ground") {
-    seam = mortar_on_ground(slave.group->edges, place);
+    seam = mortar_on_ground(*slave.edges, place);
   } else {
-    const BoundaryRef other = find_boundary(table, "master", master, scene);
-    if (other.group == slave.group)
+    const Boundary other = find_side(table, "master", master, scene);
+    if (other.edges == slave.edges)
       table.fail("master", "found the slave boundary itself, expected another one");
-    seam = mortar_between(slave.group->edges, other.group->edges, place);
+    seam = mortar_between(*slave.edges, *other.edges, place);
   }
   if (!seam.negative.empty())
     table.fail(
@@ -128,17 +165,40 @@ MortarSeam read_mortar(Table& table, const BoundaryRef& slave, const Scene& scen
   return seam;
 }
 
+/// Of [matrices]: the form n . (u_k - sum_l w_kl u_l) on degrees of freedom by name.
+Direction surface_form(const MortarNode& k, const std::array<double, 2>& n, const Scene& scene) {
+  Direction form;
+  const auto add = [&](int node, double factor) {
+    const SurfaceNode& at = scene.surface_nodes[static_cast<std::size_t>(node)];
+    for (const auto& [dof, along] : {std::pair{&at.ux, n[0]}, std::pair{&at.uy, n[1]}})
+      if (!dof->empty() && factor * along != 0.0) form.dofs.emplace_back(*dof, factor * along);
+  };
+  add(k.node, 1.0);
+  for (const auto& [node, weight] : k.master) add(node, -weight);
+  return form;
+}
+
+void set_forms(const MortarNode& k, const Scene& scene, ContactSpec& contact) {
+  Direction normal;
+  if (scene.matrices) {
+    normal = surface_form(k, k.normal, scene);
+    contact.tangent = surface_form(k, {k.normal[1], -k.normal[0]}, scene);
+    contact.tangent->place = contact.place;
+  } else {
+    normal.node = mesh_name(k.node, scene);
+    normal.vector = k.normal;
+    for (const auto& [node, weight] : k.master) normal.against.emplace_back(mesh_name(node, scene), weight);
+    contact.tangent = tangent_of(normal);
+    contact.tangent->place = contact.place;
+  }
+  normal.place = contact.place;
+  contact.normal = std::move(normal);
+}
+
 ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness, const Scene& scene) {
   ContactSpec contact = law.contact;
   const double area = k.length * thickness;
-  Direction normal;
-  normal.node = scene.nodes[static_cast<std::size_t>(k.node)].name;
-  normal.vector = k.normal;
-  normal.place = contact.place;
-  for (const auto& [node, weight] : k.master)
-    normal.against.emplace_back(scene.nodes[static_cast<std::size_t>(node)].name, weight);
-  contact.tangent = tangent_of(normal);
-  contact.normal = std::move(normal);
+  set_forms(k, scene, contact);
   contact.gap = law.gap.value_or(k.gap);
   contact.normal_stiffness = law.normal_stiffness * area;
   contact.normal_damping = law.normal_damping * area;
@@ -146,15 +206,12 @@ ContactSpec contact_of(const MortarNode& k, const SeamLaw& law, double thickness
   return contact;
 }
 
-/// Not recorded: whoever reads the key does that.
-bool is_word(Table& table, const char* key, std::string_view word) {
-  return table.has(key) && table.raw(key)->value_or(std::string()) == word;
-}
-
 /// law = "tied": nodes of the slave follow the master, at any gap.
 void read_tied(Table& table, const std::string& name, Scene& scene) {
   static_cast<void>(table.choice("law"));
-  const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
+  if (scene.matrices)
+    table.fail("law", "found \"tied\", expected a law with contacts: [matrices] are not tied");
+  const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
   if (table.has("line") || is_word(table, "master", "ground"))
     table.fail("law",
                "found \"tied\" to what rests: expected a boundary as master, or [[supports]] on the slave");
@@ -174,7 +231,6 @@ void read_tied(Table& table, const std::string& name, Scene& scene) {
 void read_seams(Table& top, Scene& scene, RecordedScene& record) {
   Names names = names_of(scene), seams;
   for (Table& table : tables_of(top, "seams")) {
-    if (scene.matrices) table.fail("", "has no meaning with [matrices]");
     SeamSpec seam;
     seam.place = table.place();
     seam.name = table.text("name");
@@ -187,20 +243,24 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
       record.add("seams", "[[seams]]", table.record());
       continue;
     }
-    const BoundaryRef slave = find_boundary(table, "slave", table.text("slave"), scene);
+    const Boundary slave = find_side(table, "slave", table.text("slave"), scene);
     const MortarSeam mortar = read_mortar(table, slave, scene);
     const SeamLaw law = read_seam_law(table, scene);
-    BodySpec& body = scene.bodies[slave.body];
-    seam.thickness = body.thickness;
+    seam.thickness = slave.thickness;
     seam.first_contact = scene.contacts.size();
     for (const MortarNode& k : mortar.nodes) {
-      ContactSpec contact = contact_of(k, law, body.thickness, scene);
+      ContactSpec contact = contact_of(k, law, slave.thickness, scene);
       contact.name = fmt::format("{}.{}", seam.name, seam.nodes.size() + 1);
       add_contact(table, std::move(contact), names, scene);
-      seam.nodes.push_back({k.node, k.length, k.normal});
+      seam.nodes.push_back({k.node, place_in(scene, k.node), k.length, k.normal});
     }
-    if (table.choice("contact_mass") == "none")
-      for (const MortarNode& k : mortar.nodes) body.massless.push_back(k.node);
+    if (table.choice("contact_mass") == "none") {
+      if (!slave.body)
+        table.fail("contact_mass",
+                   "found \"none\", expected none with [matrices]: their mass is given, and may be zero");
+      std::vector<int>& massless = scene.bodies[*slave.body].massless;
+      for (const MortarNode& k : mortar.nodes) massless.push_back(k.node);
+    }
     table.finish(fmt::format("is not allowed with law = \"{}\"; remove it",
                              law.contact.law == Law::rigid ? "rigid" : "compliant"));
     scene.seams.push_back(std::move(seam));

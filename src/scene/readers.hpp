@@ -39,6 +39,8 @@ void read_nodes(Table& top, Scene& scene, RecordedScene& record);
 void read_lines(Table& top, Scene& scene, RecordedScene& record);
 /// After all named nodes: their meshes add more.
 void read_bodies(Table& top, Scene& scene, RecordedScene& record);
+/// After the matrices.
+void read_surfaces(Table& top, Scene& scene, RecordedScene& record);
 /// After contacts, stops and pendulums: each makes contacts.
 void read_seams(Table& top, Scene& scene, RecordedScene& record);
 /// Before what refers to centres, which may be new nodes.

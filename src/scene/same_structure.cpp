@@ -37,8 +37,8 @@ std::string units_of(const toml::table& scene) {
 std::vector<std::string> differing_structure(const toml::table& a, const toml::table& b) {
   std::vector<std::string> tables;
   for (const char* key :
-       {"nodes", "lines", "sections", "members", "bodies", "seams", "masses", "rigid", "springs", "damping",
-        "supports", "contacts", "stops", "pendulums", "reduction", "matrices", "gravity"})
+       {"nodes", "lines", "sections", "members", "bodies", "surfaces", "seams", "masses", "rigid", "springs",
+        "damping", "supports", "contacts", "stops", "pendulums", "reduction", "matrices", "gravity"})
     if (!same(a.get(key), b.get(key))) tables.emplace_back(key);
   if (a["run"]["geometric"].value_or(false) != b["run"]["geometric"].value_or(false))
     tables.emplace_back("run.geometric");

@@ -13,11 +13,15 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
     const char* what = c.bowl             ? "a pendulum whose normal force varies"
                        : rises && c.shear ? "friction that rises with the slip rate beside a "
                                             "tangential_stiffness"
+                       : c.borrows        ? "a rigid contact on parts without mass"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;
     if (what != nullptr)
-      throw SceneError(scene.contacts[k].place, scene.contacts[k].key(c.bowl ? "radius" : "friction"),
+      throw SceneError(scene.contacts[k].place,
+                       scene.contacts[k].key(c.bowl      ? "radius"
+                                             : c.borrows ? "law"
+                                                         : "friction"),
                        fmt::format("sensitivities do not know {}; take differences of runs (sweep)", what));
   }
 }

@@ -68,12 +68,27 @@ void Finder::rows() {
   for (const RecordedEvent& event : record_.events) row_of(event);
 }
 
+/// Rates of the surfaces that touch: rows leave out those of borrowed springs.
+Sight Finder::touching(std::size_t k, const WitnessedSide& side) const {
+  const Contact& c = model_.contacts[k];
+  const State state = (*side.mode)[k].state;
+  Sight m = see(c, k, side);
+  if (!c.borrows || is_open(state)) return m;
+  if (c.tangential_stiffness) {
+    const int s = sign_of_slip(state);
+    const double ratio = c.normal_stiffness / *c.tangential_stiffness;
+    m.dut = s == 0 ? 0.0 : m.dut + s * c.friction.kinetic * ratio * m.dg;
+  }
+  m.dg = 0.0;
+  return m;
+}
+
 /// What a row of the events says of both sides is what they are. Values before are those of the decision, which takes
 /// out what tolerances have left.
 void Finder::row_of(const RecordedEvent& event) {
   const std::size_t k = event.contact;
   const Contact& c = model_.contacts[k];
-  const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
+  const Sight b = touching(k, record_.before), a = touching(k, record_.after);
   const WitnessLimits& tol = bench_.limits;
   const int contact = static_cast<int>(k);
   // What forces that hold accelerations are known to is a sum over the structure: rarely asked for.

@@ -300,6 +300,7 @@ class Maker {
     if (spec.quantity == OutputQuantity::gap) {
       output.u = contact.normal;
       output.constant = contact.gap;
+      if (contact.borrows) output.forces.push_back({k, -1.0 / contact.normal_stiffness, 0.0});
     }
     if (spec.quantity == OutputQuantity::slip) {
       output.u = contact.tangent;

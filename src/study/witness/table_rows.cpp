@@ -8,6 +8,7 @@
 #include "base/excerpt.hpp"
 #include "base/number.hpp"
 #include "base/rounding.hpp"
+#include "contact/motion.hpp"
 #include "result/csv_read.hpp"
 #include "signorini/error.hpp"
 #include "witness/laws.hpp"
@@ -47,8 +48,9 @@ void TableRows::instant(const InstantRow& row, const InstantRecord& record) {
     Size& size = sizes_[k];
     const Sight m = see(model_.contacts[k], k, record.after);
     if (row.start) {
-      size.gap_at_start = m.g;
-      size.ut_at_start = m.ut;
+      const bool touches = model_.contacts[k].borrows && !is_open(row.after.states[k].state);
+      size.gap_at_start = touches ? 0.0 : m.g;
+      size.ut_at_start = touches ? slip_of(model_.contacts[k], m.ut, m.T) : m.ut;
     }
     size.place = std::max(size.place, m.place);
     size.speed = std::max(size.speed, m.speed);
@@ -123,6 +125,10 @@ void TableRows::check(const Row& row, const char* file, const Found& found) {
   m.dut = row.vt;
   m.place = size.place;
   m.speed = size.speed;
+  if (c.borrows && !is_open(state->state)) {  // of its springs, whatever they are
+    m.g = row.N / c.normal_stiffness;
+    if (c.tangential_stiffness) m.ut = row.ut + row.T / *c.tangential_stiffness;
+  }
   if (state->state == State::inside) m.g = 0.0;  // it is a dashpot's: the same
   std::vector<Violation> broken;
   witness_.contact(row.t, row.contact, *state, m, false, size.force, broken);
@@ -153,11 +159,12 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
     check("friction force", row.T, 0.0);
     return;
   }
-  if (c.has_spring() && c.normal_damping == 0.0 && row.gap) check("normal force", row.N, kn * *row.gap);
+  if (c.has_spring() && !c.borrows && c.normal_damping == 0.0 && row.gap)
+    check("normal force", row.N, kn * *row.gap);
   if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
     check("friction force", row.T, -s * c.friction.kinetic * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
-    check("friction force", row.T, kt * (row.ut - state.anchor));
+    check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }
 
 void TableRows::reach(const Row& row) {

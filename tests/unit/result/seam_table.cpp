@@ -12,13 +12,11 @@ TEST_SUITE_BEGIN("unit/result/seam_table");
 TEST_CASE("seam_row: sums of forces and lengths, moment about the middle of the arc") {
   // Three nodes along a line at 33.7 degrees; the normal is square to it, to its left.
   const double a = 33.7 * 3.14159265358979323846 / 180.0, c = std::cos(a), s = std::sin(a);
-  Scene scene;
   SeamSpec seam;
   seam.name = "joint";
   const double lengths[] = {0.5, 1.0, 0.25}, along[] = {0.0, 1.0, 1.75};
   for (int i = 0; i < 3; ++i) {
-    scene.nodes.push_back({"", 4.0 + along[i] * c, -2.0 + along[i] * s, {}});
-    seam.nodes.push_back({i, lengths[i], {-s, c}});
+    seam.nodes.push_back({i, {4.0 + along[i] * c, -2.0 + along[i] * s}, lengths[i], {-s, c}});
   }
   std::vector<ContactSample> contacts(4);
   seam.first_contact = 1;  // one before it belongs to no seam
@@ -31,7 +29,7 @@ TEST_CASE("seam_row: sums of forces and lengths, moment about the middle of the 
   contacts[2].state = State::slip_minus;
   contacts[3].state = State::open;
 
-  const SeamRow row = seam_row(scene, seam, 1.5, contacts);
+  const SeamRow row = seam_row(seam, 1.5, contacts);
   CHECK(row.t == 1.5);
   CHECK(row.seam == "joint");
   CHECK(row.N == doctest::Approx(-10.0));

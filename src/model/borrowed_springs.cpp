@@ -1,0 +1,238 @@
+#include "model/borrowed_springs.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigen_dense.hpp"
+#include "base/rounding.hpp"
+#include "model/assembly/selection.hpp"
+#include "model/assembly/springs.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double independent = 1e-9;  // of 1: what is left of a direction beside the others
+
+[[noreturn]] void refuse_borrowing(const Scene& scene, std::size_t k, const char* key,
+                                   const std::string& why) {
+  throw SceneError(scene.contacts[k].place, scene.contacts[k].key(key), why);
+}
+
+const Dof* first_massless(const Model& model, const Combination& form) {
+  for (const auto& [dof, factor] : form.terms)
+    if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0) return &d;
+  return nullptr;
+}
+
+/// A column of B.
+struct Row {
+  std::size_t contact;
+  bool normal;
+  const Dof* dof;  ///< one of those that it moves
+};
+
+/// Of contacts that act on parts without mass.
+std::vector<Row> rows_of(const Scene& scene, const Model& model) {
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (!c.takes_impulses()) continue;
+    const Dof* along_n = first_massless(model, c.normal);
+    const Dof* along_t = c.has_friction() ? first_massless(model, c.tangent) : nullptr;
+    if (!along_n && !along_t) continue;
+    if (!along_n || (c.has_friction() && !along_t))
+      refuse_borrowing(
+          scene, k, "law",
+          fmt::format("{} has no mass, but the contact's {} moves parts with mass alone: expected mass on "
+                      "both, on none, or law = \"compliant\"",
+                      (along_n ? along_n : along_t)->displacement, along_n ? "tangent" : "normal"));
+    if (scene.contacts[k].restitution != 0.0 || scene.contacts[k].capture_velocity)
+      refuse_borrowing(
+          scene, k, scene.contacts[k].restitution != 0.0 ? "restitution" : "capture_velocity",
+          fmt::format("{} has no mass, so nothing rebounds there: expected none", along_n->displacement));
+    rows.push_back({k, true, along_n});
+    if (along_t) rows.push_back({k, false, along_t});
+  }
+  return rows;
+}
+
+const Combination& form_of_row(const Model& model, const Row& row) {
+  const Contact& c = model.contacts[row.contact];
+  return row.normal ? c.normal : c.tangent;
+}
+
+/// S; n x rows.
+SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Row>& rows) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    for (const auto& [dof, factor] : form_of_row(model, rows[j]).terms)
+      if (model.dofs[static_cast<std::size_t>(dof)].massless && factor != 0.0)
+        entries.emplace_back(dof, static_cast<int>(j), factor);
+  const auto m = static_cast<Eigen::Index>(rows.size());
+  SparseMatrix b(model.size(), m);
+  b.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixXd square = Eigen::MatrixXd(SparseMatrix(b.transpose() * b));
+  const Eigen::VectorXd size = square.diagonal().cwiseSqrt();
+  for (Eigen::Index j = 0; j < m; ++j) square.col(j).array() /= size.array() * size[j];
+  const EigenPairs pairs = symmetric_eigen(square);
+  if (!(pairs.values[0] > independent)) {
+    Eigen::Index most = 0;
+    pairs.vectors.col(0).cwiseAbs().maxCoeff(&most);
+    const Row& row = rows[static_cast<std::size_t>(most)];
+    refuse_borrowing(
+        scene, row.contact, "law",
+        fmt::format(
+            "{} has no mass, and other rigid contacts act there, too, so nobody can say which of them "
+            "carries the force; leave one out, or give them law = \"compliant\"",
+            row.dof->displacement));
+  }
+  square = size.asDiagonal() * square * size.asDiagonal();
+  const Eigen::MatrixXd inverse = solve_dense(square, Eigen::MatrixXd::Identity(m, m));
+  SparseMatrix s = b * SparseMatrix(inverse.sparseView(1.0, rounding::eps * inverse.cwiseAbs().maxCoeff()));
+  return s;
+}
+
+/// Of dampers and loads nothing may act along S.
+void check_alone(const Scene& scene, const SparseMatrix& dampers, const Model& model,
+                 const std::vector<Row>& rows, const SparseMatrix& s) {
+  const bool beta = scene.damping.beta > 0.0;
+  const SparseMatrix damped = dampers * s;
+  const auto strange = [&](Eigen::Index j, const std::string& what, const char* instead) {
+    const Row& row = rows[static_cast<std::size_t>(j)];
+    refuse_borrowing(
+        scene, row.contact, "law",
+        fmt::format("{} has no mass, and {}: there a rigid contact takes {}, or give it law = \"compliant\"",
+                    row.dof->displacement, what, instead));
+  };
+  for (Eigen::Index j = 0; j < s.cols(); ++j) {
+    if (beta) strange(j, "damping.beta damps it", "beta = 0");
+    if (damped.col(j).norm() > 0.0) strange(j, "a damper acts on it", "none");
+  }
+  for (const Load& load : model.loads) {
+    const Vector along = s.transpose() * full(load.direction, model.size());
+    const Vector terms = s.cwiseAbs().transpose() * full(load.direction, model.size()).cwiseAbs();
+    for (Eigen::Index j = 0; j < along.size(); ++j)
+      if (std::abs(along[j]) > rounding::of_many * terms[j])
+        strange(j, fmt::format("{} acts on it", load.name), "no load of its own");
+  }
+}
+
+/// K + A X A^T; A: n x m, sparse, X: m x m, full.
+SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eigen::MatrixXd& x) {
+  std::vector<int> touched;
+  Vector any = Vector::Zero(a.rows());
+  for (int j = 0; j < a.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(a, j); it; ++it) any[it.row()] = 1.0;
+  for (int i = 0; i < any.size(); ++i)
+    if (any[i] != 0.0) touched.push_back(i);
+  const SparseMatrix pick = selection(touched, static_cast<int>(a.rows()));
+  const Eigen::MatrixXd part(SparseMatrix(pick.transpose() * a));
+  const Eigen::MatrixXd block = part * x * part.transpose();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < block.rows(); ++i)
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+      if (const double sum = 0.5 * (block(i, j) + block(j, i)); sum != 0.0)
+        entries.emplace_back(touched[static_cast<std::size_t>(i)], touched[static_cast<std::size_t>(j)], sum);
+  SparseMatrix added(k.rows(), k.cols());
+  added.setFromTriplets(entries.begin(), entries.end());
+  return k + added;
+}
+
+}  // namespace
+
+std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const DofMap& map,
+                                              const SparseMatrix& dampers, Model& model) {
+  const std::vector<Row> rows = rows_of(scene, model);
+  if (rows.empty()) return std::nullopt;
+  static_cast<void>(map);
+  const SparseMatrix s = shifts(scene, model, rows);
+  check_alone(scene, dampers, model, rows, s);
+  const SparseMatrix ks = model.stiffness * s;
+  const Eigen::MatrixXd g(SparseMatrix(s.transpose() * ks));
+  const Eigen::VectorXd l = 2.0 * g.cwiseAbs().rowwise().sum();
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    Contact& c = model.contacts[rows[j].contact];
+    const double stiffness = l[static_cast<Eigen::Index>(j)];
+    if (!(stiffness > 0.0))
+      refuse_borrowing(
+          scene, rows[j].contact, "law",
+          fmt::format("{} has neither mass nor stiffness; give it a mass, or the contact law = \"compliant\"",
+                      rows[j].dof->displacement));
+    c.law = Law::compliant;
+    c.borrows = true;
+    if (rows[j].normal)
+      c.normal_stiffness = stiffness;
+    else
+      c.tangential_stiffness = stiffness;
+  }
+  const auto m = g.rows();
+  const Eigen::MatrixXd x = solve_dense(Eigen::MatrixXd(l.asDiagonal()) - 0.5 * (g + g.transpose()),
+                                        Eigen::MatrixXd::Identity(m, m));
+  model.stiffness = with_block(model.stiffness, ks, x);
+  BorrowedSprings springs;
+  for (const Row& row : rows) springs.rows.push_back({row.contact, row.normal});
+  springs.shifts = s;
+  const SparseMatrix seen = SparseMatrix(x.sparseView()) * SparseMatrix(ks.transpose());
+  SparseMatrix one(model.size(), model.size());
+  one.setIdentity();
+  springs.displacements = one + SparseMatrix(s * seen);
+  return springs;
+}
+
+void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model& model) {
+  if (!scene.initial.saved) return;
+  if (model.continues.empty())
+    throw SceneError(scene.initial.place, "run.initial",
+                     "the run has no row of contacts.csv at this time of the same contacts, from which rigid "
+                     "contacts on parts without mass continue: expected one of its output times");
+  Vector given(springs.shifts.cols());
+  for (std::size_t j = 0; j < springs.rows.size(); ++j) {
+    const auto [k, normal] = springs.rows[j];
+    const Contact& c = model.contacts[k];
+    SavedState::Left& left = model.continues[k];
+    double& place = normal ? left.gap.emplace(left.gap.value_or(0.0)) : left.ut;
+    const double by = normal ? left.N / c.normal_stiffness : left.T / *c.tangential_stiffness;
+    place += by;
+    given[static_cast<Eigen::Index>(j)] = by;
+  }
+  model.u0 += springs.shifts * given;
+}
+
+void show_borrowed(const BorrowedSprings& springs, Model& model) {
+  const SparseMatrix& p = springs.displacements;
+  if (model.reduction)
+    model.reduction->shapes = p * model.reduction->shapes;
+  else
+    model.basis = model.basis ? SparseMatrix(p * *model.basis) : p;
+}
+
+void check_unique(const Scene& scene, const Model& model) {
+  std::vector<int> light;
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
+  const bool any = std::any_of(model.contacts.begin(), model.contacts.end(),
+                               [](const Contact& c) { return c.borrows && c.has_friction(); });
+  if (!any) return;
+  const SparseMatrix pick = selection(light, model.size());
+  const SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    if (!c.borrows || !c.has_friction()) continue;
+    const Vector n = pick.transpose() * full(c.normal, model.size()),
+                 t = pick.transpose() * full(c.tangent, model.size());
+    const Vector of_n = solver.solve(n);
+    const double nn = n.dot(of_n) + 1.0 / c.normal_stiffness, nt = t.dot(of_n);
+    const double f = std::max(c.friction.static_, c.friction.kinetic);
+    if (f * std::abs(nt) >= nn)
+      refuse_borrowing(
+          scene, k, "friction",
+          fmt::format("the forces of this contact are not unique while it slides: a friction force moves it "
+                      "along its normal {:.4g} times as far as the normal force that goes with it; expected "
+                      "friction below {:.4g}, mass at the contact, or law = \"compliant\"",
+                      f * std::abs(nt) / nn, nn / std::abs(nt)));
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,276 @@
+// Rigid contacts where the structure has no mass: rows g = 0 and ut = const on displacements.
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "behaviour/halves.hpp"
+#include "signorini/simulate.hpp"
+
+using namespace signorini;
+
+namespace {
+
+/// A mass on a foot without mass, k along x and k_n along y between them; pressed by P, pulled by a ramp r t.
+struct BlockOnFoot {
+  double m = 2.0, k = 300.0, k_n = 900.0, P = 40.0, r = 3.0, fs = 0.5, fk = 0.5, t_end = 8.0;
+  const char* engine = "exact";
+  double angle = 0.0, unit = 1.0;  ///< the whole turned; lengths in units of 1/unit m
+
+  [[nodiscard]] Scene scene() const {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double xx = c * c * k + s * s * k_n, yy = s * s * k + c * c * k_n, xy = c * s * (k - k_n);
+    const auto block = [&](int row, double sign) {
+      return row == 0 ? fmt::format("{:.17g}, {:.17g}", sign * xx, sign * xy)
+                      : fmt::format("{:.17g}, {:.17g}", sign * xy, sign * yy);
+    };
+    return parse_scene(fmt::format(
+                           R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+run = {{ t_end = {0}, engine = "{1}", rtol = 1e-10, output_dt = 0.25, initial = "static", certify = false }}
+[matrices]
+dofs = ["x", "y", "fx", "fy"]
+mass = [[{2}, 0.0, 0.0, 0.0], [0.0, {2}, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
+stiffness = [[{3}, {4}], [{5}, {6}], [{4}, {3}], [{6}, {5}]]
+[[loads]]
+direction = {{ x = {7:.17g}, y = {8:.17g} }}
+amplitude = {9}
+history = {{ type = "constant" }}
+[[loads]]
+direction = {{ x = {10:.17g}, y = {11:.17g} }}
+amplitude = {12}
+history = {{ type = "table", times = [0.0, 1.0e3], values = [0.0, 1.0e3] }}
+[[contacts]]
+name = "foot"
+law = "rigid"
+normal = {{ fx = {13:.17g}, fy = {14:.17g} }}
+tangent = {{ fx = {10:.17g}, fy = {11:.17g} }}
+friction = {{ static = {15}, kinetic = {16} }}
+)",
+                           t_end, engine, m, block(0, 1.0), block(0, -1.0), block(1, 1.0), block(1, -1.0), s,
+                           -c, P, c, s, r, -s, c, fs, fk),
+                       "foot.toml");
+  }
+  [[nodiscard]] double omega() const { return std::sqrt(k / m); }
+  /// Stuck: x = (r/k)(t - sin(w t)/w); it slips once k x = f P.
+  [[nodiscard]] double stuck(double t) const { return r / k * (t - std::sin(omega() * t) / omega()); }
+  [[nodiscard]] double slips_at() const {
+    double a = 0.0, b = t_end;
+    while (b - a > 1e-15 * b) (k * stuck(0.5 * (a + b)) < fs * P ? a : b) = 0.5 * (a + b);
+    return a;
+  }
+  /// Slides with T = fk P: x'' = (r t - fk P)/m.
+  [[nodiscard]] double slides(double t) const {
+    const double t1 = slips_at(), x1 = stuck(t1), v1 = r / k * (1.0 - std::cos(omega() * t1)), d = t - t1;
+    return x1 + v1 * d + (r * t1 - fk * P) / m * d * d / 2.0 + r / m * d * d * d / 6.0;
+  }
+};
+
+void check_closed_form(const BlockOnFoot& block, double digits) {
+  const Result result = simulate(block.scene());
+  REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+  CHECK(result.report.witness.violated == 0);
+  REQUIRE(result.events.size() == 1);
+  const double t1 = block.slips_at();
+  CHECK(result.events[0].type == EventType::slip);
+  CHECK(std::abs(result.events[0].t - t1) <= digits * t1);
+  const double c = std::cos(block.angle), s = std::sin(block.angle);
+  const double size = block.slides(block.t_end);
+  for (const auto& row : result.rows) {
+    CAPTURE(row.t);
+    const bool after = row.t > t1;
+    const double x = after ? block.slides(row.t) : block.stuck(row.t);
+    const double T = after ? block.fk * block.P : block.k * x;
+    const ContactSample& foot = row.contacts[0];
+    CHECK(std::abs(c * row.u[0] + s * row.u[1] - x) <= digits * size);
+    CHECK(std::abs(c * row.u[2] + s * row.u[3] - (x - T / block.k)) <= digits * size);
+    CHECK(std::abs(-s * row.u[2] + c * row.u[3]) <= digits * size);
+    CHECK(foot.gap == 0.0);
+    CHECK(std::abs(foot.ut - (x - T / block.k)) <= digits * size);
+    CHECK(std::abs(foot.slip - foot.ut) <= digits * size);
+    CHECK(std::abs(foot.T - T) <= digits * block.P);
+    CHECK(std::abs(foot.N + block.P) <= digits * block.P);
+    // The springs of the structure hold all there is, and what static friction held beyond kinetic is lost at once.
+    const double elastic = T * T / (2.0 * block.k) + block.P * block.P / (2.0 * block.k_n);
+    CHECK(std::abs(row.energy.elastic - elastic) <= digits * elastic);
+    CHECK(row.energy.contact == 0.0);
+    const double before = block.fs * block.P, drop = before - block.fk * block.P;
+    const double lost =
+        !after ? 0.0
+               : drop * (before + block.fk * block.P) / (2.0 * block.k) + T * (foot.slip - drop / block.k);
+    CHECK(std::abs(row.energy.friction - lost) <= digits * block.P * size);
+  }
+}
+
+/// Two blocks that do not match on the ground, dragged to and fro at the top; law: of both seams.
+std::string dragged_blocks(const char* engine, double degrees, const std::string& law) {
+  const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
+  return fmt::format(
+      R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+gravity = [{0:.17g}, {1:.17g}]
+run = {{ t_end = 0.03, engine = "{2}", rtol = 1e-10, output_dt = 0.001, certify = false, initial = "static" }}
+damping = {{ alpha = 60.0, beta = 0.0 }}
+[[bodies]]
+name = "low"
+rectangle = {{ size = [0.4, 0.1], degrees = {3} }}
+elements = [4, 2]
+E = 2.0e7
+nu = 0.3
+density = 2000.0
+thickness = 0.1
+plane = "stress"
+[[bodies]]
+name = "high"
+rectangle = {{ from = [{4:.17g}, {5:.17g}], size = [0.3, 0.2], degrees = {3} }}
+elements = [3, 2]
+E = 3.0e7
+nu = 0.2
+density = 2500.0
+thickness = 0.1
+plane = "stress"
+[[seams]]
+name = "foot"
+slave = "low.bottom"
+master = "ground"
+friction = 0.5
+contact_mass = "none"
+{6}
+[[seams]]
+name = "joint"
+slave = "high.bottom"
+master = "low.top"
+friction = 0.3
+contact_mass = "none"
+{6}
+[[loads]]
+group = "high.top"
+traction = 2500.0
+direction = [{7:.17g}, {8:.17g}]
+history = {{ type = "harmonic", omega = 300.0 }}
+)",
+      9.81 * s, -9.81 * c, engine, degrees, 0.05 * c - 0.1 * s, 0.05 * s + 0.1 * c, law, c, s);
+}
+
+Scene dragged(const char* engine, double degrees, const std::string& law) {
+  return parse_scene(dragged_blocks(engine, degrees, law), "blocks.toml");
+}
+
+const char* const rigid_law = "law = \"rigid\"";
+
+std::string compliant_law(double stiffness) {
+  return fmt::format("law = \"compliant\"\nnormal_stiffness = {0}\ntangential_stiffness = {0}", stiffness);
+}
+
+void check_alike_events(const Result& a, const Result& b, double within) {
+  REQUIRE(a.events.size() == b.events.size());
+  for (std::size_t i = 0; i < a.events.size(); ++i) {
+    CAPTURE(i);
+    CHECK(a.events[i].contact == b.events[i].contact);
+    CHECK(a.events[i].to == b.events[i].to);
+    CHECK(std::abs(a.events[i].t - b.events[i].t) <= within);
+  }
+}
+
+/// Greatest difference of displacements over all rows.
+double farthest(const Result& a, const Result& b) {
+  REQUIRE(a.rows.size() == b.rows.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    most = std::max(most, (a.rows[i].u - b.rows[i].u).cwiseAbs().maxCoeff());
+  return most;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("behaviour/rigid_massless");
+
+TEST_CASE("a block on a foot without mass: slip begins where T reaches f N, the foot follows; closed forms") {
+  for (const double angle : {0.0, 0.7, -2.1}) {
+    CAPTURE(angle);
+    check_closed_form({.angle = angle}, 1e-10);
+    check_closed_form({.fs = 0.5, .fk = 0.3, .angle = angle}, 1e-10);
+  }
+  check_closed_form({.engine = "ida", .angle = 0.7}, 1e-7);
+}
+
+TEST_CASE("rigid seams without mass: exact, ida and turned alike; laws, energy, halves") {
+  const Result exact = simulate(dragged("exact", 0.0, rigid_law));
+  REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
+  CHECK(exact.events.size() > 10);
+  CHECK(exact.report.witness.violated == 0);
+  double most = 0.0;
+  for (const auto& row : exact.rows) most = std::max(most, row.energy.kinetic + row.energy.elastic);
+  for (const auto& row : exact.rows) {
+    CHECK(std::abs(row.energy.balance() - exact.rows.front().energy.balance()) <= 1e-9 * most);
+    for (const ContactSample& c : row.contacts) {
+      CHECK(c.gap >= 0.0);
+      if (!is_open(c.state)) CHECK(c.gap == 0.0);
+      if (kind_of(c.state) == State::stick) CHECK(c.vt == 0.0);
+    }
+  }
+  const Result turned = simulate(dragged("exact", 33.7, rigid_law));
+  check_alike_events(exact, turned, 1e-10);
+  check_alike_events(exact, simulate(dragged("ida", 0.0, rigid_law)), 1e-6);
+  const auto halves = tests::halves::split_text(dragged_blocks("exact", 0.0, rigid_law), {}, 0.47);
+  CHECK(halves.events_agree);
+  CHECK(halves.events > 3);
+  CHECK(halves.time <= 1e-9);
+  CHECK(halves.state <= 1e-8);
+}
+
+TEST_CASE("rigid seams without mass are the limit of compliant ones: differences fall like 1/k") {
+  const Result limit = simulate(dragged("exact", 0.0, rigid_law));
+  double before = 0.0;
+  for (const double k : {1e10, 1e11, 1e12}) {
+    CAPTURE(k);
+    const double now = farthest(limit, simulate(dragged("exact", 0.0, compliant_law(k))));
+    if (before > 0.0) CHECK(before / now == doctest::Approx(10.0).epsilon(0.1));
+    before = now;
+  }
+}
+
+TEST_CASE(
+    "friction that makes forces without mass not unique is refused, as are loads, dampers and rebounds "
+    "there") {
+  const auto refused = [](const std::string& text, const std::string& message) {
+    CAPTURE(message);
+    try {
+      static_cast<void>(build_model(parse_scene(text, "refused.toml")));
+      FAIL("accepted");
+    } catch (const SceneError& e) {
+      CHECK_MESSAGE(std::string(e.what()).find(message) != std::string::npos, std::string(e.what()));
+    }
+  };
+  // A foot on a leg that leans: [k_xx k_xy; k_xy k_yy] = [2 1; 1 2] k, F_nn = F_tt, F_nt = -F_nn/2; unique below f = 2.
+  const auto leaning = [](const char* f, const char* more) {
+    return fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+run = {{ t_end = 1.0 }}
+[matrices]
+dofs = ["x", "y", "fx", "fy"]
+mass = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
+stiffness = [[2.0, 1.0, -2.0, -1.0], [1.0, 2.0, -1.0, -2.0], [-2.0, -1.0, 2.0, 1.0], [-1.0, -2.0, 1.0, 2.0]]
+[[contacts]]
+name = "foot"
+law = "rigid"
+normal = {{ fy = 1.0 }}
+tangent = {{ fx = 1.0 }}
+friction = {}
+{})",
+                       f, more);
+  };
+  CHECK_NOTHROW(static_cast<void>(build_model(parse_scene(leaning("1.99", ""), "leaning.toml"))));
+  refused(leaning("2.01", ""),
+          "contacts.foot.friction: the forces of this contact are not unique while it slides");
+  refused(leaning("0.5", "restitution = 0.5\n"),
+          "contacts.foot.restitution: fy.u has no mass, so nothing rebounds");
+  refused(leaning("0.5", "[[loads]]\ndirection = { fx = 1.0 }\namplitude = 1.0\n"),
+          "acts on it: there a rigid contact takes no load");
+  std::string damped = dragged_blocks("exact", 0.0, rigid_law);
+  damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");
+  refused(damped, "damping.beta damps it");
+}
+
+TEST_SUITE_END();

@@ -44,6 +44,18 @@ struct HeldRows {
   static bool holds_tangent(const Contact& c, State state) {
     return kind_of(state) == State::stick && !c.tangential_stiffness && !c.shear;
   }
+  /// Row k holds what the others hold already: its force is not unique.
+  [[nodiscard]] bool is_shared(Eigen::Index k) const {
+    const auto size = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd W(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (Eigen::Index j = 0; j < size; ++j)
+        W(i, j) = rows[static_cast<std::size_t>(i)]->dot(columns[static_cast<std::size_t>(j)]);
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index i = 0; i < size; ++i)
+      if (i != k) others.push_back(i);
+    return rank(W) == rank(W(others, Eigen::all));
+  }
   struct Change {
     Eigen::VectorXd forces, unsure;
   };
@@ -219,6 +231,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
     if (response == nullptr) return std::nullopt;
     held.add(other, state, *response, see(other, j, record_.after), swung, false);
   }
+  if (solved_T && held.is_shared(solved_N ? 1 : 0)) return std::nullopt;
   const HeldRows::Change change = held.solve(push);
   if (solved_N) {
     m.N = N + change.forces[0];

@@ -112,6 +112,13 @@ TEST_CASE("Euler's loads of four end conditions, at order 4") {
   }
 }
 
+TEST_CASE("loads far below the first factor have it, too, and those close to it") {
+  const double whole = first_factor(column(fixed("A", "ux, uy, rz"), 8, 0.5 * euler(2.0))) * 0.5;
+  for (const double part : {1e-7, 1e-3, 0.999})
+    CHECK(first_factor(column(fixed("A", "ux, uy, rz"), 8, part * euler(2.0))) * part ==
+          doctest::Approx(whole).epsilon(1e-7));
+}
+
 TEST_CASE("what lies beside a column and is free, or has no stiffness of its own, leaves its factor alone") {
   // Common null motions of K and K_g: three of each free frame, which are not along axes.
   const double P = 0.3 * euler(2.0);

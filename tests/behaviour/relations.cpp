@@ -78,33 +78,41 @@ TEST_SUITE("behaviour/relations") {
   }
 }
 
+namespace {
+
+/// One relation of a scene that was drawn is explained; `open`: because the data leave it undetermined.
+void check_pair(const std::string& text, std::uint64_t seed, const char* relation, bool open) {
+  RelationSettings settings;
+  settings.seed = 1;
+  settings.bounds.seconds = 1e6;
+  settings.only = relation;
+  long compared = 0;
+  CAPTURE(seed);
+  examine_relations(text, "drawn", settings, [&](const char*, const Related& related, const Likeness& found) {
+    ++compared;
+    CAPTURE(related.name);
+    CAPTURE(found.what);
+    CHECK(is_explained(found.verdict));
+    CHECK((found.verdict == Likeness::Class::undetermined) == open);
+  });
+  CHECK(compared == 1);
+}
+
+}  // namespace
+
 TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("random scenes and one relation that parted from them") {
     // 977: rounding of velocities told which way a contact at its limit slips. 1234, 1395: parts of a run had other captures.
-    // 537, 851: a rigid contact and a slider share a motion. 1243: nothing holds the start.
-    for (const auto& [seed, relation] : {std::pair{977U, "going on"},
-                                         {1234U, "going on"},
-                                         {1395U, "going on"},
-                                         {537U, "permuted"},
-                                         {851U, "shifted"},
-                                         {1243U, "turned"}}) {
-      RelationSettings settings;
-      settings.seed = 1;
-      settings.bounds.seconds = 1e6;
-      settings.only = relation;
-      long compared = 0;
-      CAPTURE(seed);
-      examine_relations(draw_whole_scene(seed), "drawn", settings,
-                        [&](const char*, const Related& related, const Likeness& found) {
-                          ++compared;
-                          CAPTURE(related.name);
-                          CAPTURE(found.what);
-                          CHECK(is_explained(found.verdict));
-                          const bool open = seed == 537U || seed == 851U || seed == 1243U;
-                          CHECK((found.verdict == Likeness::Class::undetermined) == open);
-                        });
-      CHECK(compared == 1);
-    }
+    for (const std::uint64_t seed : {977U, 1234U, 1395U})
+      check_pair(draw_whole_scene(seed), seed, "going on", false);
+    // 323, 541: static starts beside stiff contacts. 783: chatter to flights of rounding.
+    check_pair(draw_whole_scene(323U), 323U, "turned", false);
+    check_pair(draw_whole_scene(541U), 541U, "permuted", false);
+    check_pair(draw_whole_scene(783U), 783U, "turned", false);
+    // A rigid contact and a slider share a motion; nothing holds the start.
+    check_pair(draw_whole_scene(537U), 537U, "permuted", true);
+    check_pair(draw_whole_scene(851U), 851U, "shifted", true);
+    check_pair(draw_whole_scene(1243U), 1243U, "turned", true);
   }
 
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
@@ -115,22 +123,8 @@ TEST_SUITE("slow/behaviour/relations") {
                                          {11U, "in units"},
                                          {16U, "going on"},
                                          {19U, "turned"},
-                                         {73U, "going on"}}) {
-      RelationSettings settings;
-      settings.seed = 1;
-      settings.bounds.seconds = 1e6;
-      settings.only = relation;
-      long compared = 0;
-      CAPTURE(seed);
-      examine_relations(draw_structure_scene(seed), "drawn", settings,
-                        [&](const char*, const Related& related, const Likeness& found) {
-                          ++compared;
-                          CAPTURE(related.name);
-                          CAPTURE(found.what);
-                          CHECK(is_explained(found.verdict));
-                        });
-      CHECK(compared == 1);
-    }
+                                         {73U, "going on"}})
+      check_pair(draw_structure_scene(seed), seed, relation, false);
   }
 
   TEST_CASE("random structures beside related ones: bodies, bends, hangers, pendulums, P-delta") {

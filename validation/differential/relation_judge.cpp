@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/eigen_dense.hpp"
 #include "differential/transform.hpp"
 #include "model/assembly/springs.hpp"
 
@@ -213,10 +214,22 @@ std::vector<double> floors(const SeenRun& run, const Scales& scales, double rela
   return result;
 }
 
+/// Greatest displacement of the rows: gaps, slips, outputs.
+double greatest_displacement(const SeenRun& run) {
+  double greatest = 0.0;
+  for (std::size_t j = 0; j < run.columns.size(); ++j) {
+    const SeenColumn& c = run.columns[j];
+    if (c.unit.force != 0 || c.unit.length != 1 || c.unit.time != 0) continue;
+    for (const SeenRun::Row& row : run.rows)
+      if (std::isfinite(row.values[j])) greatest = std::max(greatest, std::abs(row.values[j]));
+  }
+  return greatest;
+}
+
 /// Forces of elements are k times a difference of displacements, which are known to some eps of the greatest.
-double rounding_of_element(const Model& model, const SeenColumn& column) {
+double rounding_of_element(const Model& model, const SeenColumn& column, double reached) {
   if (column.of != SeenColumn::Of::force) return 0.0;
-  double greatest = model.scales.displacement;
+  double greatest = std::max(model.scales.displacement, reached);
   for (Eigen::Index i = 0; i < model.u0.size(); ++i)
     if (!model.dofs[static_cast<std::size_t>(i)].rotation)
       greatest = std::max(greatest, std::abs(model.u0[i]));
@@ -227,15 +240,24 @@ double rounding_of_element(const Model& model, const SeenColumn& column) {
   return 0.0;
 }
 
-/// Two contacts of different kinds stick rigidly along one direction: their forces are not unique (docs/theory.md), and which
-/// of them slips first is nobody's datum.
+/// A contact sticks rigidly along what other rigid contacts hold already, were they closed: its friction is not unique
+/// (docs/theory.md), and which of them slips first is nobody's datum.
 bool shares_motion(const Model& model) {
-  for (const Contact& a : model.contacts)
-    for (const Contact& b : model.contacts) {
-      if (!a.sticks_rigidly() || !b.sticks_rigidly() || a.takes_impulses() == b.takes_impulses()) continue;
-      const Vector x = full(a.tangent, model.size()), y = full(b.tangent, model.size());
-      if (std::abs(x.dot(y)) >= (1.0 - rounding_of_sums) * x.norm() * y.norm()) return true;
-    }
+  std::vector<Vector> rows;
+  std::vector<std::size_t> tangents;
+  for (const Contact& c : model.contacts) {
+    if (c.takes_impulses()) rows.push_back(full(c.normal, model.size()));
+    if (!c.sticks_rigidly()) continue;
+    tangents.push_back(rows.size());
+    rows.push_back(full(c.tangent, model.size()));
+  }
+  Eigen::MatrixXd all(model.size(), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = rows[i].normalized();
+  for (const std::size_t t : tangents) {
+    Eigen::MatrixXd others = all;
+    others.col(static_cast<Eigen::Index>(t)).setZero();
+    if (rank(others) == rank(all)) return true;
+  }
   return false;
 }
 
@@ -279,7 +301,7 @@ struct RelationJudge::Members {
   SeenRun run;
   std::vector<double> floor;
   bool open_start = false;     ///< by the start's own words
-  bool shared_motion = false;  ///< a rigid contact and a slider may stick to one motion
+  bool shared_motion = false;  ///< rigid contacts may hold one motion, one of them by friction
   mutable std::optional<Spread> spread, spread_of_steps;
 
   [[nodiscard]] Spread spread_by(const std::vector<Scene>& neighbours, double factor) const {
@@ -471,7 +493,8 @@ void RelationJudge::Members::figures(const Related& related, const SeenRun& othe
     look("extreme", run.outputs[i] + " maximum", run.extremes[i].maximum, other.extremes[i].maximum, allowed);
     look("extreme", run.outputs[i] + " minimum", run.extremes[i].minimum, other.extremes[i].minimum, allowed);
   }
-  if (related.from > 0.0 || !with_peaks) return;
+  // At t = 0 a load that jumps has taken away what stood there; later its instant has both sides.
+  if (related.from > 0.0 || related.jumps_at_start || !with_peaks) return;
   for (std::size_t k = 0; k < run.contacts.size(); ++k) {
     const std::size_t j = places.at(run.contacts[k] + ".N");
     const double allowed = allowances.peaks[k] +
@@ -495,8 +518,9 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   m_->open_start = !model.statics.doubts.empty();
   m_->shared_motion = shares_motion(model);
   m_->floor = floors(m_->run, model.scales, rounding_of_sums + relative);
+  const double reached = greatest_displacement(m_->run);
   for (std::size_t j = 0; j < m_->floor.size(); ++j)
-    m_->floor[j] += rounding_of_element(model, m_->run.columns[j]);
+    m_->floor[j] += rounding_of_element(model, m_->run.columns[j], reached);
 }
 
 RelationJudge::~RelationJudge() = default;
@@ -555,10 +579,13 @@ Likeness RelationJudge::compare(const Related& related) const {
 }
 
 Likeness RelationJudge::compare(const Related& related, SeenRun other) const {
+  const bool told = m_->run.shared || other.shared;
   Likeness result = compared(related, std::move(other));
   const bool one_side =
       result.verdict == Class::refused_one_side || result.verdict == Class::stopped_one_side;
-  if (!is_explained(result.verdict) && (m_->open_start || (m_->shared_motion && one_side)))
+  const bool by_start = m_->shared_motion && (one_side || m_->scene.initial.is_frictional);
+  const bool by_run = m_->shared_motion && told && result.of == "sequence";
+  if (!is_explained(result.verdict) && (m_->open_start || by_start || by_run))
     result.verdict = Class::undetermined;
   return result;
 }

@@ -23,7 +23,8 @@ struct Likeness {
     other_order,    ///< the same but for the order of events closer than their errors
     stopped_alike,  ///< both refused, or both stopped at the same place
     too_long,       ///< given up
-    undetermined,  ///< the start says that the data leave it open; or two contacts share what sticks, and one run is refused for it
+    undetermined,  ///< the start says that the data leave it open; or rigid contacts share a motion by friction, and one run is
+    ///< refused for it, begins elsewhere or names other slips
     stopped_one_side,
     refused_one_side,
     understated,  ///< copies with every datum off by one rounding part as far: t_error, or the certain part, is too sharp

@@ -116,6 +116,8 @@ SeenRun see(const Scene& scene, const Bounds& bounds, Certify certify) {
   seen.t = outcome.t;
   seen.said = outcome.reason;
   seen.reason = reason_class(outcome.reason);
+  for (const std::string& warning : found.report.warnings)
+    seen.shared = seen.shared || warning.find("hold the same motion") != std::string::npos;
   if (outcome.kind == Outcome::Kind::stopped) seen.end = Track::End::stopped;
   if (outcome.kind == Outcome::Kind::interrupted) seen.end = Track::End::too_long;
   seen.until = seen.t;

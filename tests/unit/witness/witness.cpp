@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace signorini;
 
@@ -312,6 +313,32 @@ TEST_CASE("T below its limit does not let go") {
   r.before = {{State::stick, 0.02 - 3.9 / 8e3}};
   r.after = {{State::slip_plus, 0.0}};
   CHECK(names(r.by(block(ground(Law::compliant))), "necessity"));
+}
+
+TEST_CASE("what a rigid stop holds, too, has no friction force of its own: no reason to slip is asked for") {
+  // T = 3.5 below its limit of 4 becomes 3; the stop that is pushed against takes the rest, if it is closed.
+  for (const bool held : {false, true}) {
+    Contact foot = ground(Law::rigid), stop = ground(Law::rigid);
+    stop.name = "stop";
+    std::swap(stop.normal, stop.tangent);
+    stop.friction = {};
+    if (!held) stop.gap = 0.1;
+    Model model = block(foot);
+    model.contacts.push_back(stop);
+    Recorded r;
+    const Eigen::VectorXd before = Eigen::Vector4d(-10.0, 3.5, held ? -1.0 : 0.0, 0.0),
+                          after = Eigen::Vector4d(-10.0, 3.0, held ? -1.5 : 0.0, 0.0);
+    const State of_stop = held ? State::closed : State::open;
+    r.before = {{State::stick, 0.0}, {of_stop, 0.0}};
+    r.after = {{State::slip_plus, 0.0}, {of_stop, 0.0}};
+    r.record.t = 1.0;
+    r.record.resolution = 1e-15;
+    r.record.before = {&r.u_before, &r.v_before, nullptr, &r.before, &before, {Driven{}, Driven{}}};
+    r.record.after = {&r.u_after, &r.v_after, &r.a, &r.after, &after, {Driven{}, Driven{}}};
+    r.record.events.push_back({0, "slip", State::stick, State::slip_plus});
+    CAPTURE(held);
+    CHECK(names(Witness(model, {}).instant(r.record), "necessity") == !held);
+  }
 }
 
 TEST_CASE("an event that is ten uncertainties late") {

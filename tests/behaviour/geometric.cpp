@@ -156,6 +156,22 @@ TEST_CASE("a column under its own weight buckles at Greenhill's length, at order
   }
 }
 
+TEST_CASE("a load spread along a column, as a column's weight: the same factor, in either axes") {
+  const double critical = 2.25 * std::pow(1.866350858898855, 2) * EI / std::pow(length, 3), part = 0.4;
+  std::string weight = stood() + nodes({{"A", 0.0, 0.0}, {"B", 0.0, length}}) + section(EA, EI, rho) +
+                       member("A, B", "elements = 8\n") + fixed("A", "ux, uy, rz");
+  const std::string spread = weight;
+  weight.insert(weight.find("[run]"), fmt::format("gravity = [0.0, {:.17g}]\n", -part * critical / rho));
+  const auto load = [&](const std::string& along) {
+    return fmt::format("[[loads]]\nnodes = [\"A\", \"B\"]\n{}\ndistributed = {:.17g}\n", along,
+                       part * critical);
+  };
+  CHECK(first_factor(spread + load("axes = \"global\"\ndirection = [0.0, -1.0]")) ==
+        doctest::Approx(first_factor(weight)).epsilon(1e-10));
+  CHECK(first_factor(spread + load("axes = \"member\"\ndirection = [-1.0, 0.0]")) ==
+        doctest::Approx(first_factor(weight)).epsilon(1e-10));
+}
+
 TEST_CASE("the frequency of a loaded column: f0 sqrt(1 - P / P_cr), at order 4, tension too") {
   for (const double part : {0.5, 0.95, -2.0}) {
     CAPTURE(part);

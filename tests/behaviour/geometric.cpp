@@ -493,6 +493,14 @@ TEST_CASE("large structures by Lanczos: the same factors as small ones") {
     CHECK(std::abs(coarse - 16.0 * factor) < 3e-9);
     CHECK(std::abs(factor) < 5e-9);
   }
+  // Held rigidly in the middle it buckles in two half waves, at four times the load.
+  std::string middle =
+      column(pinned, 40, P) +
+      "[[contacts]]\nname = \"foot\"\nnode = \"M\"\nlaw = \"rigid\"\nnormal = [1.0, "
+      "0.0]\nfriction = 0.0\n[[loads]]\nnode = \"M\"\ndirection = [-1.0, 0.0]\namplitude = 1.0\n";
+  middle.insert(middle.find("B = ["), fmt::format("M = [0.0, {}]\n", 0.5 * length));
+  middle.replace(middle.find("\"A\", \"B\""), 8, "\"A\", \"M\", \"B\"");
+  CHECK(std::abs(first_factor(middle) * P / (4.0 * euler(1.0)) - 1.0) < 1e-7);
 }
 
 TEST_SUITE_END();

@@ -76,13 +76,22 @@ struct Orbit {
 };
 
 /// Errors: SceneError and UsageError for scenes without a period and without a belt, for loads that do not repeat with
-/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and ida have). A search that fails is a value: found is
-/// false, and `reason` says why. `recorder`: asked for `progress` only, which may stop the search.
+/// `period`, for an energy where something drives or damps the motion, for engines and laws that have no tangents (exact and
+/// ida have). A search that fails is a value: found is false, and `reason` says why. `recorder`: asked for `progress` only,
+/// which may stop the search.
 [[nodiscard]] Orbit find_orbit(const SceneReader& read, const OrbitOptions& options = {},
                                Recorder* recorder = nullptr);
 
 /// The scene of one period of the orbit, beginning on it.
 [[nodiscard]] Scene orbit_scene(const SceneReader& read, const Orbit& orbit);
+
+/// A point of a branch from which it can be continued.
+struct BranchMark {
+  double parameter = 0.0;
+  bool towards_to = true;                   ///< the parameter moves towards `to` there
+  Orbit orbit;                              ///< period, phase, autonomous, start
+  std::vector<std::string> sequences = {};  ///< those that the branch has met, by number
+};
 
 /// A branch of orbits over a key of the scene.
 struct BranchOptions {
@@ -95,6 +104,7 @@ struct BranchOptions {
   /// So many times in a row the walk changes to a branch that leaves at a flip, with twice the period, or at a branch
   /// point. 0: the first branch alone.
   int switches = 0;
+  std::optional<BranchMark> resumed = {};  ///< continues from there, without that point
 };
 
 struct BranchPoint {
@@ -129,7 +139,8 @@ struct Branch {
   std::string end;                     ///< why it ends, one sentence
   bool complete = false;               ///< it reached `to`, or `from` again behind a fold
   bool interrupted = false;
-  std::vector<SideBranch> sides;  ///< in the order in which they were followed
+  std::optional<BranchMark> last;  ///< of the first branch, if it has a point
+  std::vector<SideBranch> sides;   ///< in the order in which they were followed
 };
 
 /// Pseudo-arclength continuation of the orbit that find_orbit finds at `from`. seen: hears of every point, and may stop.

@@ -32,6 +32,7 @@ struct OrbitCommand : OutputOptions {
   OrbitOptions search;
   std::string over;
   int switches = 0;
+  bool resume = false;
 };
 
 fs::path directory_of(const OrbitCommand& options) {
@@ -126,8 +127,9 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     over.orbit = options.search;
     if (options.switches < 0) throw UsageError("--switch: expected an integer of at least 0");
     over.switches = options.switches;
-    return run_over(options.scene, reader_of(options.scene, changes), over, path, options);
+    return run_over(options.scene, reader_of(options.scene, changes), over, path, options, options.resume);
   }
+  if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
   check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
@@ -196,6 +198,8 @@ void add_orbit(Program& program) {
           "with --over: change so many times in a row to branches that leave at flips and branch points "
           "(default: 0)")
       ->option_text("N");
+  command->add_flag("--resume", options->resume,
+                    "with --over: continue the branch that ended early in the directory");
   add_settings(*command, options->settings);
   add_output_options(*command, *options, "replace an earlier orbit, or run, in the directory", "orbit.json");
   command->callback([&program, options] {

@@ -71,17 +71,26 @@ void read_over(const std::string& text, BranchOptions& options) {
   options.to = to;
 }
 
-ExitCode run_over(const std::string& scene, const SceneReader& read, const BranchOptions& over,
-                  const fs::path& path, const OutputOptions& options) {
-  check_folder(path, branch_folder(), options.force, scene);
+ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptions over, const fs::path& path,
+                  const OutputOptions& options, bool resume) {
+  if (!resume) check_folder(path, branch_folder(), options.force, scene);
   const Scene first = read({{over.path, shortest(over.from)}});
   std::vector<std::string> outputs;
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
-  begin_folder(path, branch_folder());
+  std::vector<BranchPoint> before;
+  if (resume) {
+    over.resumed = read_mark(path, read, over);
+    before = read_branch(path, outputs.size());
+  } else {
+    begin_folder(path, branch_folder());
+  }
   BranchWriter writer(path, outputs);
   Interrupt interrupt;
   BranchWatch watch;
-  const Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
+  for (const BranchPoint& point : before) writer.add(point);
+  Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
+  branch.points.insert(branch.points.begin(), before.begin(), before.end());
+  if (branch.last && !branch.complete) write_mark(path, read, over, *branch.last);
   const std::string json = branch_json(over, first.units, branch);
   write_file(path / "branch.json", json);
   std::vector<std::string> labels;

@@ -10,6 +10,7 @@
 #include "model/rescale.hpp"
 #include "orbit/orbit_engine.hpp"
 #include "orbit/shooting.hpp"
+#include "signorini/simulate.hpp"
 
 namespace signorini {
 namespace {
@@ -26,8 +27,10 @@ constexpr double same_time = 1e-9;  // of a period: rounding of times that are w
 BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first,
                      Recorder* recorder)
     : read_(read), options_(options), recorder_(recorder), autonomous_(first.autonomous) {
+  const double at = options.resumed ? options.resumed->parameter : options.from;
+  start_.s = (at - options.from) / (options.to - options.from);
   const SceneReader begun = [&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{options_.path, shortest(options_.from)}};
+    std::vector<Override> all{{options_.path, shortest(at)}};
     all.insert(all.end(), changes.begin(), changes.end());
     return read_(all);
   };
@@ -43,6 +46,19 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
     start_.state.slips.push_back(c.initial_slip);
   }
   start_.duration = first.period / machine_.time;
+}
+
+Orbit BranchMap::orbit_at(const BranchState& state) const {
+  Orbit orbit;
+  orbit.found = true;
+  orbit.autonomous = autonomous_;
+  orbit.period = state.duration * machine_.time;
+  orbit.phase = phase_ * machine_.time;
+  const double section = autonomous_ ? 0.0 : section_;
+  const Result rows = at(state.s)->rows(state.state, (1.0 - section) * state.duration);
+  orbit.start =
+      last_state(driven_from(build_model(scene_at(state.s)), orbit.phase + section * orbit.period), rows);
+  return orbit;
 }
 
 BranchMap BranchMap::doubled() const {

@@ -26,6 +26,8 @@ class BranchMap {
  public:
   BranchMap(const SceneReader& read, const BranchOptions& options, const Orbit& first, Recorder* recorder);
 
+  /// What find_orbit() would say of this orbit: period, phase, the state at its time 0.
+  [[nodiscard]] Orbit orbit_at(const BranchState& state) const;
   /// The same over twice the period.
   [[nodiscard]] BranchMap doubled() const;
   [[nodiscard]] bool autonomous() const { return autonomous_; }

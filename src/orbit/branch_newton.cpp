@@ -16,12 +16,12 @@ constexpr int most_corrections = 10;
 constexpr double longest_correction = 0.1;  // in the norm; steps are shorter. Chosen.
 constexpr double slow = 0.02;  // of the residual: more is left where dG/ds is that of another point
 constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in shooting.cpp
-// A residual is a difference of two states with the noise of the map: it does not fall below a few times the noise, and
-// reaches ten times it. Chosen, as is the greatest noise with which a branch can be followed.
-constexpr double of_noise = 4.0, of_noise_at_last = 10.0, greatest_noise = 1e-6;
-constexpr double held_from = 0.7;    // |t_s|: from there on the parameter is held by corrections. Chosen.
-constexpr double least_size = 1e-3;  // of a coordinate in the norm; chosen
-constexpr double singular = 1e-9;    // as in shooting.cpp
+// A residual does not fall below a few times the noise of the map. Chosen.
+constexpr double of_noise = 4.0;
+constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is near. Chosen.
+constexpr double held_from = 0.7;       // |t_s|: from there on the parameter is held by corrections. Chosen.
+constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
+constexpr double singular = 1e-9;       // as in shooting.cpp
 constexpr double amplitudes_a_range =
     5.0;  // in which the state may change as far as the parameter in its range
 // Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
@@ -118,7 +118,19 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
   }
   c.reason = fmt::format("Newton's method does not converge: a residual of {:.2g} of the amplitude is left",
                          c.residual);
+  if (held && !map_.autonomous() && c.residual <= worth_damping) close_damped(c, t.size());
   return c;
+}
+
+/// Where events appear and vanish between steps, as beside a graze, Phi jumps, and full steps go to and fro.
+void BranchNewton::close_damped(Corrected& c, Eigen::Index unknowns) const {
+  const ShootingStart start{c.state.state, c.state.duration, false, closed_at_last(), {}};
+  Shot shot = shoot(*map_.at(c.state.s), start, corrected_to);
+  if (!shot.closed || !refusal(shot.pass, unknowns).empty()) return;
+  c.state.state = std::move(shot.state);
+  c.pass = std::move(shot.pass);
+  c.residual = shot.residual;
+  c.done = true;
 }
 
 bool BranchNewton::holds(const Vector& t) { return std::abs(t[t.size() - 1]) >= held_from; }
@@ -199,13 +211,7 @@ std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Correc
 }
 
 void BranchNewton::hear_noise(const OrbitPass& first, const OrbitPass& second) {
-  if (first.end_rates.size() == 0 || !second.done()) return;
-  const OrbitSection section(map_.model(), first.begin);
-  if (OrbitSection(map_.model(), second.begin).size() != section.size()) return;
-  const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);
-  const Vector next = section.coordinates(second.end) - section.coordinates(first.end);
-  const Vector left = next - first.end_rates * (section.basis().transpose() * gap);
-  noise_ = std::min(greatest_noise, residual_of(section, first, left));
+  if (const auto noise = map_noise(map_.model(), first, second)) noise_ = std::min(greatest_noise, *noise);
 }
 
 std::optional<double> BranchNewton::shift(const Corrected& at, const Vector& t) const {

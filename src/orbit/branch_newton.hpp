@@ -75,15 +75,16 @@ class BranchNewton {
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
   /// From a point before to this one; nothing where the state at the section has other unknowns, or both are one.
   [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
-  /// The noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, where z1, z2 are the images of z0, z1. It is what
-  /// the next corrections can reach.
+  /// The noise of the map (shooting.hpp) is what the next corrections can reach.
   void hear_noise(const OrbitPass& first, const OrbitPass& second);
+  [[nodiscard]] double noise() const { return noise_; }
   /// Residual at which a correction is done that gets no further.
   [[nodiscard]] double closed_at_last() const;
   /// Where dz/ds is along the motion: the time by which the orbit at the section is later, a unit of s.
   [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
 
  private:
+  void close_damped(Corrected& c, Eigen::Index unknowns) const;
   [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(const BranchState& state, const OrbitPass& pass,

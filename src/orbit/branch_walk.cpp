@@ -14,31 +14,47 @@
 namespace signorini {
 namespace {
 
-constexpr double shortest_step = 1e-7;  // in the norm
-constexpr int quick = 4;                // corrections, after which the next step may be longer
-constexpr double shifted_to = 1e-3;     // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double alike = 0.9;           // cosine of tangent and secant. Chosen.
-constexpr double restart_step = 2e-3;   // of the range
-constexpr double shortest_part = 1e-6;  // of the range: so closely changes of the sequence are located
+constexpr double shortest_step = 1e-7;   // in the norm
+constexpr int quick = 4;                 // corrections, after which the next step may be longer
+constexpr double shifted_to = 1e-3;      // residual over amplitude: what noise leaves of a shift. Chosen.
+constexpr double alike = 0.9;            // cosine of two directions. Chosen.
+constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
+constexpr double restart_step = 2e-3;    // of the range
+// In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
+constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
+
+/// An event at the section may count twice, or not at all.
+bool event_at_section(const Corrected& at) {
+  const double T = at.state.duration;
+  return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
+    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
+  });
+}
 
 }  // namespace
 
-/// Without a branch: a little further on, after a transient.
+/// Without a branch: a little further on, by damped steps of Newton's method from here, which find unstable orbits and those
+/// with another sequence of events, too; else after a transient.
 bool BranchWalk::restart(Corrected& here, double sign) {
   BranchState next{orbit_state(here.pass.begin), here.state.duration, here.state.s + sign * restart_step};
-  if (next.s < 0.0 || next.s > 1.0 || map_.autonomous()) return false;
-  next.duration = map_.period(next.s);
+  if (next.s < 0.0 || next.s > 1.0) return false;
+  if (!map_.autonomous()) next.duration = map_.period(next.s);
+  next.state = map_.fitted(std::move(next.state), here.pass.begin.mode, next.s);
   const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
+  const auto close = [&](const OrbitState& state) {
+    const ShootingStart start{state, next.duration, map_.autonomous(), newton_.closed_at_last(), {}};
+    Shot shot = shoot(*at, start, corrected_to);
+    if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
+    here.state = {shot.state, shot.duration, next.s};
+    here.pass = std::move(shot.pass);
+    here.residual = shot.residual;
+    here.by_s = {};
+    return true;
+  };
+  if (close(next.state)) return true;
+  if (map_.autonomous()) return false;
   const OrbitPass transient = at->pass({next.state, restart_periods * next.duration, false});
-  if (!transient.done()) return false;
-  next.state = orbit_state(transient.end);
-  const Shot shot = shoot(*at, {next.state, next.duration, false, newton_.closed_at_last()}, corrected_to);
-  if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
-  here.state = {shot.state, next.duration, next.s};
-  here.pass = shot.pass;
-  here.residual = shot.residual;
-  here.by_s = {};
-  return true;
+  return transient.done() && close(orbit_state(transient.end));
 }
 
 /// A section away from events, if this one is near to one. The point before moves there, too.
@@ -130,22 +146,25 @@ std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, 
 std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
                                                                const Vector& t, double ds) const {
   const std::string sequence = sequence_of(here.pass);
-  if (sequence == sequence_of(next.pass)) return std::nullopt;
+  if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
   double other = 1.0;
-  while ((other - point.part) * ds > shortest_part) {
+  bool seen = true;  // another sequence at `other`, not a failure
+  const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
+  while ((other - point.part) * ds > enough) {
     const double middle = 0.5 * (point.part + other);
     const Corrected& from = point.at.done ? point.at : here;
     Corrected c =
         newton_.correct(newton_.moved(from.state, from.pass, (middle - point.part) * ds * t), t, from.by_s);
     if (!c.done || sequence_of(c.pass) != sequence) {
+      seen = c.done;
       other = middle;
       continue;
     }
     point.part = middle;
     point.at = std::move(c);
   }
-  if (!point.at.done) return std::nullopt;
+  if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
   newton_.examine(point.at, t, here.ones);
   return point;
 }
@@ -287,6 +306,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     t = before;
     newton_.measure(here.pass, &t);
     t = direction(place, here, t);
+    keep_mark(here, t);
     if (!add(here, special)) return;
     complete_ = last && special.empty();
     if (complete_) {
@@ -305,8 +325,15 @@ void BranchWalk::walk(Corrected here, Vector t) {
 void BranchWalk::walk_from_start() {
   Corrected here;
   if (!begin(here)) return;
-  const Vector t = newton_.examine(here, newton_.upwards(here.pass, 1.0));
+  const bool back = options_.resumed && !options_.resumed->towards_to;
+  const Vector t = newton_.examine(here, newton_.upwards(here.pass, back ? -1.0 : 1.0));
+  if (options_.resumed) {
+    keep_mark(here, t);
+    walk(std::move(here), t);
+    return;
+  }
   if (!add(here, "")) return;
+  keep_mark(here, t);
   if (only_shifts(here, t)) {
     end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
                        options_.path);
@@ -315,14 +342,26 @@ void BranchWalk::walk_from_start() {
   walk(std::move(here), t);
 }
 
+void BranchWalk::keep_mark(const Corrected& here, const Vector& t) {
+  last_ = here.state;
+  last_section_ = map_.section();
+  towards_to_ = t[t.size() - 1] >= 0.0;
+}
+
+std::optional<BranchMark> BranchWalk::mark() {
+  if (!last_) return std::nullopt;
+  map_.move_section(last_section_);
+  return BranchMark{map_.parameter(last_->s), towards_to_, map_.orbit_at(*last_), branch_.sequences};
+}
+
 /// What a scene refuses on the way ends the branch, which keeps its points.
 void BranchWalk::guarded(const std::function<void()>& walk) {
   try {
     walk();
   } catch (const Error& error) {
-    if (error.code() == ExitCode::file || points_ < 2) throw;
+    if (error.code() == ExitCode::file || (points_ < 2 && !options_.resumed)) throw;
     end_ = fmt::format("beyond {} = {:.9g} the scene is refused: {}", options_.path,
-                       branch_.points.back().parameter, error.what());
+                       last_ ? map_.parameter(last_->s) : options_.from, error.what());
   }
   if (end_.empty())
     end_ = branch_.interrupted ? "interrupted" : fmt::format("{} points, no more were asked for", points_);
@@ -378,16 +417,20 @@ void BranchWalk::leave(const Junction& junction) {
   });
 }
 
-/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round.
+/// Whether the branch of a doubled period has passed an orbit of the simple one: z(T/2) - z turns round, at the same section.
 bool BranchWalk::returns(const Corrected& here) {
   BranchState half = here.state;
   half.duration *= 0.5;
   const OrbitPass pass = map_.pass(half, false);
-  const OrbitSection section(map_.model(), pass.begin);
   if (!pass.done()) return false;
+  const OrbitSection section(map_.model(), pass.begin);
   Vector gap = section.coordinates(pass.end) - section.coordinates(pass.begin);
-  std::swap(gap, half_);
-  return gap.size() == half_.size() && gap.dot(half_) < 0.0;
+  const bool comparable = half_.size() == gap.size() && half_section_ == map_.section();
+  const double along = comparable ? gap.dot(half_) : 0.0;
+  const bool turned = along < -alike * gap.norm() * half_.norm();
+  half_ = std::move(gap);
+  half_section_ = map_.section();
+  return turned;
 }
 
 }  // namespace signorini

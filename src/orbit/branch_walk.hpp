@@ -45,6 +45,8 @@ class BranchWalk {
 
   [[nodiscard]] const std::string& end() const { return end_; }
   [[nodiscard]] bool complete() const { return complete_; }
+  /// Of the last point.
+  [[nodiscard]] std::optional<BranchMark> mark();
   [[nodiscard]] std::vector<Junction>& junctions() { return junctions_; }
 
  private:
@@ -73,6 +75,7 @@ class BranchWalk {
                                                const Corrected& next, const Vector& t, double ds) const;
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
                                                        const Vector& t, double ds) const;
+  void keep_mark(const Corrected& here, const Vector& t);
   void keep_junction(const Located& point);
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
@@ -89,11 +92,15 @@ class BranchWalk {
   std::vector<Junction> junctions_;
   std::string end_;
   bool complete_ = false;
+  std::optional<BranchState> last_;
+  double last_section_ = 0.0;
+  bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one
   bool turning_ = false;  // the tangent is not the way of the branch (direction())
   bool doubled_ = false;  // it began at a flip
-  Vector half_;           // of a doubled branch: z(T/2) - z at the last point
+  double half_section_ = 0.0;
+  Vector half_;  // of a doubled branch: z(T/2) - z at the last point
 };
 
 }  // namespace signorini

@@ -7,27 +7,36 @@
 #include "orbit/branch_walk.hpp"
 
 namespace signorini {
+namespace {
 
-Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* recorder,
-              const std::function<void(const BranchPoint&)>& seen) {
-  if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
-    throw UsageError("--over: expected PATH=FROM:TO with two different numbers");
+Orbit first_orbit(const SceneReader& read, const BranchOptions& options, Recorder* recorder) {
   const SceneReader first = [&](const std::vector<Override>& changes) {
     std::vector<Override> all{{options.path, fmt::format("{}", options.from)}};
     all.insert(all.end(), changes.begin(), changes.end());
     return read(all);
   };
-  const Orbit orbit = find_orbit(first, options.orbit, recorder);
+  return find_orbit(first, options.orbit, recorder);
+}
+
+}  // namespace
+
+Branch follow(const SceneReader& read, const BranchOptions& options, Recorder* recorder,
+              const std::function<void(const BranchPoint&)>& seen) {
+  if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
+    throw UsageError("--over: expected PATH=FROM:TO with two different numbers");
+  const Orbit orbit = options.resumed ? options.resumed->orbit : first_orbit(read, options, recorder);
   if (!orbit.found) {
     Branch none;
     none.end = fmt::format("no orbit found at {} = {:.9g}: {}", options.path, options.from, orbit.reason);
     return none;
   }
   Branch branch;
+  if (options.resumed) branch.sequences = options.resumed->sequences;
   BranchWalk main(options, BranchMap(read, options, orbit, recorder), branch, 1, 0, seen);
   main.follow();
   branch.end = main.end();
   branch.complete = main.complete();
+  branch.last = main.mark();
   std::deque<Junction> waiting(std::make_move_iterator(main.junctions().begin()),
                                std::make_move_iterator(main.junctions().end()));
   while (!waiting.empty() && !branch.interrupted) {

@@ -11,6 +11,8 @@ namespace signorini {
 namespace {
 
 constexpr int most_steps = 30, most_halvings = 6;
+// So many steps that do not halve the residual: Newton's method stagnates. Chosen.
+constexpr std::size_t patience = 8;
 constexpr double reached = 1e-2;  // of the tolerance: no step is tried from there on
 // Residual over amplitude at which an orbit is closed although the residual no longer falls: what rounding of a long
 // or stiff period leaves. Chosen; above it a search has failed.
@@ -118,10 +120,31 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
   return residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin));
 }
 
+std::optional<double> map_noise(const Model& model, const OrbitPass& first, const OrbitPass& second) {
+  if (first.end_rates.size() == 0 || !second.done()) return std::nullopt;
+  const OrbitSection section(model, first.begin);
+  if (OrbitSection(model, second.begin).size() != section.size()) return std::nullopt;
+  const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);
+  const Vector next = section.coordinates(second.end) - section.coordinates(first.end);
+  return residual_of(section, first, next - first.end_rates * (section.basis().transpose() * gap));
+}
+
 Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
   return section.basis().transpose() * pass.end_rates;
 }
+
+namespace {
+
+/// Whether what is left is the noise of the map.
+bool is_noise(const PeriodMap& map, const Shot& shot) {
+  if (shot.residual > of_noise_at_last * greatest_noise || shot.pass.end_rates.size() == 0) return false;
+  const OrbitPass next = map.pass({orbit_state(shot.pass.end), shot.duration, false});
+  const std::optional<double> noise = map_noise(map.model(), shot.pass, next);
+  return noise && shot.residual <= of_noise_at_last * std::min(*noise, greatest_noise);
+}
+
+}  // namespace
 
 Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
   const Model& model = map.model();
@@ -141,6 +164,9 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     }
     if (shot.residual <= reached * tolerance) break;
     const double before = shot.residual;
+    if (shot.steps.size() >= patience &&
+        shot.residual > 0.5 * shot.steps[shot.steps.size() - patience].residual)
+      break;
     fell = damped_step(map, start, shot);
     if (shot.interrupted) return shot;
     if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
@@ -150,13 +176,13 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     if (fell) shot.pass = map.pass({shot.state, shot.duration});
   }
   shot.steps.push_back({shot.residual, 0.0});
-  shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed});
+  shot.closed = shot.residual <= std::max({tolerance, closed_at_last, start.closed}) || is_noise(map, shot);
   if (!shot.closed)
-    shot.reason = fmt::format(
-        "Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: no part of the "
-        "next step "
-        "reduces it",
-        shot.residual, shot.steps.size() - 1);
+    shot.reason =
+        fmt::format("Newton's method ended with a residual of {:.2g} of the amplitude after {} steps: {}",
+                    shot.residual, shot.steps.size() - 1,
+                    fell ? "it falls too slowly, as where events appear and vanish between its steps"
+                         : "no part of the next step reduces it");
   return shot;
 }
 

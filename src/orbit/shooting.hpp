@@ -10,6 +10,8 @@
 // residual falls. The residual is relative to the amplitude of the motion: that of u, v and T each by its own.
 #pragma once
 
+#include <optional>
+
 #include "orbit/period_map.hpp"
 #include "signorini/orbit.hpp"
 
@@ -40,6 +42,14 @@ struct Shot {
 
 /// The same of another difference of states at the pass's section, in coordinates.
 [[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
+
+/// The noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, where z1, z2 are the images of z0, z1. Nothing where
+/// it is not known.
+[[nodiscard]] std::optional<double> map_noise(const Model& model, const OrbitPass& first,
+                                              const OrbitPass& second);
+/// An orbit is closed whose residual is no more than so many times the noise: a residual is a difference of two states. No
+/// greater noise is accepted. Chosen, both.
+inline constexpr double of_noise_at_last = 10.0, greatest_noise = 1e-6;
 
 /// B^T Phi B of a pass that has tangents.
 [[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);

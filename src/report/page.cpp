@@ -38,6 +38,7 @@ constexpr Kind kinds[] = {{"compare.json", "comparison"},
                           {"verify.json", "verification"},
                           {"sensitivity.json", "sensitivity"},
                           {"fit.json", "fit"},
+                          {"branch.json", "branch"},
                           {"summary.json", "run"}};
 
 std::string whole_file(const fs::path& path) {
@@ -196,6 +197,31 @@ std::string json_facts(const Json& json) {
   return text.empty() ? "" : "<dl>\n" + text + "</dl>\n";
 }
 
+/// Of a run of one period: what orbit.json says, and the greatest multipliers.
+std::string orbit_section(const fs::path& directory) {
+  constexpr std::size_t most_multipliers = 12;
+  std::error_code error;
+  if (!fs::is_regular_file(directory / "orbit.json", error)) return "";
+  const Json orbit = read_json(directory / "orbit.json");
+  std::string rows;
+  std::size_t count = 0;
+  for (const Json& mu : member(orbit, "multipliers"))
+    if (mu.is_array() && mu.size() == 2 && count++ < most_multipliers)
+      rows += fmt::format("<tr><td class=n>{}</td><td class=n>{}</td></tr>\n", html_text(value_text(mu[0])),
+                          html_text(value_text(mu[1])));
+  std::string families;
+  for (const Json& family : member(orbit, "families"))
+    families += "<p>One of a family of orbits: " + html_text(value_text(family)) + ".</p>\n";
+  const std::string table =
+      rows.empty() ? ""
+                   : fmt::format(
+                         "<p>The greatest of {} Floquet multipliers:</p>\n<div class=wide><table><thead>"
+                         "<tr><th>real part</th><th>imaginary part</th></tr></thead><tbody>\n{}"
+                         "</tbody></table></div>\n",
+                         count, rows);
+  return section("orbit", "Periodic motion", json_facts(orbit) + families + table);
+}
+
 /// `taken`: bytes of the page without them.
 std::string pictures(const fs::path& directory, const std::string& command, std::size_t taken) {
   constexpr std::size_t most = 2'950'000;  // of 3 MB
@@ -226,7 +252,7 @@ std::string kind_of_results(const fs::path& directory) {
     if (fs::is_regular_file(directory / kind.marker, error)) return kind.name;
   throw FileError(directory.string(),
                   fs::is_directory(directory, error)
-                      ? "holds no run, comparison, study, sweep, verification, sensitivities or fit"
+                      ? "holds no run, comparison, study, sweep, verification, sensitivities, fit or branch"
                       : "is no directory");
 }
 
@@ -239,6 +265,7 @@ std::string run_page(const fs::path& directory, const Scene& scene, const std::s
   std::string body = section("loads", "Support loads", support_loads_html(summary));
   body += section("responses", "Responses", responses_html(summary, false));
   body += section("envelopes", "Member envelopes", responses_html(summary, true));
+  body += orbit_section(directory);
   body += section("summary", "Summary", run_facts(summary));
   body += part("player.html");
   body += section("audit", "Audit", audit_table(summary, scene.units));
@@ -267,8 +294,9 @@ std::string results_page(const fs::path& directory) {
   const Json json = read_json(directory / marker);
   std::string body =
       section("summary", "Summary", json_facts(json) + sentences(whole_file(directory / "study.md")));
-  for (const char* table : {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv",
-                            "spread.csv", "residuals.csv", "events.csv", "study.csv", "sweep.csv"})
+  for (const char* table :
+       {"runs.csv", "differences.csv", "columns.csv", "figures.csv", "sensitivities.csv", "spread.csv",
+        "residuals.csv", "events.csv", "study.csv", "sweep.csv", "branch.csv"})
     body += section(fs::path(table).stem().string(), table, csv_table(directory / table, most_rows));
   body += section("pictures", "Pictures",
                   pictures(directory, "running the command again with gnuplot on PATH", body.size()));

@@ -17,7 +17,8 @@
 
 namespace signorini {
 
-/// What a directory holds: "run", "comparison", "study", "sweep", "verification", "sensitivity", "fit". Errors: FileError for any other.
+/// What a directory holds: "run", "comparison", "study", "sweep", "verification", "sensitivity", "fit",
+/// "branch". Errors: FileError for any other.
 [[nodiscard]] std::string kind_of_results(const std::filesystem::path& directory);
 
 /// The page of a run; `scene`: its run.toml, `check`: what `check` says about it. Errors: FileError.

@@ -469,6 +469,37 @@ TEST_CASE("a branch locates the flip of an impact oscillator where the closed fo
   CHECK(found == 1);
 }
 
+TEST_CASE("a branch over friction locates Den Hartog's boundary of motions without stops") {
+  // b = w (m = k = P = 1): no stops as long as the force at a reversal exceeds friction, b^2 X >= F, X = sqrt(V^2 - F^2 U^2):
+  //   F = b^2 V/sqrt(1 + b^4 U^2),   V = 1/(1 - b^2),   U = sin(pi/b)/(b (1 + cos(pi/b)))
+  const double b = 0.8, V = 1.0 / (1.0 - b * b), U = std::sin(pi / b) / (b * (1.0 + std::cos(pi / b)));
+  const double boundary = b * b * V / std::sqrt(1.0 + b * b * b * b * U * U);
+  BranchOptions options;
+  options.path = "contacts.1.friction";
+  options.from = 0.7;
+  options.to = 0.9;
+  options.step = 0.2;
+  const Branch branch =
+      follow(reader_of_text(
+                 matrix_scene("t_end = 100.0", "mass = [[1.0]]\nstiffness = [[1.0]]",
+                              "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\nfriction = 0.7",
+                              "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 1.0\nhistory = { type = "
+                              "\"harmonic\", omega = 0.8 }\n")),
+             options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  long found = 0;
+  for (const BranchPoint& p : branch.points) {
+    if (p.special == "sequence") {
+      ++found;
+      CAPTURE(p.parameter);
+      CHECK(std::abs(p.parameter - boundary) <= 1e-10);
+    }
+    if (std::abs(p.parameter - boundary) > 1e-6) CHECK(p.events == (p.parameter < boundary ? 2 : 4));
+  }
+  CHECK(found == 1);
+}
+
 TEST_CASE("the branch of twice the period leaves at the flip of an impact oscillator") {
   // As above; beyond the flip the stable orbit closes after two periods: a run on it repeats itself after 2 T, not after T.
   const std::string text = matrix_scene(
@@ -564,6 +595,32 @@ TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not 
   REQUIRE(last.found);
   CHECK(branch.points.back().events == static_cast<long>(last.sequence.size()));
   CHECK(std::abs(branch.points.back().max_multiplier - last.max_multiplier) <= 1e-6);
+}
+
+TEST_CASE("a branch in two parts, the second from the mark of the first, ends where one of one part does") {
+  BranchOptions options;
+  options.path = "loads.1.amplitude";
+  options.from = 3.0;
+  options.to = 3.5;
+  options.step = 0.1;
+  const SceneReader read = reader_of_text(jenkins());
+  const Branch whole = follow(read, options);
+  REQUIRE(whole.complete);
+  options.most_points = 4;
+  const Branch first = follow(read, options);
+  CHECK(!first.complete);
+  REQUIRE(first.last);
+  CHECK(first.last->parameter == first.points.back().parameter);
+  options.most_points = 1000;
+  options.resumed = first.last;
+  const Branch second = follow(read, options);
+  CAPTURE(second.end);
+  REQUIRE(second.complete);
+  CHECK(second.points.front().parameter > first.points.back().parameter);
+  CHECK(second.points.back().parameter == 3.5);
+  CHECK(std::abs(second.points.back().maxima.front() - whole.points.back().maxima.front()) <= 1e-9);
+  CHECK(std::abs(second.points.back().max_multiplier - whole.points.back().max_multiplier) <= 1e-8);
+  CHECK(second.points.back().sequence == whole.points.back().sequence);
 }
 
 TEST_CASE("branches end with a reason: a key that only shifts the motion, a value that the scene refuses") {

@@ -66,6 +66,10 @@ TEST_CASE("cli orbit: a run of one period, its multipliers, and a run.toml that 
     REQUIRE(std::sscanf(start.c_str(), "%lf,%lf", &t0, &u0) == 2);
     REQUIRE(std::sscanf(end.c_str(), "%lf,%lf", &t1, &u1) == 2);
     CHECK(std::abs(u1 - u0) <= 1e-12);
+    CHECK(shell.run({"report", "s-orbit", "-o", "page.html"}).code == 0);
+    const std::string page = shell.read("page.html");
+    CHECK(page.find("<h2>Periodic motion</h2>") != std::string::npos);
+    CHECK(page.find("The greatest of 2 Floquet multipliers") != std::string::npos);
     const Ending refused = shell.run({"orbit", "s.toml", "--no-plots"});
     CHECK(refused.code == 6);
     CHECK(shell.run({"orbit", "s.toml", "--no-plots", "--force", "--quiet"}).code == 0);
@@ -114,6 +118,27 @@ TEST_CASE(
   CHECK(late.err.find("the loads repeat themselves from t = ") != std::string::npos);
 }
 
+TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed where the scene no longer does") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  // No friction below 0: the branch ends there; nothing to resume in another range.
+  const Ending early =
+      shell.run({"orbit", "s.toml", "--over", "contacts.1.friction=0.4:-0.1", "-o", "b", "--no-plots"});
+  CHECK(early.code == 4);
+  REQUIRE(exists(shell, "b/last/start/run.toml"));
+  const std::size_t before = rows_of(shell.read("b/branch.csv"));
+  const Ending other = shell.run(
+      {"orbit", "s.toml", "--over", "contacts.1.friction=0.4:0.1", "-o", "b", "--no-plots", "--resume"});
+  CHECK(other.code == 2);
+  CHECK(other.err.find("--resume") != std::string::npos);
+  const Ending again = shell.run(
+      {"orbit", "s.toml", "--over", "contacts.1.friction=0.4:-0.1", "-o", "b", "--no-plots", "--resume"});
+  CAPTURE(again.err);
+  CHECK(again.code == 4);  // refused again, and no point is lost
+  CHECK(rows_of(shell.read("b/branch.csv")) >= before);
+  CHECK(shell.run({"orbit", "s.toml", "--resume"}).code == 2);
+}
+
 TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of the range") {
   const Shell shell;
   shell.write("s.toml", rubbed(harmonic()));
@@ -131,6 +156,8 @@ TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of
   CHECK(script.find("greatest multiplier") != std::string::npos);
   CHECK(script.find("x [m]") != std::string::npos);
   CHECK(rows_of(shell.read("branch/plots/branch.csv")) == rows_of(table));
+  CHECK(shell.run({"report", "branch", "-o", "page.html"}).code == 0);
+  CHECK(shell.read("page.html").find("<h2>branch.csv</h2>") != std::string::npos);
   const Ending none = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.1", "-o", "branch",
                                  "--force", "--no-plots", "--switch", "1"});
   CAPTURE(none.err);

@@ -1,9 +1,19 @@
 #include "study/orbit/branch_files.hpp"
 
+#include <fmt/core.h>
+
+#include <fstream>
+
 #include "base/json.hpp"
+#include "base/number.hpp"
+#include "base/output_directory.hpp"
+#include "result/csv_read.hpp"
 #include "result/units_json.hpp"
+#include "study/orbit/orbit_files.hpp"
 
 namespace signorini {
+
+namespace fs = std::filesystem;
 
 BranchWriter::BranchWriter(const std::filesystem::path& directory, const std::vector<std::string>& outputs)
     : file_(directory / "branch.csv") {
@@ -28,6 +38,79 @@ void BranchWriter::add(const BranchPoint& point) {
   file_.write(block_);
 }
 
+std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outputs) {
+  CsvReader reader(directory / "branch.csv");
+  const auto at = [&](const char* name) { return reader.column(name); };
+  const std::size_t first_output = at("amplitude") + 1;
+  std::vector<BranchPoint> points;
+  while (reader.next()) {
+    BranchPoint p;
+    p.parameter = reader.number(at("parameter"));
+    p.period = reader.number(at("period"));
+    p.amplitude = reader.number(at("amplitude"));
+    for (std::size_t i = 0; i < outputs; ++i) {
+      p.minima.push_back(reader.number(first_output + 2 * i));
+      p.maxima.push_back(reader.number(first_output + 2 * i + 1));
+    }
+    p.max_multiplier = reader.number(at("max_multiplier"));
+    p.multiplier_error = reader.number(at("multiplier_error"));
+    p.residual = reader.number(at("residual"));
+    if (const std::string& stable = reader.cell(at("stable")); !stable.empty()) p.stable = stable == "true";
+    for (const OrbitLoss loss : {OrbitLoss::fold, OrbitLoss::flip, OrbitLoss::neimark_sacker})
+      if (reader.cell(at("loss")) == to_string(loss)) p.loss = loss;
+    p.sequence = static_cast<int>(reader.number(at("sequence")));
+    p.events = static_cast<long>(reader.number(at("events")));
+    p.branch = static_cast<int>(reader.number(at("branch")));
+    p.special = reader.cell(at("special"));
+    points.push_back(std::move(p));
+  }
+  return points;
+}
+
+void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
+                const BranchMark& mark) {
+  const SceneReader there = [&](const std::vector<Override>& changes) {
+    std::vector<Override> all{{options.path, shortest(mark.parameter)}};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return read(all);
+  };
+  const fs::path last = directory / "last";
+  make_directory(last);
+  const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);
+  write_orbit(last, scene, build_model(scene), mark.orbit);
+}
+
+BranchMark read_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options) {
+  const fs::path file = directory / "branch.json", orbit_file = directory / "last" / "orbit.json";
+  BranchMark mark;
+  try {
+    std::ifstream stream(file, std::ios::binary), orbit_stream(orbit_file, std::ios::binary);
+    const Json branch = parse_json(stream);
+    if (branch.at("path") != options.path || branch.at("from") != options.from ||
+        branch.at("to") != options.to)
+      throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
+                                   branch.at("path").get<std::string>(), branch.at("from").get<double>(),
+                                   branch.at("to").get<double>()));
+    if (branch.at("complete") == true)
+      throw UsageError(fmt::format("--resume: the branch in {} is complete", directory.string()));
+    mark.parameter = branch.at("last").at("parameter");
+    mark.towards_to = branch.at("last").at("towards_to");
+    mark.sequences = branch.at("sequences");
+    const Json orbit = parse_json(orbit_stream);
+    mark.orbit.found = true;
+    mark.orbit.period = orbit.at("period");
+    mark.orbit.phase = orbit.at("phase");
+    mark.orbit.autonomous = orbit.at("autonomous");
+  } catch (const Json::exception&) {
+    throw FileError(file.string(), "has no point to continue from");
+  }
+  const std::string start = (directory / "last" / "start").string();
+  mark.orbit.start = read({{options.path, shortest(mark.parameter)},
+                           {"run.initial", "{ run = " + Json(start).dump() + " }"}})
+                         .initial.saved.value();
+  return mark;
+}
+
 std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch) {
   Json sides = Json::array();
   for (const SideBranch& side : branch.sides)
@@ -37,10 +120,18 @@ std::string branch_json(const BranchOptions& options, const Units& units, const 
                      {"parameter", side.parameter},
                      {"complete", side.complete},
                      {"end", side.end}});
-  const Json json = {
-      {"path", options.path},       {"from", options.from},           {"to", options.to},
-      {"units", units_json(units)}, {"points", branch.points.size()}, {"complete", branch.complete},
-      {"end", branch.end},          {"sequences", branch.sequences},  {"sides", sides}};
+  Json last;
+  if (branch.last) last = {{"parameter", branch.last->parameter}, {"towards_to", branch.last->towards_to}};
+  const Json json = {{"path", options.path},
+                     {"from", options.from},
+                     {"to", options.to},
+                     {"units", units_json(units)},
+                     {"points", branch.points.size()},
+                     {"complete", branch.complete},
+                     {"end", branch.end},
+                     {"sequences", branch.sequences},
+                     {"sides", sides},
+                     {"last", last}};
   return json_text(json);
 }
 

@@ -2,9 +2,11 @@
 //
 //   branch.csv    a row a point of the branch, as it comes (docs/command-line.md)
 //   branch.json   the key, why the branch ends, its sequences of events by number
+//   last/         the last point of the first branch, as `orbit` writes an orbit: --resume continues from there
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "result/csv.hpp"
 #include "signorini/orbit.hpp"
@@ -21,6 +23,17 @@ class BranchWriter {
   CsvBlock block_;
   CsvFile file_;
 };
+
+/// Rows of branch.csv. Errors: FileError.
+[[nodiscard]] std::vector<BranchPoint> read_branch(const std::filesystem::path& directory,
+                                                   std::size_t outputs);
+
+/// DIR/last. Errors: FileError.
+void write_mark(const std::filesystem::path& directory, const SceneReader& read, const BranchOptions& options,
+                const BranchMark& mark);
+/// The mark of a branch that ended early. Errors: FileError; UsageError where the branch is complete, or another one.
+[[nodiscard]] BranchMark read_mark(const std::filesystem::path& directory, const SceneReader& read,
+                                   const BranchOptions& options);
 
 [[nodiscard]] std::string branch_json(const BranchOptions& options, const Units& units, const Branch& branch);
 

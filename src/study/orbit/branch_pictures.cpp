@@ -86,13 +86,19 @@ class BranchTable {
 
 const std::string rows = "'branch.csv' skip 1";
 
+/// unstable_too: the legend names the dashed parts.
 void add_line(const BranchTable& table, const std::string& name, const std::string& colour,
-              const std::string& title, Panel& panel) {
+              const std::string& title, bool unstable_too, Panel& panel) {
+  const std::string dashed = "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'";
   panel.curves.push_back(
       {rows, table.parts(name, "stable"), "with lines linewidth 1.8 linecolor '" + colour + "'", title});
-  panel.curves.push_back({rows, table.parts(name, "unstable"),
-                          "with lines linewidth 1.4 dashtype (6,5) linecolor '" + colour + "'",
-                          std::nullopt});
+  panel.curves.push_back({rows, table.parts(name, "unstable"), dashed,
+                          unstable_too ? std::optional<std::string>("unstable") : std::nullopt});
+}
+
+bool has_unstable(const Branch& branch) {
+  return std::any_of(branch.points.begin(), branch.points.end(),
+                     [](const BranchPoint& p) { return p.stable.has_value() && !*p.stable; });
 }
 
 struct MarkOfPoint {
@@ -143,7 +149,7 @@ std::string bands(const Branch& branch) {
 
 Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
   Panel panel{"greatest multiplier", {}, "set yrange [0:*]\n", 0.7};
-  add_line(table, "multiplier", "#1a1a1a", "stable; dashed: unstable", panel);
+  add_line(table, "multiplier", "#1a1a1a", "stable", has_unstable(branch), panel);
   panel.curves.push_back({"1", "", "with lines linewidth 0.8 linecolor '#c0182b'", "unit circle"});
   add_marks(table, branch, "multiplier", false, panel);
   return panel;
@@ -152,7 +158,7 @@ Panel multiplier_panel(const BranchTable& table, const Branch& branch) {
 Panel sequence_panel(const BranchTable& table, const Branch& branch, const std::string& x_name) {
   Panel panel{"sequence",
               {{rows, table.plain("sequence"), "with points pointtype 7 pointsize 0.4 linecolor '#1b9e77'",
-                "number of the sequence"}},
+                "sequence"}},
               fmt::format("set yrange [0:{}]\nset ytics 1\nset xlabel {}\n", branch.sequences.size() + 1,
                           signorini::quoted(x_name)),
               0.5};
@@ -185,14 +191,14 @@ PictureFiles branch_pictures(const std::string& title, const Units& units, const
                   bands(branch);
   for (std::size_t i = 0; i < shown; ++i) {
     Panel panel{outputs[i], {}, "set yrange [*:*]\n"};
-    add_line(table, fmt::format("high {}", i), high_colour, "greatest; dashed: unstable", panel);
-    add_line(table, fmt::format("low {}", i), low_colour, "least; dashed: unstable", panel);
+    add_line(table, fmt::format("high {}", i), high_colour, "greatest", has_unstable(branch), panel);
+    add_line(table, fmt::format("low {}", i), low_colour, "least", false, panel);
     add_marks(table, branch, fmt::format("high {}", i), i == 0, panel);
     picture.panels.push_back(panel);
   }
   if (shown == 0) {
     Panel panel{"amplitude [" + units.length + "]", {}, "set yrange [0:*]\n"};
-    add_line(table, "amplitude", high_colour, "stable; dashed: unstable", panel);
+    add_line(table, "amplitude", high_colour, "stable", has_unstable(branch), panel);
     add_marks(table, branch, "amplitude", true, panel);
     picture.panels.push_back(panel);
   }

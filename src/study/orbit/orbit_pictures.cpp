@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include "result/csv_read.hpp"
 #include "result/table.hpp"
@@ -73,18 +75,25 @@ Picture phase_picture(const std::vector<Portrait>& portraits, const Units& units
   return picture;
 }
 
+std::vector<std::complex<double>> unit_circle() {
+  constexpr int pieces = 180;
+  std::vector<std::complex<double>> list;
+  for (int i = 0; i <= pieces; ++i)
+    list.push_back(std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(i) / pieces));
+  return list;
+}
+
 Picture multiplier_picture(const Orbit& orbit, const PictureLook& look) {
   const double greatest =
       std::max(1.0, orbit.multipliers.empty() ? 0.0 : std::abs(orbit.multipliers.front()));
   Picture picture{"multipliers", "Floquet multipliers and the unit circle", canvas_of(look, 760.0, false),
                   false};
-  Panel panel{
-      "imaginary part",
-      {{"[t=0:2*pi] '+'", "(cos(t)):(sin(t))", "with lines linewidth 1.0 linecolor '#888888'", "unit circle"},
-       {"'multipliers.csv' skip 1", "1:2", "with points pointtype 7 pointsize 1.0 linecolor '#c0182b'",
-        "multipliers"}},
-      "set size ratio -1\nset samples 400\n" + range_of('x', -1.1 * greatest, 1.1 * greatest) +
-          range_of('y', -1.1 * greatest, 1.1 * greatest) + "set xlabel 'real part'\n"};
+  Panel panel{"imaginary part",
+              {{"'circle.csv' skip 1", "1:2", "with lines linewidth 1.0 linecolor '#888888'", "unit circle"},
+               {"'multipliers.csv' skip 1", "1:2",
+                "with points pointtype 7 pointsize 1.0 linecolor '#c0182b'", "multipliers"}},
+              "set size ratio -1\n" + range_of('x', -1.1 * greatest, 1.1 * greatest) +
+                  range_of('y', -1.1 * greatest, 1.1 * greatest) + "set xlabel 'real part'\n"};
   panel.after = "set size noratio\n";
   picture.panels.push_back(panel);
   return picture;
@@ -93,7 +102,7 @@ Picture multiplier_picture(const Orbit& orbit, const PictureLook& look) {
 }  // namespace
 
 bool is_picture_of_orbit(const std::filesystem::path& file) {
-  return file.stem() == "multipliers" || file.stem() == "phase";
+  return file.stem() == "multipliers" || file.stem() == "circle" || file.stem() == "phase";
 }
 
 PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::string& title,
@@ -105,6 +114,7 @@ PictureFiles orbit_pictures(const std::filesystem::path& directory, const std::s
     const CsvTable<Row> table = {{"real", [](const Row& mu) { return mu.real(); }},
                                  {"imaginary", [](const Row& mu) { return mu.imag(); }}};
     files.add_table("multipliers", table.text(orbit.multipliers));
+    files.add_table("circle", table.text(unit_circle()));
     files.add(run, multiplier_picture(orbit, look));
   }
   const std::vector<Portrait> portraits = greatest_portraits(directory);

@@ -104,7 +104,8 @@ TEST_SUITE("unit/report/page") {
     };
     for (const auto& [marker, kind] :
          {Known{"study.json", "study"}, Known{"sweep.json", "sweep"}, Known{"verify.json", "verification"},
-          Known{"sensitivity.json", "sensitivity"}, Known{"fit.json", "fit"}, Known{"summary.json", "run"}}) {
+          Known{"sensitivity.json", "sensitivity"}, Known{"fit.json", "fit"}, Known{"branch.json", "branch"},
+          Known{"summary.json", "run"}}) {
       folder.write(std::string(kind) + "/" + marker, "{}");
       CHECK(kind_of_results(folder.path / kind) == kind);
     }

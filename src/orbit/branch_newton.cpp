@@ -19,6 +19,7 @@ constexpr double corrected_at_last = 1e-9;  // residual over amplitude, as in sh
 // A residual does not fall below a few times the noise of the map. Chosen.
 constexpr double of_noise = 4.0;
 constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is near. Chosen.
+constexpr double least_left = 1e-6;     // of a direction that is no family's. Chosen.
 constexpr double held_from = 0.7;       // |t_s|: from there on the parameter is held by corrections. Chosen.
 constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
 constexpr double singular = 1e-9;       // as in shooting.cpp
@@ -143,12 +144,28 @@ Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
+/// Along a family Phi - I is zero, too: t is not to drift along it.
+Vector BranchNewton::without_families(const Corrected& at, const Vector& t) const {
+  const Eigen::Index n = at.monodromy.rows();
+  if (map_.autonomous() || at.ones == 0 || n == 0) return t;
+  const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
+                            (at.monodromy - Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
+  const Eigen::MatrixXd vectors = symmetric_eigen(A.transpose() * A).vectors;
+  Vector rest = t;
+  for (Eigen::Index k = 0; k < std::min(n, static_cast<Eigen::Index>(at.ones)); ++k)
+    rest.head(n) -= vectors.col(k).dot(rest.head(n)) * vectors.col(k);
+  return rest.norm() > least_left ? Vector(rest / rest.norm()) : t;
+}
+
 Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones,
                              bool known) const {
-  const Vector t = known ? before : tangent(at, before);
-  at.monodromy = monodromy(map_.model(), at.pass);
-  at.multipliers = multipliers_of(at.monodromy);
+  if (at.multipliers.empty()) {
+    at.monodromy = monodromy(map_.model(), at.pass);
+    at.multipliers = multipliers_of(at.monodromy);
+  }
   at.ones = ones.value_or(std::max<std::size_t>(count_ones(at.multipliers), map_.autonomous() ? 1 : 0));
+  const Vector way = without_families(at, before);
+  const Vector t = known ? way : without_families(at, tangent(at, way));
   at.tests = test_values(at.multipliers, at.ones, t[t.size() - 1]);
   return t;
 }

@@ -84,6 +84,7 @@ class BranchNewton {
   [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
 
  private:
+  [[nodiscard]] Vector without_families(const Corrected& at, const Vector& t) const;
   void close_damped(Corrected& c, Eigen::Index unknowns) const;
   [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;

@@ -49,6 +49,7 @@ bool BranchWalk::restart(Corrected& here, double sign) {
     here.pass = std::move(shot.pass);
     here.residual = shot.residual;
     here.by_s = {};
+    here.multipliers.clear();
     return true;
   };
   if (close(next.state)) return true;
@@ -77,6 +78,7 @@ void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
   moved.state.state = orbit_state(to.end);
   moved.pass = map_.pass(moved.state);
   moved.by_s = {};
+  moved.multipliers.clear();
   if (!(moved.pass.done() && moved.pass.end_rates.size() > 0)) {
     map_.move_section(before);
     return;
@@ -91,13 +93,11 @@ Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected&
   const std::optional<Vector> secant =
       place && !map_.autonomous() ? newton_.secant(*place, here) : std::nullopt;
   if (!secant) return newton_.examine(here, before);
-  if (turning_ && newton_.holds(*secant)) {
-    newton_.examine(here, *secant, {}, true);
-    return *secant;
-  }
-  const Vector tangent = newton_.examine(here, *secant);
-  turning_ = tangent.dot(*secant) < alike;
-  return turning_ ? *secant : tangent;
+  const Vector way = newton_.examine(here, *secant, {}, true);
+  if (turning_ && newton_.holds(way)) return way;
+  const Vector tangent = newton_.examine(here, way);
+  turning_ = tangent.dot(way) < alike;
+  return turning_ ? way : tangent;
 }
 
 /// It begins where it is least in alphabetical order: the section may move.

@@ -156,6 +156,22 @@ TEST_CASE("a column under its own weight buckles at Greenhill's length, at order
   }
 }
 
+TEST_CASE("a load spread along a column, as a column's weight: the same factor, in either axes") {
+  const double critical = 2.25 * std::pow(1.866350858898855, 2) * EI / std::pow(length, 3), part = 0.4;
+  std::string weight = stood() + nodes({{"A", 0.0, 0.0}, {"B", 0.0, length}}) + section(EA, EI, rho) +
+                       member("A, B", "elements = 8\n") + fixed("A", "ux, uy, rz");
+  const std::string spread = weight;
+  weight.insert(weight.find("[run]"), fmt::format("gravity = [0.0, {:.17g}]\n", -part * critical / rho));
+  const auto load = [&](const std::string& along) {
+    return fmt::format("[[loads]]\nnodes = [\"A\", \"B\"]\n{}\ndistributed = {:.17g}\n", along,
+                       part * critical);
+  };
+  CHECK(first_factor(spread + load("axes = \"global\"\ndirection = [0.0, -1.0]")) ==
+        doctest::Approx(first_factor(weight)).epsilon(1e-10));
+  CHECK(first_factor(spread + load("axes = \"member\"\ndirection = [-1.0, 0.0]")) ==
+        doctest::Approx(first_factor(weight)).epsilon(1e-10));
+}
+
 TEST_CASE("the frequency of a loaded column: f0 sqrt(1 - P / P_cr), at order 4, tension too") {
   for (const double part : {0.5, 0.95, -2.0}) {
     CAPTURE(part);
@@ -477,6 +493,14 @@ TEST_CASE("large structures by Lanczos: the same factors as small ones") {
     CHECK(std::abs(coarse - 16.0 * factor) < 3e-9);
     CHECK(std::abs(factor) < 5e-9);
   }
+  // Held rigidly in the middle it buckles in two half waves, at four times the load.
+  std::string middle =
+      column(pinned, 40, P) +
+      "[[contacts]]\nname = \"foot\"\nnode = \"M\"\nlaw = \"rigid\"\nnormal = [1.0, "
+      "0.0]\nfriction = 0.0\n[[loads]]\nnode = \"M\"\ndirection = [-1.0, 0.0]\namplitude = 1.0\n";
+  middle.insert(middle.find("B = ["), fmt::format("M = [0.0, {}]\n", 0.5 * length));
+  middle.replace(middle.find("\"A\", \"B\""), 8, "\"A\", \"M\", \"B\"");
+  CHECK(std::abs(first_factor(middle) * P / (4.0 * euler(1.0)) - 1.0) < 1e-7);
 }
 
 TEST_SUITE_END();

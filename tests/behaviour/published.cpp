@@ -41,7 +41,7 @@ TEST_CASE("printed numbers are those of the closed forms, but for the ones that 
       printed += !figure.printed.empty();
       off += last_digits_off(figure) > 1.0;
     }
-  CHECK(printed == 28);
+  CHECK(printed == 32);
   CHECK(off == 6);
 }
 

@@ -124,6 +124,23 @@ std::vector<double> pair(const Settings& settings) {
           late.v[0],   late.u[1]};
 }
 
+// --- SSNV128: no closed form; the reference is that of GRECO as printed, to 5 %
+
+std::vector<Figure> plate_figures() {
+  std::vector<Figure> figures;
+  const std::pair<const char*, const char*> printed[] = {{"ux of A, m", "2.86e-5"},
+                                                         {"ux of B, m", "2.72e-5"},
+                                                         {"ux of C, m", "2.28e-5"},
+                                                         {"ux of D, m", "1.98e-5"}};
+  for (const auto& [what, value] : printed) figures.push_back({what, value, std::stold(value), true, 0.05});
+  return figures;
+}
+
+std::vector<double> plate(const Settings& settings) {
+  const Result::Row row = run("ssnv128.toml", settings).rows.back();
+  return {row.u[0], row.u[2], row.u[8], row.u[12]};  // nodes 1, 2, 5, 7 of the lowest row
+}
+
 }  // namespace
 
 std::vector<Case> code_aster_friction() {
@@ -131,7 +148,8 @@ std::vector<Case> code_aster_friction() {
           {"SDND104, shaken plane", "Code_Aster V5.01.104, astest/sdnd104a.comm", 1e-4, 5e-4, 1e-4,
            wear_figures, wears},
           {"SDND106, two masses", "Code_Aster V5.01.106, astest/sdnd106a.comm", 1e-5, 3e-7, 3e-7,
-           pair_figures, pair}};
+           pair_figures, pair},
+          {"SSNV128, plate on a plane", "Code_Aster V6.04.128", 1e-4, 0.05, 0.05, plate_figures, plate}};
 }
 
 }  // namespace signorini::published

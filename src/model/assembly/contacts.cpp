@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "base/history/history_internal.hpp"
 #include "contact/law.hpp"
 #include "contact/slots.hpp"
@@ -89,6 +91,16 @@ void check_slider(const ContactSpec& spec, const Contact& contact, double t_end)
                                  contact.normal_force.value(t), t));
 }
 
+/// At a node of a seam that a support holds along the tangent, on a plane of symmetry, nothing slides: the support bears T.
+void leave_out_held_friction(const Scene& scene, std::size_t k, Contact& contact) {
+  const bool of_seam = std::any_of(scene.seams.begin(), scene.seams.end(), [k](const SeamSpec& seam) {
+    return k >= seam.first_contact && k < seam.first_contact + seam.nodes.size();
+  });
+  if (!of_seam || !contact.tangent.terms.empty()) return;
+  contact.friction = {};
+  contact.tangential_stiffness.reset();
+}
+
 }  // namespace
 
 std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
@@ -107,6 +119,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.restitution = spec.restitution;
     c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map);
+    leave_out_held_friction(scene, contacts.size(), c);
     if (has_gap(spec.law)) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);

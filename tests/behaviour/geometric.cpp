@@ -493,14 +493,22 @@ TEST_CASE("large structures by Lanczos: the same factors as small ones") {
     CHECK(std::abs(coarse - 16.0 * factor) < 3e-9);
     CHECK(std::abs(factor) < 5e-9);
   }
-  // Held rigidly in the middle it buckles in two half waves, at four times the load.
-  std::string middle =
-      column(pinned, 40, P) +
-      "[[contacts]]\nname = \"foot\"\nnode = \"M\"\nlaw = \"rigid\"\nnormal = [1.0, "
-      "0.0]\nfriction = 0.0\n[[loads]]\nnode = \"M\"\ndirection = [-1.0, 0.0]\namplitude = 1.0\n";
-  middle.insert(middle.find("B = ["), fmt::format("M = [0.0, {}]\n", 0.5 * length));
-  middle.replace(middle.find("\"A\", \"B\""), 8, "\"A\", \"M\", \"B\"");
-  CHECK(std::abs(first_factor(middle) * P / (4.0 * euler(1.0)) - 1.0) < 1e-7);
+  // Held rigidly in its middle it buckles in two half waves, at four times the load; elsewhere as a small one does.
+  const auto held = [&](double place, const char* elements) {
+    std::string text = column(pinned, 40, P) +
+                       "[[contacts]]\nname = \"foot\"\nnode = \"M\"\nlaw = \"rigid\"\nnormal = [1.0, "
+                       "0.0]\nfriction = 0.0\n[[loads]]\nnode = \"M\"\ndirection = [-1.0, 0.0]\namplitude = "
+                       "1.0\n";
+    text.insert(text.find("B = ["), fmt::format("M = [0.0, {}]\n", place * length));
+    text.replace(text.find("\"A\", \"B\""), 8, "\"A\", \"M\", \"B\"");
+    text.replace(text.find("elements = 40"), 13, elements);
+    return first_factor(text) * P / euler(1.0);
+  };
+  CHECK(std::abs(held(0.5, "elements = [40, 40]") / 4.0 - 1.0) < 1e-7);
+  const double fine = held(0.3, "elements = [24, 56]");
+  CHECK(fine == doctest::Approx(held(0.3, "elements = [12, 28]")).epsilon(1e-5));
+  CHECK(fine > 1.0);
+  CHECK(fine < 4.0);
 }
 
 TEST_SUITE_END();

@@ -92,7 +92,8 @@ void add_fit(Program& program) {
   add_scene(*command, *options);
   command
       ->add_option("DATA", options->data,
-                   "CSV with t and any of event_index, contact, event, COLUMN..., sigma")
+                   "CSV with t and event_index (optional with it: contact, event) or columns of history.csv, "
+                   "or both; optional: sigma")
       ->required();
   add_keyed_options(*command, *options, "a key of the scene to find", "an earlier fit", "-fit", "fit.json");
   command->callback([&program, options] { program.action = [options] { return run_fit(*options); }; });

@@ -111,7 +111,8 @@ bool speaks_of(const std::vector<std::string>& row, const std::vector<std::strin
 
 std::string key_list(const std::vector<std::string>& words) {
   const std::string heading =
-      "units in terms of force, mass, length and time; - : no default, may be left out\n";
+      "units are given in terms of force, mass, length and time; \"-\" means: no default, the key may be "
+      "left out\n";
   std::string text = heading;
   for (const std::string_view table : tables()) {
     Table rows({"", "", "", "", ""}, {false, false, false, false, false});

@@ -193,9 +193,8 @@ void add_orbit(Program& program) {
       ->option_text("PATH=FROM:TO");
   command
       ->add_option("--switch", options->switches,
-                   "with --over: how often in a row the program changes to a branch that leaves at a flip or "
-                   "a branch point "
-                   "(default: 0)")
+                   "with --over: number of consecutive changes to a branch that begins at a flip or at a "
+                   "branch point (default: 0)")
       ->option_text("N");
   command->add_flag("--resume", options->resume,
                     "with --over: continue the branch that ended early in the directory");

@@ -230,8 +230,8 @@ void add_sensitivity(Program& program) {
       "earlier sensitivities", "-sensitivity", "sensitivity.json");
   command->add_flag("--no-plots", options->no_plots, "do not write pictures or gnuplot scripts");
   command->add_flag("--losses", options->losses,
-                    "also derivatives of energies, works, losses and landings; costs as much as two or three "
-                    "more runs by series");
+                    "also compute derivatives of energies, works, losses and landings; costs as much as two "
+                    "or three more runs with run.flow = taylor");
   command->add_flag(
       "--discrete", options->discrete,
       "with engine newmark: derivatives of the discrete solution instead of the continuous motion");

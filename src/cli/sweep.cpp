@@ -451,8 +451,8 @@ void add_sweep(Program& program) {
   command
       ->add_option(
           "--response", options->responses,
-          "a column: max:, min:, abs:, tmax:, tmin: or end: and an output; residual: or impulse: and a "
-          "contact; count:EVENT or count:EVENT@CONTACT (may be repeated)")
+          "a column of the table: max:OUTPUT, also min:, abs:, tmax:, tmin: and end:; residual:CONTACT or "
+          "impulse:CONTACT; count:EVENT or count:EVENT@CONTACT (may be repeated)")
       ->option_text("QUERY")
       ->allow_extra_args(false);
   const CLI::Validator given([](const std::string& text) { return text.empty() ? "expected a number" : ""; },
@@ -474,7 +474,9 @@ void add_sweep(Program& program) {
           "--share", options->share,
           "compute only every Nth row from the Kth on; auto: K and N from MPI's or Slurm's environment")
       ->option_text("K/N|auto");
-  command->add_option("--merge", options->merge, "join the shares in these directories into the one of -o")
+  command
+      ->add_option("--merge", options->merge,
+                   "join the shares in these directories into the directory given with -o")
       ->option_text("DIR...");
   add_strobe(*command, *options, given);
   add_table_option(*command, options->table);

@@ -114,7 +114,7 @@ std::vector<std::size_t> in_force(const std::vector<Participant>& participants, 
 
 Refusal dependent_rows(std::vector<std::size_t> contacts) {
   return {Refusal::Kind::dependent,
-          "the rows of the contacts that stick are linearly dependent, so their forces are not unique",
+          "the constraints of the contacts that stick are linearly dependent, so their forces are not unique",
           std::move(contacts), std::numeric_limits<double>::infinity()};
 }
 

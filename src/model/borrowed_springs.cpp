@@ -101,14 +101,14 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const Model& m
   const SparseMatrix damped = dampers * s;
   const auto strange = [&](Eigen::Index j, const std::string& what, const char* instead) {
     const Row& row = rows[static_cast<std::size_t>(j)];
-    refuse_borrowing(
-        scene, row.contact, "law",
-        fmt::format("{} has no mass, and {}: there a rigid contact takes {}, or give it law = \"compliant\"",
-                    row.dof->displacement, what, instead));
+    refuse_borrowing(scene, row.contact, "law",
+                     fmt::format("{} has no mass, and {}; a rigid contact there needs {}: change this, or "
+                                 "give the contact law = \"compliant\"",
+                                 row.dof->displacement, what, instead));
   };
   for (Eigen::Index j = 0; j < s.cols(); ++j) {
     if (beta) strange(j, "damping.beta damps it", "beta = 0");
-    if (damped.col(j).norm() > 0.0) strange(j, "a damper acts on it", "none");
+    if (damped.col(j).norm() > 0.0) strange(j, "a damper acts on it", "no damper");
   }
   for (const Load& load : model.loads) {
     const Vector along = s.transpose() * full(load.direction, model.size());
@@ -142,11 +142,9 @@ SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eige
 
 }  // namespace
 
-std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const DofMap& map,
-                                              const SparseMatrix& dampers, Model& model) {
+std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   const std::vector<Row> rows = rows_of(scene, model);
   if (rows.empty()) return std::nullopt;
-  static_cast<void>(map);
   const SparseMatrix s = shifts(scene, model, rows);
   check_alone(scene, dampers, model, rows, s);
   const SparseMatrix ks = model.stiffness * s;
@@ -228,10 +226,11 @@ void check_unique(const Scene& scene, const Model& model) {
     if (f * std::abs(nt) >= nn)
       refuse_borrowing(
           scene, k, "friction",
-          fmt::format("the forces of this contact are not unique while it slides: a friction force moves it "
-                      "along its normal {:.4g} times as far as the normal force that goes with it; expected "
-                      "friction below {:.4g}, mass at the contact, or law = \"compliant\"",
-                      f * std::abs(nt) / nn, nn / std::abs(nt)));
+          fmt::format(
+              "the forces of this contact are not unique while it slides: its friction force displaces it "
+              "along the normal {:.4g} times as far as its normal force does, expected less than 1; expected "
+              "friction below {:.4g}, mass at the contact, or law = \"compliant\"",
+              f * std::abs(nt) / nn, nn / std::abs(nt)));
   }
 }
 

@@ -16,7 +16,6 @@
 
 #include <vector>
 
-#include "model/assembly/dofs.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini {
@@ -34,8 +33,8 @@ struct BorrowedSprings {
 /// Changes K and the contacts (law, stiffnesses, `borrows`); nothing: no rigid contact acts on parts without mass. After
 /// the loads, before the initial state; dampers: C without alpha M + beta K. Errors: SceneError where a damper or a load acts
 /// on these parts, where contacts share a motion of theirs, or where a contact reaches them by half.
-[[nodiscard]] std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const DofMap& map,
-                                                            const SparseMatrix& dampers, Model& model);
+[[nodiscard]] std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers,
+                                                            Model& model);
 
 /// Of a run that goes on: u' from u, gaps and places likewise. Errors: SceneError where the run left no row of its contacts.
 void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model& model);

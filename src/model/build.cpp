@@ -223,7 +223,7 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   model.stiffness = std::move(assembly.stiffness);
   if (!scene.matrices) add_drawing(scene, map, model);
   model.damping = assembly.dampers;
-  const std::optional<BorrowedSprings> borrowed = borrow_springs(scene, map, assembly.dampers, model);
+  const std::optional<BorrowedSprings> borrowed = borrow_springs(scene, assembly.dampers, model);
   start(scene, map, model);
   if (borrowed) continue_borrowed(*borrowed, scene, model);
   if (!scene.matrices) find_hangers(scene, map, model);

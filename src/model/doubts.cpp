@@ -152,7 +152,8 @@ class Doubts {
     if (free.cols() == 0 || (model_.mass * free).isZero(0.0)) return;
     found_.push_back(fmt::format(
         "mass-proportional damping (alpha = {:.4g} 1/{}) also damps rigid-body motions: sliding and flying "
-        "parts lose their velocity with the time constant 1/alpha = {:.4g} {}; beta or single dampers do not",
+        "parts lose their velocity with the time constant 1/alpha = {:.4g} {}; beta and single dampers do "
+        "not damp these motions",
         model_.alpha / model_.unit.time, model_.units.time, model_.unit.time / model_.alpha,
         model_.units.time));
   }

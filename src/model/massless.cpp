@@ -73,7 +73,7 @@ void mark_massless(const Scene& scene, const DofMap& map, const Assembly& assemb
     throw SceneError(
         place_of_structure(scene), "matrices.mass",
         "the mass matrix must be positive definite on the degrees of freedom whose rows are not zero; "
-        "for a massless one all its row is zero");
+        "a massless degree of freedom must have a row of zeros only");
 }
 
 void check_massless(const Scene& scene, const Model& model, const DofMap& map) {

@@ -73,11 +73,10 @@ bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const bool judged_later = scene.initial.saved && scene.reduction && scene.reduction->cutoff_omega > 0.0 &&
                             !model.reduction;  // reduce() knows how far rounding of its shapes carries
   if (gap < 0.0 && !judged_later) {
-    refuse(
-        scene, k, "gap",
-        fmt::format("found a gap of {:.6g} {} at the start, expected none below 0: a rigid contact cannot be "
-                    "penetrated",
-                    gap, model.units.length));
+    refuse(scene, k, "gap",
+           fmt::format("found a gap of {:.6g} {} at the start, expected a gap >= 0: a rigid contact cannot "
+                       "be penetrated",
+                       gap, model.units.length));
   }
   return false;
 }
@@ -120,9 +119,10 @@ void check_redundance(const Scene& scene, const Model& model, const std::vector<
         }
         if (std::abs(gap) <= closes_together * size)
           refuse(scene, k, "law",
-                 fmt::format("it closes exactly with {}, so nobody can say which of the rigid contacts "
-                             "carries the force; leave it out, or give them law = \"compliant\"",
-                             listed(names)));
+                 fmt::format(
+                     "this contact closes at the same time as {}, so the share of each rigid contact in the "
+                     "force is not determined; remove this contact, or give all of them law = \"compliant\"",
+                     listed(names)));
         return;
       }
     }

@@ -53,6 +53,12 @@ std::string about(double seconds) {
 
 }  // namespace
 
+double seconds_of_all(double t_end, const Pace& early, const Pace& late) {
+  const double moved = late.t - early.t;
+  if (moved > 0.0) return late.seconds + (t_end - late.t) * (late.seconds - early.seconds) / moved;
+  return late.t > 0.0 ? late.seconds * t_end / late.t : 0.0;
+}
+
 double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double patience) {
   run.engine = engine;
   run.certify = Certify::no;
@@ -67,8 +73,7 @@ double seconds_by_trial(const Model& model, RunSpec run, Engine engine, double p
     const double moved = watch.t_reached - watch.t_1;
     // Of the small steps of a start alone, which nothing follows from: by the rule.
     if (effort.steps > 0.0 && moved < least_steps * run.t_end / effort.steps) return effort.seconds;
-    if (moved > 0.0) return watch.s + (run.t_end - watch.t_reached) * (watch.s - watch.s_1) / moved;
-    return watch.t_reached > 0.0 ? watch.s * run.t_end / watch.t_reached : 0.0;
+    return seconds_of_all(run.t_end, {watch.t_1, watch.s_1}, {watch.t_reached, watch.s});
   } catch (const SceneError&) {
     return 0.0;
   }

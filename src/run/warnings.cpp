@@ -7,6 +7,7 @@
 
 #include "base/listed.hpp"
 #include "base/rounding.hpp"
+#include "contact/friction.hpp"
 
 namespace signorini {
 namespace {
@@ -20,8 +21,13 @@ constexpr double least_energy = 1e-9;  // of the scene's scales, or of what is s
 std::vector<std::string> cut_shears(const Model& model, const Decision& start) {
   std::vector<std::string> sentences;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const double asked = model.contacts[k].initial_shear, found = start.after[k].T;
-    const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::abs(asked);
+    const Contact& c = model.contacts[k];
+    const double asked = c.initial_shear, found = start.after[k].T;
+    // The limit fs |N|, N = kn g, is known to the rounding of the terms of g: a start with friction ends at it.
+    const double limit = c.has_spring() ? static_friction(c) * c.normal_stiffness *
+                                              (std::abs(c.gap) + c.normal.magnitude(model.u0))
+                                        : std::abs(asked);
+    const bool cut = std::abs(asked) - std::abs(found) > rounding::of_many * std::max(std::abs(asked), limit);
     if (!start.visited[k] || !start.jumped[k] || !cut) continue;
     sentences.push_back(fmt::format(
         "contact '{}': initial_shear = {:.6g} {} is above the friction limit at t = 0; T starts at {:.6g} {}",

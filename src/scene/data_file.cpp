@@ -146,8 +146,9 @@ class TableReader {
       if (line < 4) read_unit();
       if (line == 3 && !table_.unit && !layout_.unit_given)
         fail(
-            fmt::format("found \"{}\", expected the unit in the first three lines of a PEER file, \"IN UNITS "
-                        "OF G\"",
+            fmt::format("found \"{}\", expected a record of acceleration with its unit in the first three "
+                        "lines, such as \"ACCELERATION IN UNITS OF G\" (G, CM/S/S, M/S/S, MM/S/S or GAL); "
+                        "records of velocity or displacement are not read",
                         excerpt(line_)));
     }
     std::vector<double> numbers;

@@ -29,7 +29,7 @@ constexpr Key table_of_keys[] = {
     {"", "lines", tables, "", "", "", "Nodes in a row, at equal distances."},
     {"", "members", tables, "", "", "", "Chains of straight beams between nodes."},
     {"", "bodies", tables, "", "", "", "Plane continua: meshes of rectangles and rings, or from files of Gmsh."},
-    {"", "surfaces", tables, "", "", "", "With [matrices]: boundaries, by places and degrees of freedom, for seams."},
+    {"", "surfaces", tables, "", "", "", "With [matrices]: boundaries for seams, given by the places and degrees of freedom of their nodes."},
     {"", "seams", tables, "", "", "", "Boundaries of bodies that touch each other, the ground or a line: contacts by dual mortar."},
     {"", "masses", tables, "", "", "", "Point masses."},
     {"", "rigid", tables, "", "", "", "Rigid bodies: nodes tied to a centre that carries the mass and inertia of the body."},
@@ -55,7 +55,7 @@ constexpr Key table_of_keys[] = {
     {"run", "engine", choice, "", "\"ida\"", engines_and_auto, "Method of time integration; auto: exact where the laws are linear and no decay rate is above 0.2 times the highest circular frequency, else ida."},
     {"run", "geometric", flag, "", "false", "", "P-delta: geometric stiffness from the static axial forces of members and the static forces on rigid bodies. These forces are computed once without it and then kept constant."},
     {"run", "rtol", relative_tolerance, "", "1e-8", "", "Relative tolerance of the integration."},
-    {"run", "atol", table, "", "", "", "Absolute tolerances; each is rtol times a scale of the scene where absent."},
+    {"run", "atol", table, "", "", "", "Absolute tolerances. Default of each: rtol times a scale of the scene."},
     {"run", "output_dt", positive, "time", "", "", "Time interval between rows of history.csv; t_end / 1000 unless output_times is given."},
     {"run", "output_times", numbers, "time", "", "", "Times of the rows of history.csv, ascending, instead of output_dt; t_end is added."},
     {"run", "frames", numbers, "time", "", "", "Times of deformed shapes, from 0 to t_end, ascending; not with [matrices]."},
@@ -63,16 +63,16 @@ constexpr Key table_of_keys[] = {
     {"run", "max_events_at_once", count, "", "100", "", "Largest number of rounds of state changes at one instant; the run stops if it is exceeded. Independent parts of the structure (theory.md) are counted separately."},
     {"run", "dt", positive, "time", "", "", "Time step of the engines `newmark` and `friction-iteration`; required for them. With step = \"doubling\": the largest time step."},
     {"run", "refine", choice, "", "\"root\"", "root linear", "How engine newmark locates an event. \"root\": the step is repeated with another length until the condition of the event is met at its end. \"linear\": the step is repeated once, up to the interpolated time (contacts without stiffness use \"root\")."},
-    {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: \"fixed\": every step is dt. \"doubling\": the step is halved until a step of twice its length changes the result by less than the tolerance."},
-    {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact: form of the motion between events. \"taylor\": power series. \"modal\": mode shapes of each contact state; the cost depends on the motion, not on the mesh, but not every scene can be computed so. \"auto\": modal from 16 degrees of freedom on if the modes are uncoupled (mass-proportional damping only, compliant contacts, piecewise constant loads); complex modes from 40 on if no contact is rigid and they are faster, and with about six contacts at most; otherwise taylor."},
+    {"run", "step", choice, "", "\"fixed\"", "fixed doubling", "Engine newmark: \"fixed\": every step is dt. \"doubling\": every second step is compared with one step of twice the length; the step is halved while the results differ by more than the tolerance."},
+    {"run", "flow", choice, "", "\"auto\"", "auto modal taylor", "Engine exact: form of the motion between events. \"taylor\": power series. \"modal\": mode shapes of each contact state; the cost depends on the motion, not on the mesh, but not every scene can be computed so. \"auto\" chooses one of three: real modes, from 16 degrees of freedom on, if the modes are uncoupled (mass-proportional damping only, compliant contacts, piecewise constant loads); complex modes, from 40 degrees of freedom on, if no contact is rigid, there are about six contacts at most, and complex modes are faster; otherwise taylor."},
     {"run", "certify", automatic_flag, "", "\"auto\"", "", "Start a companion run that gives error bounds of event times and the certified part of the sequence. auto: if its expected cost is below half of that of the run."},
     {"run", "companion", choice, "", "\"auto\"", "auto exact finer", "Engine of the companion run. \"exact\", or \"finer\": the run's own engine with a finer setting (ida: rtol / 100; engines with dt: dt / 2; exact: two runs with every input changed by about one rounding error). auto: the cheaper one."},
     {"run", "relaxation", positive, "", "1.0", "", "Engine friction-iteration: relaxation factor, at most 1: the fraction of the computed change of the friction limit that one iteration applies."},
     {"run", "max_iterations", count, "", "100", "", "Engine friction-iteration: iterations of a step before the run stops."},
 
-    {"run.atol", "displacement", positive, "length", "", "", "Absolute tolerance of displacements; rtol times the scale of displacements where absent."},
-    {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities; rtol times the scale of velocities where absent."},
-    {"run.atol", "force", positive, "force", "", "", "Absolute tolerance of contact forces; rtol times the scale of forces where absent."},
+    {"run.atol", "displacement", positive, "length", "", "", "Absolute tolerance of displacements. Default: rtol times the scale of displacements."},
+    {"run.atol", "velocity", positive, "length/time", "", "", "Absolute tolerance of velocities. Default: rtol times the scale of velocities."},
+    {"run.atol", "force", positive, "force", "", "", "Absolute tolerance of contact forces. Default: rtol times the scale of forces."},
 
     {"run.initial", "u", numbers_or_file, "", "", "", "With [matrices]: initial displacement of each degree of freedom."},
     {"run.initial", "v", numbers_or_file, "", "", "", "With [matrices]: initial velocity of each degree of freedom."},
@@ -90,7 +90,7 @@ constexpr Key table_of_keys[] = {
     {"run.stages[]", "loads", texts, "", "required", "", "Loads that grow from zero to their value at t = 0: \"gravity\", names of loads, \"load 1\", ..., \"temperature\" and \"initial strain\" (of all members), \"preload\" (of all springs), \"supports\" (motions of all), \"base motion\"."},
     {"run.stages[]", "steps", count, "", "1", "", "Number of equal load steps, at most 10000. summary.json has the state of the contacts after each step."},
 
-    {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes of the structure without its contacts up to this frequency are kept, in cycles per time. Alternative: cutoff_omega."},
+    {"reduction", "cutoff_frequency", positive, "1/time", "", "", "Modes up to this frequency, in cycles per time, are kept; they are the modes of the structure without its contacts. Alternative: cutoff_omega."},
     {"reduction", "cutoff_omega", positive, "1/time", "", "", "The same as a circular frequency in rad per time, instead of cutoff_frequency."},
     {"reduction", "tolerance", positive, "", "", "", "Instead of a cutoff: the program finds the lowest cutoff for which the neglected inertia changes displacements of contacts and named nodes by less than this fraction of the greatest displacement."},
 
@@ -108,15 +108,15 @@ constexpr Key table_of_keys[] = {
     {"sections.*", "modulus", positive, "length^3", "", "", "Section modulus, where there is no shape: stresses are M / modulus."},
     {"sections.*", "pipe", table, "", "", "", "A round tube, with what is in it and around it, instead of EA, EI, mass_per_length, area, modulus."},
     {"sections.*", "box", table, "", "", "", "A rectangular section, hollow if `wall` is given; instead of EA, EI, mass_per_length, area and modulus."},
-    {"sections.*", "i", table, "", "", "", "Two flanges and a web, instead of them."},
-    {"sections.*", "round", table, "", "", "", "A round rod, instead of them."},
+    {"sections.*", "i", table, "", "", "", "Two flanges and a web, instead of EA, EI, mass_per_length, area and modulus."},
+    {"sections.*", "round", table, "", "", "", "A round rod, instead of EA, EI, mass_per_length, area and modulus."},
 
     {"sections.*.pipe", "diameter", positive, "length", "required", "", "Outer diameter."},
     {"sections.*.pipe", "wall", positive, "length", "required", "", "Thickness of the wall."},
     {"sections.*.pipe", "E", positive, "force/length^2", "required", "", "Young's modulus."},
     {"sections.*.pipe", "density", non_negative, "mass/length^3", "required", "", "Density of the wall."},
-    {"sections.*.pipe", "content", non_negative, "mass/length^3", "0.0", "", "Density of what fills it; mass only."},
-    {"sections.*.pipe", "insulation", table, "", "", "", "What is around it; mass only."},
+    {"sections.*.pipe", "content", non_negative, "mass/length^3", "0.0", "", "Density of the content. It adds mass, but no stiffness."},
+    {"sections.*.pipe", "insulation", table, "", "", "", "Layer around the pipe. It adds mass, but no stiffness."},
     {"sections.*.pipe.insulation", "thickness", positive, "length", "required", "", "Thickness of the insulation."},
     {"sections.*.pipe.insulation", "density", non_negative, "mass/length^3", "required", "", "Density of the insulation."},
 
@@ -147,7 +147,7 @@ constexpr Key table_of_keys[] = {
 
     {"members[]", "nodes", texts, "", "required", "", "Names of two or more nodes; a straight piece joins each to the next. \"P0..P9\" stands for P0, P1, ..., P9, \"P0..P9:3\" for every third of them."},
     {"members[]", "section", name, "", "required", "", "Name of the section."},
-    {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece, or of all when it is one number. Default for arcs: 8."},
+    {"members[]", "elements", KeyType::elements, "", "1", "", "Number of finite elements of each piece; one number applies to every piece. Default for arcs: 8."},
     {"members[]", "type", choice, "", "\"beam\"", "beam bar", "\"beam\": Euler-Bernoulli beam; \"bar\": truss member with EA and mass only, hinged at its ends, one element a piece."},
     {"members[]", "mass", choice, "", "\"consistent\"", "consistent lumped", "Mass matrix; \"lumped\" makes rotations massless."},
     {"members[]", "release", texts, "", "[]", "", "End nodes at which a beam is hinged: its first node, its last, or both. The beam end then rotates independently of the node."},
@@ -159,7 +159,7 @@ constexpr Key table_of_keys[] = {
 
     {"members[].bend", "radius", number, "length", "required", "", "Radius of the middle line: > 0 if the line from node to node curves to the left, < 0 where it turns right."},
     {"members[].bend", "flexibility", positive, "", "", "", "Flexibility factor: EI is divided by it. Default: for a pipe max(1, 1.65 / h) with h = (wall thickness x bend radius) / r^2 and r the mean radius of the wall; otherwise 1."},
-    {"members[].bend", "sif", positive, "", "", "", "Stresses of bending are multiplied by it; of a pipe max(1, 0.9 / h^(2/3)) where absent; else 1."},
+    {"members[].bend", "sif", positive, "", "", "", "Stress intensification factor: bending stresses are multiplied by it. Default: for a pipe max(1, 0.9 / h^(2/3)), with h as in flexibility; otherwise 1."},
 
     {"bodies[]", "name", name, "", "required", "", "Name of the body; its nodes are NAME.NUMBER, by the numbers of the file, or from 1 on, row by row."},
     {"bodies[]", "mesh", text, "", "", "", "File of Gmsh beside the scene, .msh 4.1 or 2.2 in ASCII; or rectangle, or ring."},
@@ -208,7 +208,7 @@ constexpr Key table_of_keys[] = {
     {"seams[]", "normal_stiffness", positive, "force/length^3", "", "", "compliant: stiffness per unit area. Alternative: layer."},
     {"seams[]", "tangential_stiffness", positive, "force/length^3", "", "", "compliant, with friction: stiffness along the seam per unit area. Alternative: layer."},
     {"seams[]", "layer", table, "", "", "", "compliant: material between the surfaces, kn = E / thickness, kt = G / thickness per unit area, instead of normal_stiffness and tangential_stiffness."},
-    {"seams[]", "normal_damping", non_negative, "force*time/length^3", "0.0", "", "compliant: dashpot beside the normal stiffness, for each area."},
+    {"seams[]", "normal_damping", non_negative, "force*time/length^3", "0.0", "", "compliant: dashpot beside the normal stiffness, per unit area."},
     {"seams[]", "gap", number, "length", "", "", "Constant initial gap along the seam; negative: interference. Default: computed from the node positions."},
     {"seams[]", "contact_mass", choice, "", "\"consistent\"", "consistent none", "\"none\": nodes of the slave boundary have no mass; their mass is moved to nearby nodes; total mass, centre and inertia are unchanged. This reduces the number of events."},
 
@@ -223,7 +223,7 @@ constexpr Key table_of_keys[] = {
     {"masses[]", "mass", non_negative, "mass", "required", "", "Mass."},
     {"masses[]", "inertia", non_negative, "mass*length^2", "0.0", "", "Moment of inertia about the node."},
 
-    {"rigid[]", "name", name, "", "required", "", "Name of the body, and of its centre where that is a place."},
+    {"rigid[]", "name", name, "", "required", "", "Name of the body, and of its centre if `centre` is a position [x, y]."},
     {"rigid[]", "nodes", texts, "", "required", "", "Nodes that move with the centre, by small rotations: u = u_c + rz x (r - r_c); \"P0..P9\" as in members."},
     {"rigid[]", "centre", KeyType::place, "length", "required", "", "Centre of mass, to which the inertia refers: an existing node, or a position [x, y], which becomes a node with the name of the body."},
     {"rigid[]", "mass", non_negative, "mass", "", "", "Mass at the centre; required without box. 0.0 for a connection."},
@@ -249,7 +249,7 @@ constexpr Key table_of_keys[] = {
     {"springs[]", "preload", number, "force", "0.0", "", "Force in the spring in the undeformed state. If positive it pulls the node against `direction`."},
     {"springs[]", "hanger", table, "", "", "", "Loads of a spring hanger, instead of preload: the cold one is the preload."},
     {"springs[]", "rotation_stiffness", non_negative, "force*length", "0.0", "", "Stiffness against rotation (rz), moment per rad."},
-    {"springs[]", "rotation_damping", non_negative, "force*length*time", "0.0", "", "Damper beside it."},
+    {"springs[]", "rotation_damping", non_negative, "force*length*time", "0.0", "", "Damper beside the rotational spring."},
 
     {"springs[].hanger", "hot", positive, "force", "required", "", "Load in operation, which it was chosen for."},
     {"springs[].hanger", "cold", positive, "force", "", "", "Load in the undeformed state. Give two of `cold`, `travel` and `stiffness`: cold = hot + stiffness * travel."},
@@ -261,7 +261,7 @@ constexpr Key table_of_keys[] = {
     {"matrices", "stiffness", matrix, "", "required", "", "Stiffness matrix, symmetric."},
 
     {"contacts[]", "name", name, "", "", "", "Name in results and in --set; contact1, contact2, ... where absent."},
-    {"contacts[]", "node", name, "", "", "", "Node that touches; required with [nodes], or nodes."},
+    {"contacts[]", "node", name, "", "", "", "Node that touches. With [nodes], either `node` or `nodes` is required."},
     {"contacts[]", "nodes", texts, "", "", "", "Nodes with identical contacts; each gets its own contact NAME-NODE; \"P0..P9\" as in members."},
     {"contacts[]", "against", KeyType::against, "", "", "", "What is touched instead of the ground: a node, or two nodes [B, C] with a straight segment between them. The contact point on the segment is the projection of the undeformed node; its displacement is interpolated linearly between B and C."},
     {"contacts[]", "law", choice, "", "required", "compliant rigid slider", "\"compliant\": springs that open and slip; \"rigid\": g >= 0 exactly, with impacts; \"slider\": friction under a given compression."},
@@ -286,18 +286,18 @@ constexpr Key table_of_keys[] = {
     {"contacts[].seam", "area", positive, "length^2", "required", "", "Area that belongs to the contact: spacing of the nodes times width."},
 
     {"contacts[].friction", "static", non_negative, "", "", "", "Static coefficient of friction. Give `static`, or `slow`, `fast` and `velocity`."},
-    {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while it slips, at most the static one; the same where absent."},
-    {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Stribeck's law while the contact slips, f = kinetic + (static - kinetic) exp(-|slip rate| / stribeck_velocity); contacts without tangential_stiffness, engine \"ida\"."},
+    {"contacts[].friction", "kinetic", non_negative, "", "", "", "Coefficient while the contact slips, at most the static one. Default: the static one."},
+    {"contacts[].friction", "stribeck_velocity", positive, "length/time", "", "", "Velocity of Stribeck's law while the contact slips, f = kinetic + (static - kinetic) exp(-|slip rate| / stribeck_velocity). Only for contacts without tangential_stiffness, and engine \"ida\"."},
     {"contacts[].friction", "slow", positive, "", "", "", "Friction that rises with the slip rate, f = fast - (fast - slow) exp(-|slip rate| / velocity): the contact sticks while |T| <= slow |N|; slip then begins without a jump of friction; engine \"ida\"."},
     {"contacts[].friction", "fast", positive, "", "", "", "Coefficient of fast slip, at least slow."},
     {"contacts[].friction", "velocity", positive, "length/time", "", "", "Slip rate at which f has risen by 63 % of the difference between slow and fast."},
 
-    {"stops[]", "name", name, "", "", "", "Its contacts are NAME+ and NAME-; stop1, stop2, ... where absent."},
+    {"stops[]", "name", name, "", "", "", "Name of the stop; its contacts are NAME+ and NAME-. Default: stop1, stop2, ..."},
     {"stops[]", "direction", direction, "", "required", "", "Direction of the motion that is stopped; NAME+ closes where the node moves along it, NAME- where it moves back."},
     {"stops[]", "gap", number, "length", "0.0", "", "Gap of the undeformed state on either side."},
     {"stops[]", "gaps", numbers, "length", "", "", "Gaps [of NAME+, of NAME-] that differ, instead of gap."},
 
-    {"pendulums[]", "name", name, "", "", "", "Name of its contact, its stops are NAME+ and NAME-; pendulum1, pendulum2, ... where absent."},
+    {"pendulums[]", "name", name, "", "", "", "Name of its contact; its stops are NAME+ and NAME-. Default: pendulum1, pendulum2, ..."},
     {"pendulums[]", "node", name, "", "required", "", "Node that slides."},
     {"pendulums[]", "against", name, "", "", "", "Node that has the curved surface, instead of the ground."},
     {"pendulums[]", "normal", vector, "", "[0.0, 1.0]", "", "Direction of the force of the surface on the node when u = 0; it is made a unit vector. The tangent is (ny, -nx)."},
@@ -311,13 +311,13 @@ constexpr Key table_of_keys[] = {
     {"base_motion", "acceleration", standing_history, "length/time^2", "required", "", "Acceleration of the ground; a number or a history."},
 
     {"loads[]", "name", name, "", "", "", "Name in results and in stages; \"load 1\", \"load 2\", ... where absent."},
-    {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes] but for distributed loads."},
-    {"loads[]", "direction", direction, "", "", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices], where it may be the name of a Matrix Market file with one column. Required but for a moment."},
-    {"loads[]", "amplitude", number, "force", "", "", "Factor of the history; or moment, or distributed."},
+    {"loads[]", "node", name, "", "", "", "Node that is loaded; required with [nodes], except for distributed loads, tractions and pressures."},
+    {"loads[]", "direction", direction, "", "", "", "Direction of the force; it is made a unit vector with [nodes], taken as given with [matrices], where it may be the name of a Matrix Market file with one column. Required, except for a moment or a pressure."},
+    {"loads[]", "amplitude", number, "force", "", "", "Factor of the history. Alternatives: moment, distributed, traction, pressure."},
     {"loads[]", "moment", number, "force*length", "", "", "Moment about the node, counter-clockwise, as the factor of the history; instead of amplitude."},
-    {"loads[]", "distributed", number, "force/length", "", "", "Factor of the history of a force per length of pieces of members, instead of amplitude."},
-    {"loads[]", "traction", number, "force/length^2", "", "", "Factor of the history of a force per area of a boundary, along direction, instead of amplitude."},
-    {"loads[]", "pressure", number, "force/length^2", "", "", "Factor of the history of a pressure on a boundary, positive into the body, instead of amplitude."},
+    {"loads[]", "distributed", number, "force/length", "", "", "Force per length on pieces of members, as the factor of the history; instead of amplitude."},
+    {"loads[]", "traction", number, "force/length^2", "", "", "Force per area on a boundary, along direction, as the factor of the history; instead of amplitude."},
+    {"loads[]", "pressure", number, "force/length^2", "", "", "Pressure on a boundary, positive into the body, as the factor of the history; instead of amplitude."},
     {"loads[]", "group", text, "", "", "", "Traction and pressure: boundary \"BODY.GROUP\" that is loaded."},
     {"loads[]", "nodes", texts, "", "", "", "Distributed: from each of these nodes to the next there is a piece of a member, which is loaded; \"P0..P9\" as in members."},
     {"loads[]", "axes", choice, "", "\"global\"", "global member", "For distributed loads: axes of `direction`. \"global\": [x, y]. \"member\": [along the piece, normal to it to the left]."},
@@ -329,9 +329,9 @@ constexpr Key table_of_keys[] = {
     {"output[]", "nodes", texts, "", "", "", "envelope: from each of these nodes to the next there is a piece of a member; \"P0..P9\" as in members."},
     {"output[]", "direction", direction, "", "", "", "Direction of the component. With [nodes] it is normalised; with [matrices] it is used as given and `at` is not needed. Stress of a body: the axis x of its components, [1, 0] where absent."},
     {"output[]", "rotation", flag, "", "false", "", "Rotation of the node, counter-clockwise, instead of the component along a direction; for reaction and spring: the moment."},
-    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss stress xx yy xy", "member_force: N (tension is positive), V or M; stress: N or M for that part alone; of a body xx, yy (tension is positive) or xy; envelope: N, V, M or stress; contact: N, T, gap, slip or loss (the work of its friction, but for that in impacts)."},
+    {"output[]", "quantity", choice, "", "", "N V M T gap slip loss stress xx yy xy", "member_force: N (tension is positive), V or M; stress: N or M for that part alone; of a body xx, yy (tension is positive) or xy; envelope: N, V, M or stress; contact: N, T, gap, slip or loss (the work of its friction, without the work in impacts)."},
     {"output[]", "station", fraction, "", "0.0", "", "member_force, stress: where, from A (0) to B (1); at a node between two finite elements: the value in the element towards B."},
-    {"output[]", "fibre", choice, "", "\"both\"", "both left right", "Of stresses: at the outermost fibre to the left of the course from node to node, to the right, or both: greatest magnitude, with the greatest and the least value as maximum and minimum."},
+    {"output[]", "fibre", choice, "", "\"both\"", "both left right", "For stresses: the outermost fibre to the left or to the right of the line from node to node, or both. With \"both\" the column has the value of greatest magnitude at each time; maximum and minimum in summary.json are the greatest and the least value of both fibres."},
     {"output[]", "sif", positive, "", "", "", "Stress intensification factor: bending stresses are multiplied by it. Default: the factor of the bend, otherwise 1."},
     {"output[]", "spring", count, "", "", "", "spring: its number in the file, from 1 on."},
     {"output[]", "terms", table, "", "", "", "combination: factors of outputs that stand before it; all products of output and factor must have the same unit."},
@@ -343,16 +343,16 @@ constexpr Key table_of_keys[] = {
     {"history", "offset", number, "", "0.0", "", "Constant that is added, at all times; not in [[loads]]."},
     {"history", "amplitude", number, "", "1.0", "", "Factor of the shape; not in [[loads]]."},
     {"history", "start", number, "time", "0.0", "", "Start time. Without it a constant history acts from the beginning. Not for tables."},
-    {"history", "end", number, "time", "", "", "End time. Default: no end. Required for rectangle and triangle; not of a table."},
+    {"history", "end", number, "time", "", "", "End time. Default: no end. Required for rectangle and triangle; not allowed for tables."},
     {"history", "duration", positive, "time", "", "", "half_sine: end - start, instead of end."},
     {"history", "omega", positive, "1/time", "", "", "harmonic, sin(omega (t - start) + phase): circular frequency in rad per time."},
     {"history", "frequency", positive, "1/time", "", "", "harmonic: cycles per time, instead of omega."},
     {"history", "phase", number, "", "0.0", "", "harmonic: phase in rad."},
     {"history", "coefficients", numbers, "", "", "", "polynomial: coefficients of the ascending powers of t - start."},
     {"history", "times", numbers, "time", "", "", "table: times, ascending; a repeated time is a jump."},
-    {"history", "values", numbers, "", "", "", "table: one value a time."},
+    {"history", "values", numbers, "", "", "", "table: one value for each time."},
     {"history", "interpolation", choice, "", "\"linear\"", "linear steffen", "table: straight lines, or smooth without overshoot."},
-    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2), whose heading says its unit: G, CM/S/S, M/S/S."},
+    {"history", "file", text, "", "", "", "table: CSV file beside the scene with two columns, time and value, instead of times and values; or a PEER record of acceleration (.AT2), whose header names its unit: G, CM/S/S, M/S/S, MM/S/S or GAL."},
     {"history", "column", count, "", "", "", "file: column of the values, from 2 on, where there are more than two; the first has the times."},
     {"history", "time_step", positive, "time", "", "", "file: the file has values only, any number per line, at this time interval; the first is at t = 0."},
     {"history", "unit", choice, "", "", "g", "\"g\": the values are accelerations in units of g = 9.80665 m/s^2. Not needed for PEER files, whose header names the unit."},
@@ -507,7 +507,7 @@ std::string describe_type(const Key& key) {
     case flag:
       return key.type == flag ? "true or false" : "\"auto\", true or false";
     case KeyType::elements:
-      return "an integer >= 1, or an array of them, one a piece";
+      return "an integer >= 1, or an array of them, one for each piece";
     case KeyType::initial:
       return "\"static\", \"frictional\" or a table";
     case fraction:

@@ -85,7 +85,8 @@ void read_hanger(Table& table, Spring& spring) {
   Table hanger = table.child("hanger");
   if (table.has("preload"))
     contradict({{table, "preload"}, {table, "hanger"}},
-               "preload cannot be combined with hanger, whose cold load it is: expected one of the two");
+               "preload cannot be combined with hanger, because the cold load of the hanger is the preload: "
+               "expected one of the two");
   const double hot = hanger.number("hot");
   const std::optional<double> cold = hanger.optional_number("cold"),
                               travel = hanger.optional_number("travel");
@@ -104,8 +105,8 @@ void read_hanger(Table& table, Spring& spring) {
   if (!stiff) spring.stiffness = (*cold - hot) / *travel;
   if (!(spring.stiffness > 0.0) || !std::isfinite(spring.stiffness))
     contradict({{table, "hanger"}, hot_key, cold_key, travel_key, stiffness_key},
-               fmt::format("the stiffness would be {:.6g}, expected > 0: the load falls where the node moves "
-                           "against direction (travel > 0)",
+               fmt::format("the stiffness would be {:.6g}, expected > 0: from cold to hot the load decreases "
+                           "if the node moves against direction (travel > 0), so cold > hot needs travel > 0",
                            spring.stiffness));
   if (!(spring.preload >= 0.0))
     contradict({travel_key, hot_key, cold_key, stiffness_key},

@@ -64,8 +64,9 @@ void add_range(const std::string& text, const Table& table, std::string_view key
   const auto step =
       colon == std::string::npos ? std::optional<long long>(1) : parse_integer(text.substr(colon + 1));
   if (first != last || from < 0 || to < from || !step || *step < 1)
-    table.fail(key,
-               fmt::format("found \"{}\", expected a row of nodes like \"P0..P9\" or \"P0..P9:3\"", text));
+    table.fail(key, fmt::format("found \"{}\", expected a row of nodes with one name and ascending numbers, "
+                                "such as \"P0..P9\" or \"P0..P9:3\"",
+                                text));
   for (long long i = from; i <= to; i += *step) {
     names.push_back(fmt::format("{}{}", first, i));
     check_known(names.back(), space.names, "node", table.place(key), table.path(key));

@@ -33,10 +33,9 @@ std::string read_centre(Table& table, const std::string& name, Scene& scene, Nam
   }
   const auto [x, y] = table.vector("centre");
   if (!nodes.add(name))
-    table.fail("name",
-               fmt::format("found \"{}\", which is a node, expected another name: the centre is a node of "
-                           "the body's name",
-                           name));
+    table.fail("name", fmt::format("found \"{}\", which is the name of a node; expected another name, "
+                                   "because the centre becomes a node with the name of the body",
+                                   name));
   scene.nodes.push_back({name, x, y, table.place("centre")});
   return name;
 }

@@ -122,10 +122,9 @@ void read_run(Table& top, Scene& scene, RecordedScene& record) {
   run.geometric = table.flag("geometric");
   run.geometric_place = table.place("geometric");
   if (run.geometric && scene.matrices)
-    table.fail(
-        "geometric",
-        "has nothing to act on beside [matrices]: expected their stiffness to contain what static forces "
-        "add to it");
+    table.fail("geometric",
+               "has no effect with [matrices]: remove it, and add the geometric stiffness of the static "
+               "forces to matrices.stiffness");
   read_tolerances(table, run);
   read_output(table, run);
   read_frames(table, run, scene.matrices.has_value());

@@ -133,7 +133,9 @@ void leave_out_shared(const Table& table, const Scene& scene, MortarSeam& seam) 
 /// The mortar of a table, checked.
 MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) {
   const PlaceOf place = [&](int n) { return place_in(scene, n); };
-  if (table.has("master") == table.has("line")) table.fail("master", "expected one of master and line");
+  if (table.has("master") == table.has("line"))
+    table.fail("master", table.has("line") ? "cannot be combined with line; give only one of them"
+                                           : "missing, expected master or line");
   MortarSeam seam;
   if (table.has("line")) {
     Table line = table.child("line");

@@ -248,7 +248,7 @@ plane = "stress"
   };
   refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known:");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.right\"\nlaw = \"rigid\"\n",
-          "found a gap of -1 m at the start, expected none below 0");
+          "found a gap of -1 m at the start, expected a gap >= 0");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.bottom\"\nlaw = \"rigid\"\n",
           "it faces no part of the slave boundary");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"ground\"\nlaw = \"compliant\"\n",

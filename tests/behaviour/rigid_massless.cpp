@@ -267,7 +267,7 @@ friction = {}
   refused(leaning("0.5", "restitution = 0.5\n"),
           "contacts.foot.restitution: fy.u has no mass, so nothing rebounds");
   refused(leaning("0.5", "[[loads]]\ndirection = { fx = 1.0 }\namplitude = 1.0\n"),
-          "acts on it: there a rigid contact takes no load");
+          "acts on it; a rigid contact there needs no load");
   std::string damped = dragged_blocks("exact", 0.0, rigid_law);
   damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");
   refused(damped, "damping.beta damps it");

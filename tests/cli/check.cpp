@@ -160,7 +160,7 @@ contacts = [
   };
   const Ending rigid = check_with("law = \"rigid\"");
   CHECK(rigid.code == 3);
-  CHECK(contains(rigid.err, "give them law = \"compliant\""));
+  CHECK(contains(rigid.err, "give all of them law = \"compliant\""));
   CHECK_FALSE(contains(rigid.err, "tangential_stiffness"));  // which "rigid" refuses
   CHECK(check_with("law = \"rigid\", tangential_stiffness = 1e5").code == 3);
   CHECK(check_with("law = \"compliant\", normal_stiffness = 1e5, tangential_stiffness = 1e5").code == 0);

@@ -199,7 +199,7 @@ TEST_CASE("cli compare: engines that stop early or refuse the scene are rows") {
   const Ending stopped = shell.run({"compare", "twice.toml", "--engines", "exact,ida", "--no-plots", "--set",
                                     "exact:contacts.other.friction=0"});
   CHECK(stopped.code == 4);
-  CHECK(has(stopped.out, "ida: stopped at t = 0: the rows of the contacts"));
+  CHECK(has(stopped.out, "ida: stopped at t = 0: the constraints of the contacts"));
   CHECK(has(stopped.out, "sequence: the same, 0 events up to t = 0\n"));
   CHECK(has(stopped.err, "a computation stopped early"));
   CHECK(exists(shell, "twice-compare/exact/events.csv"));

@@ -353,12 +353,11 @@ void add_support_rates(const Scene& scene, const DofMap& map, const Assembly& as
                                    "infinite force: replace the jump by a ramp",
                                    t));
     if (const double t = jump_of(velocity, scene.run.t_end); t >= 0.0 && moves_mass)
-      throw SceneError(
-          moving.place, moving.key,
-          fmt::format("the support velocity jumps at t = {:.6g}, so mass would need an impulse: "
-                      "give a smooth motion (interpolation = \"steffen\"), or an acceleration; or mass "
-                      "= \"lumped\" to the members there",
-                      t));
+      throw SceneError(moving.place, moving.key,
+                       fmt::format("the support velocity jumps at t = {:.6g}, so mass would need an impulse: "
+                                   "give a smooth motion (interpolation = \"steffen\") or an acceleration, "
+                                   "or set mass = \"lumped\" on the members at this support",
+                                   t));
     add_support_load(moving, " (mass)", columns.mass, moving.s.with_rates(0.0, 0.0, 1.0), 2, loads);
     add_support_load(moving, " (damping)", damping, velocity, 1, loads);
   }

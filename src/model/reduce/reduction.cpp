@@ -402,7 +402,8 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
     single.setZero();
   }
   Basis b = basis_of(modes, shapes, single, model.alpha, model.beta);
-  if (b.heavy == 0) refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise it");
+  if (b.heavy == 0)
+    refuse(scene, "no mode lies below the cutoff, and no other shape has mass; raise the cutoff");
   scale(model, b);
 
   Reduction facts = facts_of(model, modes, shapes, cutoff);

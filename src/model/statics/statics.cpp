@@ -86,8 +86,8 @@ void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& al
   if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
   throw SceneError(
       place, key,
-      fmt::format("a static start is impossible, the structure is a mechanism: nothing restrains its {}; "
-                  "add a support, a spring or a contact, or give the initial state",
+      fmt::format("a static start is impossible, the structure is a mechanism: nothing restrains the {}; add "
+                  "a support, a spring or a contact, or give the initial state",
                   names));
 }
 

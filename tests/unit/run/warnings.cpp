@@ -40,6 +40,34 @@ TEST_CASE("a balance is off beside what was exchanged, and beside the rounding o
 }
 
 TEST_CASE(
+    "a shear is cut where the limit is below it by more than the rounding of what N is a difference of") {
+  Model model;
+  model.units = {"N", "kg", "m", "s"};
+  Contact c;
+  c.name = "shoe";
+  c.normal.terms = {{0, 1.0}, {1, 1.0}};
+  c.normal_stiffness = 5e4;
+  c.friction.static_ = c.friction.kinetic = 0.3;
+  model.u0 = Eigen::Vector2d(1.0, -1.0 - 2e-4);  // N = -10, of terms of 5e4
+  Decision start;
+  start.visited = start.jumped = {true};
+  start.after.resize(1);
+  start.after[0].T = 3.0;
+  const auto told = [&](double asked) {
+    c.initial_shear = asked;
+    model.contacts = {c};
+    return cut_shears(model, start);
+  };
+  // 64 eps 0.3 5e4 (1 + 1 + 2e-4) = 4.3e-10
+  CHECK(told(3.0 + 4.2e-10).empty());
+  REQUIRE(told(3.0 + 4.4e-10).size() == 1);
+  CHECK(
+      has_word(told(3.5)[0], "initial_shear = 3.5 N is above the friction limit at t = 0; T starts at 3 N"));
+  start.jumped = {false};
+  CHECK(told(3.5).empty());
+}
+
+TEST_CASE(
     "a long beam at rest, unloaded, loses nothing: its energies are differences of far greater numbers") {
   const Scene scene = parse_scene(R"(schema = 1
 units = { force = "kN", mass = "t", length = "m", time = "s" }

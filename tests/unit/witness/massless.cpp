@@ -102,6 +102,19 @@ TEST_CASE("each of them a little off") {
   }
 }
 
+TEST_CASE("a motion that has decayed until its velocities have no digits breaks no law") {
+  Chain chain;
+  chain.rate = chain.bend = 0.0;
+  chain.v.setZero();
+  chain.a.setZero();
+  for (const double rest : {4e-315, 5e-324}) {
+    chain.v[1] = rest;
+    CHECK_FALSE(tells_of(chain.between(), "massless velocity"));
+  }
+  chain.v[1] = 1e-280;
+  CHECK(tells_of(chain.between(), "massless velocity"));
+}
+
 TEST_CASE("a load that is left out, or its rate") {
   Chain chain;
   chain.load = 0.0;

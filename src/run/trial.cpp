@@ -53,7 +53,7 @@ std::string about(double seconds) {
 
 }  // namespace
 
-double seconds_of_all(double t_end, const Pace& early, const Pace& late) {
+double seconds_of_all(double t_end, const TrialTime& early, const TrialTime& late) {
   const double moved = late.t - early.t;
   if (moved > 0.0) return late.seconds + (t_end - late.t) * (late.seconds - early.seconds) / moved;
   return late.t > 0.0 ? late.seconds * t_end / late.t : 0.0;

@@ -23,12 +23,12 @@ struct Trial {
 };
 
 /// When a time of the run was reached, in seconds since it began.
-struct Pace {
+struct TrialTime {
   double t = 0.0, seconds = 0.0;
 };
 
 /// The equation above, from (t_1, s_1) and (t, s); in proportion to t where they are one; 0 where t is 0.
-[[nodiscard]] double seconds_of_all(double t_end, const Pace& early, const Pace& late);
+[[nodiscard]] double seconds_of_all(double t_end, const TrialTime& early, const TrialTime& late);
 
 /// Seconds that the run is expected to take by this engine; 0 where it does not take the scene, or stops within the trial.
 /// `patience`: seconds that the trial may take, and a step; by the rule of effort.hpp where the first one takes too long.

@@ -422,7 +422,8 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
             "<th>reached t</th><th>events</th>",
             facts) +
           doubts +
-          "<p class=hint>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the reaction "
+          "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the "
+          "reaction "
           "at "
           "the start of the run. Bold: the case that governs, that is min, max or greatest magnitude.</p>\n" +
           warnings_html(cases));

@@ -158,10 +158,10 @@ struct Condition {
 };
 constexpr Condition conditions[] = {{"gap", "gap g < 0", "length"},
                                     {"tension", "tension N > 0", "force"},
-                                    {"product", "both |g N|", "force length"},
+                                    {"product", "complementarity |g N|", "force length"},
                                     {"penetration", "penetration", "length"},
                                     {"friction", "friction |T| > T_U", "force"},
-                                    {"direction", "direction T p' < 0", "force length/time"},
+                                    {"direction", "friction against slip T p' < 0", "force length/time"},
                                     {"equilibrium", "equilibrium", "force"},
                                     {"reactions", "sum of reactions", "force"},
                                     {"energy", "energy balance", "force length"}};
@@ -260,11 +260,11 @@ std::string kind_of_results(const fs::path& directory) {
 namespace {
 
 std::string with_signs(const std::string& loads) {
-  return loads.empty()
-             ? ""
-             : loads +
-                   "<p class=hint>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the "
-                   "reaction at the start of the run.</p>\n";
+  return loads.empty() ? ""
+                       : loads +
+                             "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at "
+                             "rest is the "
+                             "reaction at the start of the run.</p>\n";
 }
 
 }  // namespace

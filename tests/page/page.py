@@ -207,6 +207,8 @@ def everywhere(browser, name, whole=True):
     browser.look("light", 800, media="print")
     buttons = browser.run("return [...document.querySelectorAll('.buttons button, .filters, .hint')].filter(b => b.offsetParent !== null).length")
     check(f"{name}, printed: no buttons ({buttons})", buttons == 0)
+    stuck = browser.run("return [...document.querySelectorAll('th')].filter(th => getComputedStyle(th).position === 'sticky').length")
+    check(f"{name}, printed: no heading covers rows ({stuck})", stuck == 0)
     if whole:
         browser.screenshot(pictures / f"{name}-print.png", whole=True)
     browser.look()

@@ -139,8 +139,7 @@ class Doubts {
     if (touching.empty()) return;
     found_.push_back(
         fmt::format("the weight acts suddenly at t = 0 on {}, closed there with zero force: the structure "
-                    "will oscillate, "
-                    "with up to twice the static force; initial = \"static\" starts at rest",
+                    "will oscillate, with up to twice the static force; initial = \"static\" starts at rest",
                     names(model_, touching)));
   }
 

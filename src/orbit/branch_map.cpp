@@ -9,6 +9,7 @@
 #include "base/number.hpp"
 #include "model/rescale.hpp"
 #include "orbit/orbit_engine.hpp"
+#include "orbit/reader_at.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
@@ -29,11 +30,7 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
     : read_(read), options_(options), recorder_(recorder), autonomous_(first.autonomous) {
   const double at = options.resumed ? options.resumed->parameter : options.from;
   start_.s = (at - options.from) / (options.to - options.from);
-  const SceneReader begun = [&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{options_.path, shortest(at)}};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return read_(all);
-  };
+  const SceneReader begun = reader_at(read_, options_.path, at);
   t_end_ = std::max(begun({}).run.t_end, first.phase + 4.0 * first.period);
   Model on_orbit = build_model(orbit_scene(begun, first));
   machine_ = on_orbit.machine;

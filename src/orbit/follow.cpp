@@ -5,17 +5,13 @@
 #include <deque>
 
 #include "orbit/branch_walk.hpp"
+#include "orbit/reader_at.hpp"
 
 namespace signorini {
 namespace {
 
 Orbit first_orbit(const SceneReader& read, const BranchOptions& options, Recorder* recorder) {
-  const SceneReader first = [&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{options.path, fmt::format("{}", options.from)}};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return read(all);
-  };
-  return find_orbit(first, options.orbit, recorder);
+  return find_orbit(reader_at(read, options.path, options.from), options.orbit, recorder);
 }
 
 }  // namespace

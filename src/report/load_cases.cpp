@@ -144,6 +144,18 @@ std::string heading(const std::string& text, const std::string& unit = "") {
 
 }  // namespace
 
+namespace {
+
+/// Of tables of support loads; `more`: a sentence that follows.
+std::string signs(const std::string& more = "") {
+  return "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the reaction "
+         "at the start "
+         "of the run." +
+         (more.empty() ? "" : " " + more) + "</p>\n";
+}
+
+}  // namespace
+
 std::string support_loads_html(const Json& summary) {
   const std::vector<Figure> figures = support_figures(summary);
   if (figures.empty()) return "";
@@ -162,7 +174,7 @@ std::string support_loads_html(const Json& summary) {
       rows += cell(figures[i].value) + (figures[i].t ? time_cell(figures[i].t) : "");
     rows += "</tr>\n";
   }
-  return table(head, rows);
+  return table(head, rows) + signs();
 }
 
 std::string responses_html(const Json& summary, bool envelopes) {
@@ -343,13 +355,22 @@ std::string load_cases_csv(const std::vector<LoadCase>& cases) {
 
 namespace {
 
-/// "--set a=b --set c=d" of a run's command line: what makes a case of a scene.
+/// "a=b, c=d" of --set a=b --set=c=d on a run's command line: what makes a case of a scene.
 std::string overrides_of(const Json& summary) {
   const Json& line = entry_of(summary, "command_line");
   std::string text;
-  if (line.is_array())
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      if (text_in(line[i]) == "--set") text += (text.empty() ? "" : ", ") + text_in(line[i + 1]);
+  if (!line.is_array()) return text;
+  constexpr std::string_view option = "--set", joined = "--set=";
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    std::string word = text_in(line[i]);
+    if (word == option && i + 1 < line.size())
+      word = text_in(line[++i]);
+    else if (word.starts_with(joined))
+      word.erase(0, joined.size());
+    else
+      continue;
+    text += (text.empty() ? "" : ", ") + word;
+  }
   return text;
 }
 
@@ -416,17 +437,13 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
   std::string doubts;
   for (const std::string& doubt : load_case_doubts(cases))
     doubts += "<p><b>" + html_text(doubt) + "</b></p>\n";
-  text += section(
-      "cases", "Load cases",
-      table("<th>case</th><th>title</th><th>changed in the scene</th><th>engine</th><th>outcome</th>"
-            "<th>reached t</th><th>events</th>",
-            facts) +
-          doubts +
-          "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at rest is the "
-          "reaction "
-          "at "
-          "the start of the run. Bold: the case that governs, that is min, max or greatest magnitude.</p>\n" +
-          warnings_html(cases));
+  text +=
+      section("cases", "Load cases",
+              table("<th>case</th><th>title</th><th>changed in the scene</th><th>engine</th><th>outcome</th>"
+                    "<th>reached t</th><th>events</th>",
+                    facts) +
+                  doubts + signs("Bold: the case that governs, that is min, max or greatest magnitude.") +
+                  warnings_html(cases));
   const std::vector<CaseRow> rows = case_rows(cases);
   text += section("loads", "Support loads", rows_html(cases, rows, Sheet::support));
   text += section("responses", "Responses", rows_html(cases, rows, Sheet::response));

@@ -21,7 +21,7 @@ struct LoadCase {
   Json summary;
 };
 
-/// "<table>..." of one run; empty where it has none. Times are buttons for the page's player: <td data-t=...>.
+/// "<table>..." of one run, and its signs; empty where it has none. Times are buttons for the page's player: <td data-t=...>.
 [[nodiscard]] std::string support_loads_html(const Json& summary);
 /// Outputs that are no envelope, and those that are.
 [[nodiscard]] std::string responses_html(const Json& summary, bool envelopes);

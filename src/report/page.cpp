@@ -257,25 +257,13 @@ std::string kind_of_results(const fs::path& directory) {
           : "not a directory");
 }
 
-namespace {
-
-std::string with_signs(const std::string& loads) {
-  return loads.empty() ? ""
-                       : loads +
-                             "<p class=signs>N &lt; 0 is compression; T has the sign of the slip rate. N at "
-                             "rest is the "
-                             "reaction at the start of the run.</p>\n";
-}
-
-}  // namespace
-
 std::string run_page(const fs::path& directory, const Scene& scene, const std::string& check) {
   const Json summary = read_json(directory / "summary.json");
   Json data = run_data(scene, directory);
   data["response_units"] = Json::object();
   for (const Json& output : member(summary, "response"))
     data["response_units"][value_text(member(output, "name"))] = value_text(member(output, "unit"));
-  std::string body = section("loads", "Support loads", with_signs(support_loads_html(summary)));
+  std::string body = section("loads", "Support loads", support_loads_html(summary));
   body += section("responses", "Responses", responses_html(summary, false));
   body += section("envelopes", "Member envelopes", responses_html(summary, true));
   body += orbit_section(directory);

@@ -94,7 +94,7 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
     if (surface.name == name) return {&surface.edges, surface.thickness, {}};
     there.push_back(surface.name);
   }
-  table.fail(key, fmt::format("no surface is named \"{}\"; there are: {}", name,
+  table.fail(key, fmt::format("no surface is named \"{}\"; known: {}", name,
                               there.empty() ? "none" : listed(there, 8)));
 }
 
@@ -259,7 +259,8 @@ void read_seams(Table& top, Scene& scene, RecordedScene& record) {
     if (table.choice("contact_mass") == "none") {
       if (!slave.body)
         table.fail("contact_mass",
-                   "found \"none\", expected none with [matrices]: their mass is given, and may be zero");
+                   "found \"none\", which is not allowed with [matrices]: the mass of the nodes is given, "
+                   "and may be zero");
       std::vector<int>& massless = scene.bodies[*slave.body].massless;
       for (const MortarNode& k : mortar.nodes) massless.push_back(k.node);
     }

@@ -195,7 +195,7 @@ name = "foot"
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\nquadratic = true\n",
        "an end, a middle"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\n" + joint + "\"toe\"\n",
-       "no surface is named \"toe\"; there are: 'foot'"},
+       "no surface is named \"toe\"; known: 'foot'"},
       {"x = [0.0, 1.0]\ny = [0.0, 0.0]\nux = [\"d0\", \"d1\"]\nuy = [\"\", \"\"]\n" + joint +
            "\"foot\"\ncontact_mass = \"none\"\n",
        "seams.s.contact_mass: found \"none\""}};

@@ -7,6 +7,7 @@
 #include "base/json.hpp"
 #include "base/number.hpp"
 #include "base/output_directory.hpp"
+#include "orbit/reader_at.hpp"
 #include "result/csv_read.hpp"
 #include "result/units_json.hpp"
 #include "study/orbit/orbit_files.hpp"
@@ -69,11 +70,7 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
 
 void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
                 const BranchMark& mark) {
-  const SceneReader there = [&](const std::vector<Override>& changes) {
-    std::vector<Override> all{{options.path, shortest(mark.parameter)}};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return read(all);
-  };
+  const SceneReader there = reader_at(read, options.path, mark.parameter);
   const fs::path last = directory / "last";
   make_directory(last);
   const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);

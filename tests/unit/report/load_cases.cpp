@@ -93,7 +93,7 @@ TEST_SUITE("unit/report/load_cases") {
     const std::string done = R"("outcome": {"kind": "done", "t": 2.0})";
     text.replace(text.find(done), done.size(),
                  R"("outcome": {"kind": "interrupted", "t": 0.25, "t_end": 2.0}, "engine": "exact",
-                    "command_line": ["signorini", "run", "x.toml", "--set", "run.t_end=1", "--set", "a<b=0"])");
+                    "command_line": ["signorini", "run", "x.toml", "--set", "run.t_end=1", "--set=a<b=0"])");
     const auto cut = runs.add("cut", text);
     const std::vector<LoadCase> cases = read_load_cases({whole, cut});
     CHECK(load_cases_csv(cases).find("\nshoe <1>,N min,kN,-9,1.25,-20,1.25,whole\n") != std::string::npos);

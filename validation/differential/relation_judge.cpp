@@ -419,9 +419,11 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
     const LoggedEvent &x = a[pair.reference], &y = b[pair.other];
     if (std::max(x.t, y.t) >= result.until) continue;
     ++result.events;
-    // A going on begins with the rounding of what was written; errors before it are in the whole's only.
+    // A going on begins from what a run of the first part left, which states nothing: its error there is another of the
+    // whole's.
+    const double before = related.from > 0.0 ? x.uncertainty : 0.0;
     const double allowed =
-        x.uncertainty + y.uncertainty + rounding_of_sums * (run.t + std::abs(related.later));
+        x.uncertainty + y.uncertainty + before + rounding_of_sums * (run.t + std::abs(related.later));
     const double off = std::abs(x.t - y.t);
     result.worst = std::max(result.worst, off / allowed);
     if (off > allowed)

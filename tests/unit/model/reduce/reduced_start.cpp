@@ -96,7 +96,9 @@ TEST_CASE("a hot pipe that friction holds is in equilibrium to rounding; shears 
       const double N = c.normal_stiffness * std::abs(c.gap_at(model.u0)), limit = static_friction(c) * N;
       CHECK(std::abs(c.initial_shear) <= limit);
       (std::abs(c.initial_shear) >= limit * (1.0 - 1e-9) ? at_limit : below)++;
-      if (std::abs(c.initial_shear) >= limit * (1.0 - 1e-9)) CHECK(std::abs(c.initial_shear) == limit);
+      // As near to its limit as the start was found.
+      if (std::abs(c.initial_shear) >= limit * (1.0 - 1e-9))
+        CHECK(std::abs(c.initial_shear) >= limit * (1.0 - 1e-11));
     }
     CHECK(at_limit > 0);
     CHECK(below > 0);

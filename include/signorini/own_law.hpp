@@ -9,7 +9,7 @@
 // or a dent to what was crushed. There is N in every normal row and T in every tangent row; forms on
 // accelerations are refused.
 //
-//   auto pad = std::make_shared<OwnLaw>();         a pad that yields at -Y: N = kn (g - p) >= -Y
+//   auto pad = std::make_shared<OwnLaw>();         a pad that yields at -Y (src/contact/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},
 //                  {"on", State::closed, ...}};
 //   scene.contacts[0].own = pad;
@@ -51,6 +51,7 @@ struct OwnState {
 };
 
 struct OwnLaw {
+  std::string name = {};         ///< in check, messages and summary.json; empty: "compliant", as its springs
   std::vector<OwnState> states;  ///< at most most_own_states; the first one is where a run begins
 };
 

@@ -422,7 +422,7 @@ struct ContactSpec {
   std::optional<Bowl> bowl = {};  ///< of a pendulum; `carried` stands among the springs
   std::string table = {};         ///< where it stands, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
-  /// Of scenes made in code: its rows, guards and transitions, in place of those of `compliant`.
+  /// Rows, guards and transitions in place of those of `compliant`: of law = "yielding", or made in code.
   std::shared_ptr<const OwnLaw> own = {};
 
   /// In messages: "contacts.first.gap", "stops.guide.direction".

@@ -116,7 +116,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
     const Contact& c = model.contacts[k];
     const ContactSample& s = report.contacts[k];
     const bool slider = c.is_pressed();
-    table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
+    table.row({c.name, law_name(c), to_string(s.state), slider ? "" : number(s.gap),
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
                above(s.T, model.scales.force), c.has_friction() ? number(sticking_limit(c, s.N)) : ""});
   }

@@ -59,6 +59,11 @@ const char* to_string(Law law) {
   return "?";
 }
 
+std::string law_name(const Contact& contact) {
+  if (contact.own && !contact.own->name.empty()) return contact.own->name;
+  return to_string(contact.borrows ? Law::rigid : contact.law);
+}
+
 int slip_sign(State state) {
   const State kind = kind_of(state);
   return kind == State::slip_plus ? 1 : kind == State::slip_minus ? -1 : 0;

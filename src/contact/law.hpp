@@ -27,6 +27,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "contact/slots.hpp"
 #include "signorini/contact.hpp"
@@ -49,6 +50,8 @@ enum class Guard : unsigned char {
 [[nodiscard]] const char* to_string(Guard guard);
 /// "compliant", "slider": as in a scene file.
 [[nodiscard]] const char* to_string(Law law);
+/// The same of a contact: "rigid" where its springs are borrowed, the name of a law of its own where that has one.
+[[nodiscard]] std::string law_name(const Contact& contact);
 
 struct GuardForm {
   Guard kind = Guard::none;

@@ -265,8 +265,8 @@ Model built(const Scene& scene, bool doubted) {
   try {
     Model model = rescaled(assembled(rescaled(scene, inverse(machine)), machine, doubted), machine);
     model.machine = machine;
-    for (std::size_t k = 0; k < scene.contacts.size(); ++k)  // it never was in the machine's units
-      model.contacts[k].own = scene.contacts[k].own;
+    // The same to the last bit; one object for all models of a scene.
+    for (std::size_t k = 0; k < scene.contacts.size(); ++k) model.contacts[k].own = scene.contacts[k].own;
     return model;
   } catch (const SceneError&) {
     static_cast<void>(assembled(scene, {}));  // refuses it with numbers in the scene's units

@@ -84,40 +84,10 @@ class Rescaling {
     (*this)(o.constant, of);
   }
 
-  /// A form whose value is turned into this unit of it.
-  void operator()(Form& form, const Unit& value) const {
-    const double of = factor_of(value, factors_);
-    const auto times = [&](double& coefficient, const Unit& unit) {
-      coefficient *= of / factor_of(unit, factors_);
-    };
-    times(form.N, unit::force);
-    times(form.T, unit::force);
-    times(form.gap, unit::length);
-    times(form.ut, unit::length);
-    times(form.vn, unit::velocity);
-    times(form.vt, unit::velocity);
-    form.constant *= of;
-  }
-  void operator()(OwnForm& own) const {
-    const Unit of = unit_of(own.form);
-    (*this)(own.form, of);
-    own.memory *= factor_of(of, factors_) / factors_.length;
-  }
-  /// Forces of rows are in their unit, lengths of memories in theirs.
-  void operator()(OwnLaw& law) const {
-    for (OwnState& state : law.states) {
-      (*this)(state.normal);
-      (*this)(state.tangent);
-      for (OwnGuard& guard : state.guards) {
-        (*this)(guard.positive);
-        if (guard.memory) (*this)(*guard.memory, unit::length);
-      }
-    }
-  }
   void operator()(std::shared_ptr<const OwnLaw>& law) const {
     if (!law) return;
     OwnLaw other = *law;
-    (*this)(other);
+    visit_numbers(other, [this](double& x, const Unit& of) { (*this)(x, of); });
     law = std::make_shared<const OwnLaw>(std::move(other));
   }
 
@@ -193,13 +163,6 @@ void rescale_drawing(Model& model, const Rescaling& rescale) {
 History rescaled(History history, const Unit& of, const Factors& factors) {
   visit_numbers(history, of, [&](double& x, const Unit& unit) { x *= factor_of(unit, factors); });
   return history;
-}
-
-Unit unit_of(const Form& form) {
-  if (form.N != 0.0 || form.T != 0.0 || form.pressing != 0.0) return unit::force;
-  if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
-  if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
-  return unit::acceleration;
 }
 
 Model rescaled(Model model, const Factors& factors) {

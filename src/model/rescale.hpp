@@ -11,9 +11,6 @@
 
 namespace signorini {
 
-/// The unit of a form's value: that of its first term.
-[[nodiscard]] Unit unit_of(const Form& form);
-
 /// A history whose values have the unit `of`.
 [[nodiscard]] History rescaled(History history, const Unit& of, const Factors& factors);
 

@@ -1,5 +1,6 @@
 #include "result/run_tables.hpp"
 
+#include <cmath>
 #include <variant>
 
 namespace signorini {
@@ -7,6 +8,13 @@ namespace signorini {
 namespace {
 
 double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // below zero: held by a support
+
+/// |T| / |N|; nothing where it has no meaning.
+std::optional<double> friction_ratio(const ContactRow& row) {
+  const ContactSample& s = row.sample;
+  if (!row.contact.has_friction() || is_open(s.state) || s.N == 0.0) return std::nullopt;
+  return std::abs(s.T) / std::abs(s.N);
+}
 
 /// A member of an event: the contact as its name.
 struct EventCell {
@@ -46,6 +54,7 @@ const CsvTable<ContactRow>& contact_table() {
       {"slip", [](const R& r) { return r.sample.slip; }},
       {"N", [](const R& r) { return r.sample.N; }},
       {"T", [](const R& r) { return r.sample.T; }},
+      {"ratio", friction_ratio},
   };
   return table;
 }

@@ -1,7 +1,7 @@
 // run_tables.hpp: the tables of a run (docs/output.md), a column a row.
 //
 //   events.csv    the columns of signorini/event.hpp
-//   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T        one row a time and contact
+//   contacts.csv  t,contact,state,gap,ut,vt,slip,N,T,ratio  one row a time and contact
 //   motion.csv    the same, contact by contact
 //   history.csv   t, then the model's columns
 //   response.csv  t, then the model's outputs

@@ -118,7 +118,7 @@ Json contact_json(const Model& model, std::size_t k, double capture_velocity, co
   const Report* report = run != nullptr ? &run->report : nullptr;
   const Contact& contact = model.contacts[k];
   Json json = {{"name", contact.name},
-               {"law", to_string(contact.borrows ? Law::rigid : contact.law)},
+               {"law", law_name(contact)},
                {"static_friction", contact.friction.static_},
                {"kinetic_friction", contact.friction.kinetic}};
   if (contact.has_gap()) {

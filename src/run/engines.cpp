@@ -29,7 +29,10 @@ void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
 void refuse_own_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
-    if (contact.own)
+    if (contact.own && !contact.own->name.empty())
+      refuse(run, fmt::format("does not know law \"{}\" of contact '{}'", contact.own->name, contact.name),
+             ida_instead);
+    else if (contact.own)
       refuse(run, fmt::format("knows the built-in laws, and contact '{}' has a law of its own", contact.name),
              ida_instead);
 }

@@ -1,5 +1,6 @@
 #include "scene/left_contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -33,11 +34,12 @@ std::vector<SavedState::Left> read_left_contacts(const std::filesystem::path& pa
   std::ifstream in(path, std::ios::binary);
   std::vector<std::string> cells;
   std::vector<SavedState::Left> rows;
-  if (!in || !read_csv_row(in, cells) || cells != heading) return {};
+  if (!in || !read_csv_row(in, cells)) return {};
+  if (cells.size() < heading.size() || !std::equal(heading.begin(), heading.end(), cells.begin())) return {};
+  const std::size_t width = cells.size();
   while (read_csv_row(in, cells)) {
     const std::optional<double> time = parse_number(cells[0]);
-    if (cells.size() != heading.size() || !time || std::abs(*time - t) > rounding::of_few * std::abs(t))
-      continue;
+    if (cells.size() != width || !time || std::abs(*time - t) > rounding::of_few * std::abs(t)) continue;
     std::optional<SavedState::Left> row = row_of(cells);
     if (!row) return {};
     rows.push_back(std::move(*row));

@@ -1,6 +1,6 @@
 // left_contacts.hpp: where a run left its contacts, by contacts.csv.
 //
-//   t,contact,state,gap,ut,vt,slip,N,T
+//   t,contact,state,gap,ut,vt,slip,N,T   and further columns, which are not read
 //
 // No part of what a motion goes on from: what is held against it (src/witness).
 #pragma once

@@ -34,6 +34,12 @@ void visit_quantities(Scene& scene, const std::function<void(double&, const Unit
 /// The same of a history whose values have the unit `of`.
 void visit_numbers(History& history, const Unit& of, const std::function<void(double&, const Unit&)>& visit);
 
+/// The unit of a form's value: that of its first term.
+[[nodiscard]] Unit unit_of(const Form& form);
+
+/// The same of a contact law of one's own.
+void visit_numbers(OwnLaw& law, const std::function<void(double&, const Unit&)>& visit);
+
 /// All quantities times the factors of their units; `resolved` stays as it is. Exact where the factors are
 /// powers of two and nothing leaves the range of a double.
 [[nodiscard]] Scene rescaled(Scene scene, const Factors& factors);

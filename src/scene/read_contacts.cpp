@@ -5,6 +5,7 @@
 
 #include "base/history/history_internal.hpp"
 #include "base/number.hpp"
+#include "contact/yielding_pad.hpp"
 #include "scene/contact_tables.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/readers.hpp"
@@ -164,6 +165,21 @@ void read_compliant(Table& table, ContactSpec& contact, const Space& space) {
     table.require("tangential_stiffness", " (required for law = \"compliant\" with friction)");
 }
 
+/// Keys that are not read here have no meaning: T = 0.
+void read_yielding(Table& table, ContactSpec& contact, const Space& space) {
+  read_gap(table, contact, space, "yielding");
+  for (const char* key : {"normal_stiffness", "yield_force"})
+    table.require(key, " (required for law = \"yielding\")");
+  contact.normal_stiffness = table.number("normal_stiffness");
+  const double yield_force = table.number("yield_force");
+  if (!std::isnormal(yield_force / contact.normal_stiffness))
+    table.fail(
+        "yield_force",
+        fmt::format("found {}, with normal_stiffness a deflection of {} at yield, expected a number > 0",
+                    shortest(yield_force), shortest(yield_force / contact.normal_stiffness)));
+  contact.own = std::make_shared<const OwnLaw>(yielding_pad(contact.normal_stiffness, yield_force));
+}
+
 /// What lies between the contact's node and the ground, or takes the ground's place.
 void read_against(Table& table, ContactSpec& contact, const Scene& scene, const Space& space,
                   const std::string& node) {
@@ -212,8 +228,12 @@ ContactSpec read_laws(Table& table, const Space& space, const Scene& scene, cons
   contact.table = table.path();
   contact.of_stop = table.is("stops[]");
   contact.law = law == "slider" ? Law::slider : law == "rigid" ? Law::rigid : Law::compliant;
-  contact.friction = read_friction(table);
   contact.normal_force = constant_history(0.0);
+  if (law == "yielding") {
+    read_yielding(table, contact, space);
+    return contact;
+  }
+  contact.friction = read_friction(table);
   switch (contact.law) {
     case Law::compliant:
       read_compliant(table, contact, space);

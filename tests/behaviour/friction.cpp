@@ -7,6 +7,7 @@
 
 #include "behaviour/engines.hpp"
 #include "behaviour/one_mass.hpp"
+#include "result/run_tables.hpp"
 
 using namespace signorini;
 using namespace signorini::tests;
@@ -68,6 +69,25 @@ TEST_CASE("stick-slip on a belt: the period of the limit cycle in closed form") 
     REQUIRE(slips.size() > 5);
     for (std::size_t i = 2; i < slips.size(); ++i)
       CHECK(slips[i] - slips[i - 1] == doctest::Approx(period).epsilon(1e-8));
+  }
+}
+
+TEST_CASE(
+    "ratio of contacts.csv: T / N of the load while the block is held, the coefficient while it slips") {
+  for (const double push : {2.0, -2.0, 6.0, -6.0}) {
+    CAPTURE(push);
+    const Scene scene = parse_scene(
+        matrix_scene("t_end = 1.0\noutput_times = [1.0]\ninitial = { u = [0.0], v = [0.0] }",
+                     "mass = [[1.0]]\nstiffness = [[0.0]]",
+                     "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 10.0\nfriction = 0.35",
+                     fmt::format("[[loads]]\ndirection = {{ d0 = 1.0 }}\namplitude = {}\n", push)),
+        "test.toml");
+    const Model model = build_model(scene);
+    const Result result = simulate(model, scene.run);
+    const ContactRow row{1.0, model.contacts[0], result.rows.back().contacts[0]};
+    const std::string text = contact_table().text(std::vector<ContactRow>{row});
+    CHECK(std::stod(text.substr(text.rfind(',') + 1)) ==
+          doctest::Approx(std::abs(push) < 3.5 ? 0.2 : 0.35).epsilon(1e-12));
   }
 }
 

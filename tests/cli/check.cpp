@@ -195,4 +195,40 @@ TEST_CASE("cli check: command line and files") {
   CHECK(shell.run({"check", "--help"}).code == 0);
 }
 
+TEST_CASE("cli check, run, plot, witness: a pad that yields has the name of its law") {
+  const Shell shell;
+  shell.write("pad.toml", R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+run = { t_end = 0.2, output_dt = 0.01, initial = { block = { vy = -3.0 } } }
+nodes = { block = [0.0, 0.0] }
+masses = [{ node = "block", mass = 2.0 }]
+contacts = [{ name = "pad", node = "block", law = "yielding", normal = [0.0, 1.0], gap = 0.1, normal_stiffness = 1e4, yield_force = 150.0 }]
+)");
+  const Ending text = shell.run({"check", "pad.toml"});
+  CHECK(text.code == 0);
+  CHECK(contains(text.out, "pad      yielding  open"));
+  const json facts = json::parse(shell.run({"check", "pad.toml", "--json"}).out);
+  CHECK(facts["contacts"][0]["law"] == "yielding");
+  CHECK(shell.run({"run", "pad.toml", "-o", "kept", "--instants", "--quiet"}).code == 0);
+  const json summary = json::parse(shell.read("kept/summary.json"));
+  CHECK(summary["contacts"][0]["law"] == "yielding");
+  CHECK(summary["contacts"][0]["normal_stiffness"] == 1e4);
+  CHECK(shell.run({"witness", "kept"}).code == 0);
+  // What the run took for granted is a scene, too.
+  CHECK(contains(shell.read("kept/run.toml"), "yield_force = 150.0"));
+  CHECK(shell.run({"run", "kept/run.toml", "-o", "again", "--quiet"}).code == 0);
+  CHECK(shell.read("again/events.csv") == shell.read("kept/events.csv"));
+  // The state that it leaves is that of a block over a dent.
+  shell.write("on.toml", R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+run = { t_end = 0.2, initial = { run = "kept" } }
+nodes = { block = [0.0, 0.0] }
+masses = [{ node = "block", mass = 2.0 }]
+contacts = [{ name = "pad", node = "block", law = "yielding", normal = [0.0, 1.0], gap = 0.1, normal_stiffness = 1e4, yield_force = 150.0 }]
+loads = [{ node = "block", direction = [0.0, -1.0], amplitude = 40.0 }]
+)");
+  CHECK(shell.run({"run", "on.toml", "-o", "on", "--quiet"}).code == 0);
+  CHECK(contains(shell.read("on/events.csv"), ",pad,contact,open,closed,-0.0525"));  // (9 - 1.125) J / 150 N
+}
+
 TEST_SUITE_END();

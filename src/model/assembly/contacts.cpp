@@ -13,6 +13,21 @@
 namespace signorini {
 namespace {
 
+/// Does it take part along the tangent? Else its tangent rows say T = 0, and nothing depends on ut.
+bool acts_along(const OwnLaw& law) {
+  const auto looks = [](const Form& f) { return f.ut != 0.0 || f.vt != 0.0; };
+  const auto depends = [&](const Form& f) { return f.T != 0.0 || looks(f); };
+  for (const OwnState& state : law.states) {
+    const Form& tangent = state.tangent.form;
+    if (looks(tangent) || tangent.N != 0.0 || tangent.gap != 0.0 || tangent.vn != 0.0 ||
+        tangent.constant != 0.0 || state.tangent.memory != 0.0 || depends(state.normal.form))
+      return true;
+    for (const OwnGuard& guard : state.guards)
+      if (depends(guard.positive.form) || (guard.memory && depends(*guard.memory))) return true;
+  }
+  return false;
+}
+
 Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   Direction direction;
   if (spec.tangent)
@@ -22,7 +37,8 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   else
     return {};
   // Without friction the tangent only measures: what does not exist does not move.
-  const bool measures_only = has_gap(spec.law) && !spec.friction.any() && !spec.own;
+  const bool measures_only =
+      has_gap(spec.law) && !spec.friction.any() && !(spec.own && acts_along(*spec.own));
   return combination(map, direction, spec.key("tangent"), true, measures_only);
 }
 
@@ -66,8 +82,13 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
   if (!has_spring(spec.law)) refuse("a law of one's own stands in place of that of a compliant contact");
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
     refuse("found friction or dampers beside a law of one's own, which has them in its rows");
-  if (scene.initial.is_static || scene.initial.is_frictional)
-    refuse("a static start knows the built-in laws only");
+  if (scene.initial.is_static || scene.initial.is_frictional) {
+    if (law.name.empty()) refuse("a static start knows the built-in laws only");
+    throw SceneError(spec.place, spec.key("law"),
+                     fmt::format("found \"{}\", of which no static start is known. Give run.initial as "
+                                 "displacements and velocities, or use law = \"compliant\"",
+                                 law.name));
+  }
   if (law.states.empty() || law.states.size() > most_own_states)
     refuse(fmt::format("found {} states, expected 1 to {}", law.states.size(), most_own_states));
   for (const OwnState& state : law.states) {

@@ -21,7 +21,7 @@ Json frequency_json(const Frequencies& frequencies) {
 }
 
 Json contact_json(const Contact& contact, const ContactSample& sample) {
-  Json json = {{"name", contact.name}, {"law", to_string(contact.law)}, {"state", to_string(sample.state)}};
+  Json json = {{"name", contact.name}, {"law", law_name(contact)}, {"state", to_string(sample.state)}};
   if (contact.has_gap()) json["gap"] = sample.gap;
   json["ut"] = sample.ut;
   json["N"] = sample.N;

@@ -16,7 +16,9 @@
 namespace signorini {
 namespace {
 
-constexpr const char* heading[] = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T"};
+constexpr const char* heading[] = {"t", "contact", "state", "gap", "ut", "vt", "slip", "N", "T", "ratio"};
+
+constexpr std::size_t columns = std::size(heading), ratio_column = columns - 1;
 
 double number(const CsvReader& reader, std::size_t column, const std::filesystem::path& file, int line) {
   const std::optional<double> value = parse_number(reader.cell(column));
@@ -24,6 +26,16 @@ double number(const CsvReader& reader, std::size_t column, const std::filesystem
     throw FileError(file.string(), fmt::format("line {}: {}: found \"{}\", expected a number", line,
                                                heading[column], excerpt(reader.cell(column))));
   return *value;
+}
+
+/// Does the table have ratio? Older runs lack it.
+bool has_ratios(const CsvReader& reader, const std::filesystem::path& file) {
+  const std::vector<std::string>& found = reader.header();
+  const bool ratios = found.size() == columns;
+  if ((!ratios && found.size() != ratio_column) ||
+      !std::equal(found.begin(), found.end(), std::begin(heading)))
+    throw FileError(file.string(), "line 1: expected t,contact,state,gap,ut,vt,slip,N,T,ratio");
+  return ratios;
 }
 
 Violation violation(const char* file, double t, std::size_t contact, const char* law, double value,
@@ -77,8 +89,7 @@ long TableRows::check(const std::filesystem::path& file, bool complete, const Fo
   const ContactNames names(model_);
   const std::string name = file.filename().string();
   CsvReader reader(file);
-  if (!std::equal(reader.header().begin(), reader.header().end(), std::begin(heading), std::end(heading)))
-    throw FileError(file.string(), "line 1: expected t,contact,state,gap,ut,vt,slip,N,T");
+  const bool ratios = has_ratios(reader, file);
   long rows = 0;
   std::size_t due = 0;
   double t = 0.0;
@@ -92,6 +103,8 @@ long TableRows::check(const std::filesystem::path& file, bool complete, const Fo
     if (!reader.cell(3).empty()) row.gap = number(reader, 3, file, line);
     double* const numbers[] = {&row.ut, &row.vt, &row.slip, &row.N, &row.T};
     for (std::size_t i = 0; i < std::size(numbers); ++i) *numbers[i] = number(reader, 4 + i, file, line);
+    if (ratios && !reader.cell(ratio_column).empty()) row.ratio = number(reader, ratio_column, file, line);
+    if (ratios) check_ratio(row, name.c_str(), found);
     if (complete && (row.contact != due || (due > 0 && row.t != t))) {
       found(violation(name.c_str(), row.t, due, "rows", 1.0, 0.0, {}));
       due = row.contact;
@@ -165,6 +178,15 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
     check("friction force", row.T, -s * friction_at(c, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
+}
+
+void TableRows::check_ratio(const Row& row, const char* file, const Found& found) const {
+  const bool due =
+      model_.contacts[row.contact].has_friction() && row.state != to_string(State::open) && row.N != 0.0;
+  const double asked = due ? std::abs(row.T / row.N) : 0.0, limit = rounding::of_few * asked;
+  const double off = std::abs(row.ratio.value_or(0.0) - asked);
+  if (due != row.ratio.has_value() || off > limit)
+    found(violation(file, row.t, row.contact, "ratio", off, limit, {}));
 }
 
 void TableRows::reach(const Row& row) {

@@ -1,6 +1,7 @@
 // table_rows.hpp: contacts.csv and motion.csv before the witness.
 //
 //   state of a row = that after the last instant;   guards of the state;   N = kn g,  T = kt (ut - p) or -s fk N
+//   ratio = |T| / |N| where there is friction, the contact is closed and N is not 0
 //   contacts.csv: every contact has a row at every time;   peaks of summary.json >= rows up to the last instant of a run that stopped
 //
 //   TableRows rows(model, engine, witness);
@@ -37,7 +38,7 @@ class TableRows {
     double t = 0.0;
     std::size_t contact = 0;
     std::string state;
-    std::optional<double> gap;
+    std::optional<double> gap, ratio;
     double ut = 0.0, vt = 0.0, slip = 0.0, N = 0.0, T = 0.0;
   };
   struct States {
@@ -51,6 +52,7 @@ class TableRows {
   [[nodiscard]] std::vector<ContactState> states_at(std::size_t contact, double t) const;
   void check(const Row& row, const char* file, const Found& found);
   void check_forces(const Row& row, const ContactState& state, const char* file, const Found& found) const;
+  void check_ratio(const Row& row, const char* file, const Found& found) const;
   void reach(const Row& row);
 
   const Model& model_;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "base/json.hpp"
@@ -156,12 +158,28 @@ TEST_CASE("history.csv, contacts.csv, energy.csv: headers and rows") {
   tables.energy.flush();
   CHECK(slurp(folder / "history.csv") == "t,A.ux,A.uy,A.vx,A.vy\n0.001,0.25,-0.5,1,0\n");
   CHECK(slurp(folder / "contacts.csv") ==
-        "t,contact,state,gap,ut,vt,slip,N,T\n"
-        "0.001,foot,stick,0.001,0.25,0,0,-58.86,3\n"
-        "0.001,\"pad, left\",slip-,,0.25,1,0.25,-1,-0.3\n");
+        "t,contact,state,gap,ut,vt,slip,N,T,ratio\n"
+        "0.001,foot,stick,0.001,0.25,0,0,-58.86,3,0.05096839959225281\n"
+        "0.001,\"pad, left\",slip-,,0.25,1,0.25,-1,-0.3,0.3\n");
   CHECK(slurp(folder / "energy.csv") ==
         "t,kinetic,elastic,contact,damping,friction,impact,loads,surface,balance\n"
         "0.001,0.5,0,0,0,0,0,0,0,0.5\n");
+}
+
+TEST_CASE("contacts.csv: ratio is empty where a contact is open, has no friction, or N = 0") {
+  const Model m = model();
+  Contact smooth = m.contacts[0];
+  smooth.friction = {};
+  const ContactSample stuck{State::stick, 0.0, 0.0, 0.0, 0.0, -8.0, -3.0}, open{State::open, 0.5},
+      inside{State::inside, -0.5}, unloaded{State::stick, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+      closed{State::closed, 0.0, 0.0, 0.0, 0.0, -8.0, 0.0};
+  const std::vector<ContactRow> rows = {{0.0, m.contacts[0], stuck},    {0.0, m.contacts[0], open},
+                                        {0.0, m.contacts[0], inside},   {0.0, m.contacts[0], unloaded},
+                                        {0.0, m.contacts[1], unloaded}, {0.0, smooth, closed}};
+  std::istringstream lines(contact_table().text(rows));
+  std::vector<std::string> ratios;
+  for (std::string line; std::getline(lines, line);) ratios.push_back(line.substr(line.rfind(',') + 1));
+  CHECK(ratios == std::vector<std::string>{"ratio", "0.375", "", "", "", "", ""});
 }
 
 TEST_CASE("tables: columns by name, cells of every kind, numbers for gnuplot") {

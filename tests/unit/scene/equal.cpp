@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "scene/quantities.hpp"
+
 namespace signorini::testing {
 
 namespace {
@@ -53,6 +55,15 @@ class Dump {
   }
 };
 
+/// Of a law of one's own; empty: there is none.
+std::vector<double> numbers_of(const std::shared_ptr<const OwnLaw>& own) {
+  std::vector<double> numbers;
+  if (!own) return numbers;
+  OwnLaw law = *own;
+  visit_numbers(law, [&](double& x, const Unit&) { numbers.push_back(x); });
+  return numbers;
+}
+
 void dump_structure(Dump& dump, const Scene& s) {
   for (const auto& x : s.sections)
     dump.line("section", x.name, x.EA, x.EI, x.mass_per_length, x.area, x.modulus, x.pipe_radius,
@@ -93,7 +104,7 @@ std::string dump(const Scene& s) {
               c.tangential_stiffness, c.normal_damping, c.friction.static_, c.friction.kinetic,
               c.friction.stribeck_velocity, c.friction.velocity, c.bowl ? c.bowl->radius : 0.0,
               c.bowl ? c.bowl->carried : 0.0, c.normal_force, c.surface_velocity, c.initial_shear,
-              c.tangential_damping, c.restitution, c.capture_velocity);
+              c.tangential_damping, c.restitution, c.capture_velocity, numbers_of(c.own));
   }
   for (const auto& l : s.loads)
     dump.line("load", l.name, static_cast<int>(l.type), l.direction, l.amplitude, l.history, l.pieces,

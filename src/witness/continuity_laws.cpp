@@ -1,8 +1,10 @@
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "model/assembly/selection.hpp"
 #include "witness/laws.hpp"
 
 namespace signorini {
@@ -59,6 +61,7 @@ void Finder::continuity() {
     if (off <= limit) continue;
     if (!closed) closed = closing();
     limit += (*closed)[i];
+    if (off > limit) limit += unsure_without_mass(i);
     if (off <= limit) continue;
     add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
     break;
@@ -66,6 +69,21 @@ void Finder::continuity() {
   if ((record_.start && !record_.continues) || !record_.located) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     if (!model_.contacts[k].own) friction_continuity(k);
+}
+
+/// Where there is no mass u follows from forces, and springs of contacts make forces of its rounding: those of stiff ones
+/// bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on what has no mass. 0: it has mass there, or K
+/// is singular.
+double Finder::unsure_without_mass(int dof) const {
+  if (bench_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
+  const std::vector<int>& all = bench_.massless();
+  const SparseMatrix only = selection(all, model_.size());
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt(only.transpose() * model_.stiffness * only);
+  if (ldlt.info() != Eigen::Success) return 0.0;
+  const Vector by_force = ldlt.solve(only.transpose() * Vector::Unit(model_.size(), dof));
+  const Vector noise = massless_noise(bench_, record_.before, 0) + massless_noise(bench_, record_.after, 0);
+  const double bent = by_force.cwiseAbs().dot(only.transpose() * noise);
+  return std::isfinite(bent) ? bent : 0.0;
 }
 
 /// What gaps of rigid contacts, as large as their rounding, move u by where they close together by the smallest change in
@@ -81,9 +99,10 @@ Vector Finder::closing() const {
           !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
                                                  [&](const RecordedImpulse& p) { return p.contact == k; });
       if (own == nullptr || !touches) continue;
-      const double gap = rounding::of_elimination * see(c, k, record_.before).place;
+      const Sight before = see(c, k, record_.before);
+      const double gap = rounding::of_elimination * before.place;
       const double friction =
-          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, see(c, k, record_.before).dut);
+          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, before.dut, before.N);
       if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
       if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
         rows.add(c.tangent, own->by_t, 0.0);
@@ -106,14 +125,16 @@ bool Finder::lets_massless_jump() const {
   return any;
 }
 
-/// It stuck at its static limit, which is above the kinetic one, and slides, or is open.
+/// It stuck at its static limit, which is above the kinetic one, and slides, or is open, or has slid and stopped at once: a
+/// row of slip from stick to stick.
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (c.own || c.shear || c.friction.varies() || !(c.friction.static_ > c.friction.kinetic)) return false;
+  if (c.own || c.shear || c.friction.varies() || !c.friction.drops()) return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
-  if (kind_of(old.state) != State::stick || kind_of(now.state) == State::stick) return false;
+  const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";
+  if (kind_of(old.state) != State::stick || (kind_of(now.state) == State::stick && !stopped)) return false;
   const Sight before = see(c, k, record_.before);
   for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
     if (guard.law != std::string_view("friction")) continue;
@@ -152,7 +173,9 @@ void Finder::friction_continuity(std::size_t k) {
   if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
   if (moves_at_once(k) && lets_massless_jump()) return slide_at_once(k);
   const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
-  const double fs = c.friction.static_, fk = c.friction.kinetic, kt = *c.tangential_stiffness;
+  const bool by_force = c.friction.by_force();
+  const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;
+  const double fk = by_force ? fs : c.friction.kinetic, kt = *c.tangential_stiffness;
   const double off_N =
       rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
       of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));

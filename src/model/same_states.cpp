@@ -1,6 +1,7 @@
 #include "model/same_states.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace signorini {
 namespace {
@@ -10,7 +11,9 @@ bool same(const SparseMatrix& a, const SparseMatrix& b) {
 }
 
 bool same(const Contact& a, const Contact& b) {
-  const auto friction = [](const Friction& f) { return std::pair{f.static_, f.kinetic}; };
+  const auto friction = [](const Friction& f) {
+    return std::tuple{f.static_, f.kinetic, f.stribeck_velocity, f.velocity, f.force};
+  };
   return a.law == b.law && a.normal.terms == b.normal.terms && a.tangent.terms == b.tangent.terms &&
          a.normal_stiffness == b.normal_stiffness && a.normal_damping == b.normal_damping &&
          a.tangential_stiffness == b.tangential_stiffness && friction(a.friction) == friction(b.friction) &&

@@ -98,7 +98,7 @@ class RandomForced {
 
 /// dz(T)/dz by central differences of runs: of u, v and the shears that a run begins with.
 Eigen::MatrixXd monodromy_by_runs(const std::string& text, const Orbit& orbit, int n) {
-  const double h = 1e-6;
+  const double h = 2e-7;  // h^2 z''' beside eps z/h: some 1e-10 each
   std::vector<std::size_t> shears;
   const SavedState start = orbit_scene(reader_of_text(text), orbit).initial.saved.value();
   for (std::size_t c = 0; c < start.shears.size(); ++c)

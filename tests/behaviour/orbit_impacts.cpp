@@ -33,6 +33,8 @@ struct WallOscillator {
   double w, z, e, A;
 
   [[nodiscard]] double load() const { return A * std::abs(std::complex<double>(1.0 - w * w, 2.0 * z * w)); }
+  /// By which the load is ahead of A cos w t.
+  [[nodiscard]] double lead() const { return std::arg(std::complex<double>(1.0 - w * w, 2.0 * z * w)); }
   [[nodiscard]] double period() const { return 2.0 * std::numbers::pi / w; }
   /// exp(-z t) (c, s): x = x0 (c + z s) + v0 s of the free motion.
   [[nodiscard]] std::array<double, 2> free(double t) const {
@@ -121,9 +123,9 @@ struct WallOscillator {
         fmt::format("mass = [[1.0]]\nstiffness = [[1.0]]\ndamping = [[{:.17g}]]", 2.0 * z),
         fmt::format("law = \"rigid\"\nnormal = {{ d0 = -1.0 }}\ngap = 1.0\nrestitution = {:.17g}", e),
         fmt::format("[[loads]]\ndirection = {{ d0 = 1.0 }}\namplitude = {:.17g}\nhistory = {{ type = "
-                    "\"harmonic\", omega = {:.17g}, phase = 1.5707963267948966 }}\n"
+                    "\"harmonic\", omega = {:.17g}, phase = {:.17g} }}\n"
                     "[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = {{ d0 = 1.0 }}\n",
-                    load(), w));
+                    load(), w, 0.5 * std::numbers::pi + lead()));
   }
 };
 

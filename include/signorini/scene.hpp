@@ -369,12 +369,18 @@ struct Friction {
   std::optional<double> stribeck_velocity = {};
   /// f = fast - (fast - slow) exp(-|p'| / velocity) while slipping; static_ is slow, kinetic is fast
   std::optional<double> velocity = {};
+  /// f = heavy + (light - heavy) exp(-|N| / force), in stick and in slip; static_ is light, kinetic is heavy
+  std::optional<double> force = {};
 
   [[nodiscard]] bool any() const { return static_ > 0.0; }
   /// It grows with the slip rate, from static_ on: no jump where slip begins.
   [[nodiscard]] bool rises() const { return velocity.has_value(); }
   /// It depends on the slip rate: what slips is not linear.
   [[nodiscard]] bool varies() const { return stribeck_velocity || velocity; }
+  /// It depends on the normal force.
+  [[nodiscard]] bool by_force() const { return force.has_value(); }
+  /// Where slip begins it drops.
+  [[nodiscard]] bool drops() const { return static_ > kinetic && !varies() && !by_force(); }
   /// Of the exponential; where friction varies.
   [[nodiscard]] double rate_of_change() const { return velocity ? *velocity : stribeck_velocity.value(); }
 };
@@ -387,7 +393,8 @@ struct FrictionConstant {
 };
 inline constexpr std::array friction_constants = {
     FrictionConstant{"stribeck_velocity", &Friction::stribeck_velocity, {0, 1, -1}},
-    FrictionConstant{"velocity", &Friction::velocity, {0, 1, -1}}};
+    FrictionConstant{"velocity", &Friction::velocity, {0, 1, -1}},
+    FrictionConstant{"force", &Friction::force, {1, 0, 0}}};
 
 /// A surface of this radius under a force that varies: |N| ut / radius drives the body back, of which
 /// carried ut / radius stands in K (contact/bowl.hpp).

@@ -118,8 +118,7 @@ std::string contact_rows(const Model& model, const CheckReport& report) {
     const bool slider = c.is_pressed();
     table.row({c.name, to_string(c.law), to_string(s.state), slider ? "" : number(s.gap),
                above(s.ut, model.scales.displacement), above(-s.N, model.scales.force),
-               above(s.T, model.scales.force),
-               c.has_friction() ? number(static_friction(c) * std::abs(s.N)) : ""});
+               above(s.T, model.scales.force), c.has_friction() ? number(sticking_limit(c, s.N)) : ""});
   }
   return fmt::format("contacts at t = 0, {}:\n", model.statics.frictional ? "after a start with friction"
                                                  : model.static_start     ? "in static equilibrium"

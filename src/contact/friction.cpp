@@ -38,10 +38,12 @@ Form sliding_row(int s, double f) {
 }
 
 double sliding_row_value(const Contact& contact, int s, const ContactMotion& m) {
+  if (contact.friction.by_force()) return m.T - s * friction_limit(contact.friction, -m.N);
   return m.T + s * sliding_friction(contact, s * m.vt) * m.N;
 }
 
 Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m) {
+  if (contact.friction.by_force()) return sliding_row(s, friction_limit_slope(contact.friction, -m.N));
   Form row = sliding_row(s, sliding_friction(contact, s * m.vt));
   row.vt = sliding_friction_slope(contact, s * m.vt) * m.N;
   return row;

@@ -12,35 +12,57 @@
 // and with the derivatives of all that by a parameter p:
 //   T_p + s f N_p + s f_p N = 0,   f_p = fk_p (1 - E) + fs_p E + (fs - fk) E ( x v_p/v_s - x_p ) / v_s,   x = s p'
 //
+// A coefficient that depends on N: contact/friction_limit.hpp.
 // A law of friction is these functions and its constants (friction_constants); all else asks here. Units: f is a
 // number.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "contact/friction_limit.hpp"
 #include "signorini/contact.hpp"
 
 namespace signorini {
 
-/// Greatest |T| over |N| in stick; and over |N| in slip, of all slip rates the least.
-[[nodiscard]] inline double static_friction(const Contact& contact) { return contact.friction.static_; }
+/// Greatest |T| over |N| in stick, of all N; and over |N| in slip, of all slip rates the least.
+[[nodiscard]] inline double static_friction(const Contact& contact) {
+  const Friction& f = contact.friction;
+  return f.by_force() ? std::max(f.static_, f.kinetic) : f.static_;
+}
 [[nodiscard]] inline double kinetic_friction(const Contact& contact) {
   return contact.friction.rises() ? contact.friction.static_ : contact.friction.kinetic;
+}
+/// Greatest |T| in stick, and |T| where slip begins, at a normal force N <= 0.
+[[nodiscard]] inline double sticking_limit(const Contact& contact, double N) {
+  const Friction& f = contact.friction;
+  return f.by_force() ? friction_limit(f, -N) : f.static_ * (0.0 - N);
+}
+[[nodiscard]] inline double sliding_limit(const Contact& contact, double N) {
+  return contact.friction.by_force() ? friction_limit(contact.friction, -N)
+                                     : kinetic_friction(contact) * (0.0 - N);
 }
 /// Coefficient of friction at a slip rate along the slip, s p'; smooth past zero. And its derivative by the
 /// rate.
 [[nodiscard]] double sliding_friction(const Contact& contact, double along);
 [[nodiscard]] double sliding_friction_slope(const Contact& contact, double along);
 
-/// The coefficient depends on the slip rate: what slips is not linear.
-[[nodiscard]] inline bool friction_varies(const Contact& contact) { return contact.friction.varies(); }
+/// The coefficient depends on the slip rate or on N: what slips is not linear.
+[[nodiscard]] inline bool friction_varies(const Contact& contact) {
+  return contact.friction.varies() || contact.friction.by_force();
+}
+/// In messages: of friction that varies.
+[[nodiscard]] inline const char* named_friction(const Contact& contact) {
+  return contact.friction.by_force() ? "friction that depends on the normal force"
+                                     : "friction that depends on the slip rate";
+}
 [[nodiscard]] inline bool slips_nonlinearly(const Contact& contact, State state) {
   return friction_varies(contact) && slip_sign(state) != 0;
 }
 
 /// The row of a contact that slips in direction s with the coefficient f: T + s f N.
 [[nodiscard]] Form sliding_row(int s, double f);
-/// The row itself, where the coefficient depends on the rate: its value at a motion, and its tangent there.
+/// The row itself, where the coefficient varies: its value at a motion, and its tangent there.
 [[nodiscard]] double sliding_row_value(const Contact& contact, int s, const ContactMotion& m);
 [[nodiscard]] Form sliding_row_tangent(const Contact& contact, int s, const ContactMotion& m);
 

@@ -82,6 +82,10 @@ Form slip_rate(const Contact& contact, int s) {
   Form form;
   form.vt = 1.0;
   if (!contact.tangential_stiffness || contact.own) return form;
+  if (contact.friction.by_force()) {
+    form.limit_rate = -s / *contact.tangential_stiffness;
+    return form;
+  }
   const double ratio = s * kinetic_friction(contact) / *contact.tangential_stiffness;
   if (contact.has_spring()) {
     form.vn = ratio * contact.normal_stiffness;
@@ -126,11 +130,29 @@ Rows rows(const Contact& contact, const ContactState& state) {
       break;
     case State::slip_plus:
     case State::slip_minus:
-      result.tangent = sliding_row(slip_sign(state.state), kinetic_friction(contact));
+      if (contact.friction.by_force())
+        result.tangent.limit = -slip_sign(state.state);
+      else
+        result.tangent = sliding_row(slip_sign(state.state), kinetic_friction(contact));
       break;
   }
   return result;
 }
+
+namespace {
+
+/// How far T is from the limit of friction on one side.
+Form friction_left(const Contact& contact, double side) {
+  Form form;
+  form.T = -side;
+  if (contact.friction.by_force())
+    form.limit = 1.0;
+  else
+    form.N = -static_friction(contact);
+  return form;
+}
+
+}  // namespace
 
 std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const ContactState& state) {
   std::array<GuardForm, guards_per_contact> result;
@@ -160,11 +182,9 @@ std::array<GuardForm, guards_per_contact> guards(const Contact& contact, const C
   }
   if (state.state == State::stick) {
     result[1].kind = Guard::slip_plus;
-    result[1].form.N = -static_friction(contact);
-    result[1].form.T = -1.0;
+    result[1].form = friction_left(contact, 1.0);
     result[2].kind = Guard::slip_minus;
-    result[2].form.N = -static_friction(contact);
-    result[2].form.T = 1.0;
+    result[2].form = friction_left(contact, -1.0);
   } else if (const int s = slip_sign(state.state); s != 0) {
     result[1].kind = Guard::sliding;
     result[1].form = s > 0 ? slip_rate(contact, s) : -slip_rate(contact, s);

@@ -5,17 +5,19 @@
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
 //   with a shear element, whose sliding point has no mass:   p' = 0                       T + s fk N = 0
+//   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction_limit.hpp.
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").
 //
 //   guards     open    g                        (sliders: none; q = 0 there)
 //              inside  g + (cn/kn) g', -g
 //              closed  -N
-//              stick   -N, -fs N - T, -fs N + T
+//              stick   -N, -fs N - T, -fs N + T      F in place of -fs N where friction depends on N
 //              slip s  -N, s p'
 //                      -N, s T + fs N   where a massless sliding point's friction rises: of one sign with s p'
 //   slip rate  p' = ut' + s fk (kn g' + cn g'')/kt   compliant, from T = -s fk N, T' = kt (ut' - p')
 //              p' = ut' - s fk q'/kt            slider with kt
+//              p' = ut' - s F'/kt               friction that depends on N
 //              p' = ut'                         rigid, slider without kt, sliding point of a shear element
 //
 // A law of one's own has the rows and guards that it names (signorini/own_law.hpp).

@@ -20,7 +20,8 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
     const bool tangent_moves = std::abs(d.ut) > jet.noise[m].ut;
     if (!normal_moves && !tangent_moves) continue;
     const double pull = *contact.tangential_stiffness * std::abs(d.ut);
-    if (pull > static_friction(contact) * contact.normal_stiffness * std::abs(d.gap))
+    // At the apex friction that depends on N is that of light loads.
+    if (pull > contact.friction.static_ * contact.normal_stiffness * std::abs(d.gap))
       next.state = slip_along(d.ut);
     break;
   }
@@ -59,7 +60,7 @@ ContactState next_state(const Contact& contact, const ContactState& now, Guard f
     case Guard::slip_plus:
     case Guard::slip_minus: {
       const double s = failed == Guard::slip_plus ? 1.0 : -1.0;
-      const double T = -s * kinetic_friction(contact) * m.N;
+      const double T = s * sliding_limit(contact, m.N);
       return {slip_along(s), slip_of(contact, m.ut, T)};
     }
     case Guard::sliding:

@@ -35,7 +35,8 @@ bool differ_by_law(const Model& model, const Mode& one, const Mode& other) {
     if (one[c] == other[c]) continue;
     const Contact& contact = model.contacts[c];
     const bool lets_go = one[c].state == State::stick && slip_sign(other[c].state) != 0;
-    if (!lets_go || !(static_friction(contact) > contact.friction.kinetic)) return false;
+    const Friction& f = contact.friction;
+    if (!lets_go || f.by_force() || !(f.static_ > f.kinetic)) return false;
   }
   return true;
 }

@@ -125,6 +125,12 @@ bool presses(const StageSpec& spec, const Model& model) {
 
 void start_with_friction(const Scene& scene, DofMap& map, Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (model.contacts[k].friction.by_force())
+      throw SceneError(scene.contacts[k].place, scene.contacts[k].key("friction"),
+                       "initial = \"frictional\" does not know friction that depends on the normal force; "
+                       "use one coefficient, "
+                       "or initial = \"static\"");
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
     if (model.contacts[k].initial_shear != 0.0)
       throw SceneError(scene.contacts[k].place, scene.contacts[k].key("initial_shear"),
                        "has no meaning beside initial = \"frictional\", which finds it");

@@ -25,19 +25,18 @@ constexpr double dependent = 1e-12;       // what is left of a unit normal when 
   throw SceneError(spec.place, spec.key(key), why);
 }
 
-/// Friction that depends on the slip rate, and a curved surface, need motions that are data of an instant.
+/// Friction that depends on the slip rate or on N, and a curved surface, need motions that are data of an instant.
 void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  const bool by_rate = friction_varies(contact), beside_spring = contact.tangential_stiffness.has_value();
-  if (!by_rate && !contact.bowl) return;
+  const bool varies = friction_varies(contact), beside_spring = contact.tangential_stiffness.has_value();
+  if (!varies && !contact.bowl) return;
   for (const Combination* form : {&contact.tangent, &contact.normal}) {
     if (form == &contact.normal && !contact.bowl && !beside_spring) continue;
     for (const auto& [dof, factor] : form->terms)
       if (const Dof& d = model.dofs[static_cast<std::size_t>(dof)]; d.massless && factor != 0.0)
-        refuse(scene, k, by_rate ? "friction" : "radius",
+        refuse(scene, k, varies ? "friction" : "radius",
                fmt::format("{} needs mass where it acts, and {} has none",
-                           by_rate ? "friction that depends on the slip rate"
-                                   : "a curved surface under a force that varies",
+                           varies ? named_friction(contact) : "a curved surface under a force that varies",
                            d.displacement));
   }
 }

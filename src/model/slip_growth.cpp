@@ -49,7 +49,10 @@ Slipping slipping(const Model& model, const std::vector<State>& states) {
       continue;
     }
     const Vector n = full(c.normal, model.size());
-    const Vector push = n - s * kinetic_friction(c) * full(c.tangent, model.size());
+    const double f = c.friction.by_force()
+                         ? friction_limit_slope(c.friction, -c.normal_stiffness * c.gap_at(model.u0))
+                         : kinetic_friction(c);
+    const Vector push = n - s * f * full(c.tangent, model.size());
     result.drives.push_back({n, push, normal.stiffness, c.normal_damping});
     result.contacts.push_back(k);
   }

@@ -11,13 +11,26 @@ namespace signorini {
 
 FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s, const Form& normal,
                                const Series& series)
-    : contact_(&contact), index_(index) {
+    : contact_(&contact), index_(index), sign_(s) {
+  if (contact.friction.by_force()) {
+    begin_by_force(s, normal, series);
+    return;
+  }
   if (contact.shear) {
     begin_massless(s, normal, series);
     return;
   }
   friction_.begin(contact, s, slip_rate(0, series));
   row_ = sliding_row(s, friction_.first());
+}
+
+/// N_0 follows from g or q: there is mass where such a contact acts.
+void FrictionSeries::begin_by_force(int s, const Form& normal, const Series& series) {
+  const Friction& friction = contact_->friction;
+  const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
+  limit_.emplace(friction, pressed);
+  row_ = sliding_row(s, limit_->slope());
+  row_.constant = s * (limit_->slope() * pressed - friction_limit(friction, pressed));
 }
 
 /// The rate of a point without mass, from the spring that holds it.
@@ -76,6 +89,12 @@ double FrictionSeries::slip_rate(std::size_t k, const Series& series) const {
 double FrictionSeries::known(int k, const Series& series) {
   if (k == 0 || constant_) return 0.0;
   const auto level = static_cast<std::size_t>(k);
+  if (limit_) {
+    if (k > 1)
+      limit_->take(-series.forces(static_cast<Eigen::Index>(normal_slot(index_)),
+                                  static_cast<Eigen::Index>(level - 1)));
+    return -sign_ * limit_->known();
+  }
   const auto pressing = [&](std::size_t i) {
     return series.forces(static_cast<Eigen::Index>(normal_slot(index_)), static_cast<Eigen::Index>(i));
   };

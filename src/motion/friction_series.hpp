@@ -1,4 +1,4 @@
-// friction_series.hpp: friction that depends on the slip rate, along a series of the motion.
+// friction_series.hpp: friction that depends on the slip rate or on N, along a series of the motion.
 //
 //   T_k + s sum_(j = 0..k) f_j N_(k-j) = 0       f_j: contact/friction.hpp
 //
@@ -9,7 +9,12 @@
 //
 // and p'_0 follows from T_0 (contact/massless_slip.hpp). Where friction is at its greatest, or N_0 is zero, the point
 // follows at once: its displacement is the unknown, and friction's coefficient stays.
+//
+// Of friction that depends on N, F'(|N_0|) stands in the matrix (contact/friction_limit.hpp):
+//   T_k + s F' N_k = s ( F_k - F' |N|_k )
 #pragma once
+
+#include <optional>
 
 #include "contact/friction.hpp"
 #include "motion/series.hpp"
@@ -32,15 +37,18 @@ class FrictionSeries {
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
+  void begin_by_force(int s, const Form& normal, const Series& series);
   void begin_massless(int s, const Form& normal, const Series& series);
   [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
 
   const Contact* contact_;
   std::size_t index_;
+  int sign_;
   Form row_;
   double jump_ = 0.0;
   bool constant_ = false;  // friction's coefficient stays
   FrictionRecursion friction_;
+  std::optional<LimitSeries> limit_;  // of friction that depends on N
 };
 
 }  // namespace signorini

@@ -19,7 +19,7 @@ constexpr std::size_t known = MotionJet::orders + 2;  // derivatives that the or
 
 /// Derivatives of N, T, g and ut of one contact, with the sizes of the terms in the latter two.
 struct Derivatives {
-  std::array<double, known> N{}, T{}, gap{}, ut{}, gap_terms{}, ut_terms{};
+  std::array<double, known> N{}, T{}, gap{}, ut{}, limit{}, gap_terms{}, ut_terms{};
 };
 
 constexpr std::size_t most_plane_terms = 4;  // of a form on the translations of one node, or of two
@@ -46,6 +46,23 @@ double size_of(const Model& model, const Combination& form, const double* x) {
   return size_by(model, form, [x](int dof) { return x[dof]; });
 }
 
+/// Of friction that depends on N: its limit, where N is what g or q says. One order further than the motion, for its rate.
+void fill_limit(const Contact& contact, std::size_t c, const Series& series, std::size_t last,
+                Derivatives& d) {
+  const double* pressing = series.forcing.pressing.data() + c * series.forcing.count;
+  const auto load = [&](std::size_t k) {
+    return contact.is_pressed() ? pressing[k]
+                                : -contact.normal_stiffness * gap_coefficient(contact, series, k);
+  };
+  LimitSeries limit(contact.friction, load(0));
+  d.limit[0] = friction_limit(contact.friction, load(0));
+  double factorial = 1.0;
+  for (std::size_t k = 1; k < last + 2; ++k) {
+    factorial *= static_cast<double>(k);
+    d.limit[k] = factorial * limit.take(load(k));
+  }
+}
+
 /// From a series of scale 1: derivatives are k! times the coefficients. Those that orders 0 .. last of a motion reach;
 /// the sizes of their terms where they are wanted.
 void fill(const Model& model, std::size_t c, const Series& series, std::size_t last, bool with_terms,
@@ -69,6 +86,7 @@ void fill(const Model& model, std::size_t c, const Series& series, std::size_t l
     d.T[k] = factorial * series.forces.data()[k * forces + tangent_slot(c)];
   }
   d.gap_terms[0] += std::abs(contact.gap);
+  if (contact.friction.by_force()) fill_limit(contact, c, series, last, d);
 }
 
 /// The k-th derivative; pressing: coefficients, factorial: k!.
@@ -84,6 +102,8 @@ ContactMotion motion_of_order(const Derivatives& d, std::size_t k, const double*
   m.at = d.ut[k + 2];
   m.pressing = factorial * pressing[k];
   m.pressing_rate = factorial * static_cast<double>(k + 1) * pressing[k + 1];
+  m.limit = d.limit[k];
+  m.limit_rate = d.limit[k + 1];
   return m;
 }
 
@@ -222,6 +242,12 @@ void JetMaker::motions(const ModeSystem& system, std::size_t c, std::size_t firs
     d.at = noise(a.ut[k + 2], b.ut[k + 2], terms.at);
     d.pressing = rounding::of_many * terms.pressing;
     d.pressing_rate = rounding::of_many * terms.pressing_rate;
+    if (const Friction& f = model_.contacts[c].friction; f.by_force()) {
+      const double slope = std::max(f.static_, f.kinetic), kn = model_.contacts[c].normal_stiffness;
+      d.limit = noise(a.limit[k], b.limit[k], slope * N + std::abs(m.limit));
+      d.limit_rate = noise(a.limit[k + 1], b.limit[k + 1],
+                           slope * (kn * terms.vn + terms.pressing_rate) + std::abs(m.limit_rate));
+    }
   }
 }
 

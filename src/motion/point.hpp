@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "contact/friction_limit.hpp"
 #include "contact/motion.hpp"
 #include "contact/slots.hpp"
 #include "motion/forcing.hpp"
@@ -45,6 +46,7 @@ struct Point {
   if (point.a.size() > 0) set_acceleration(contact, point.a, forcing.surface(k, t, 2), m);
   m.pressing = forcing.pressing(k, t, 0);
   m.pressing_rate = forcing.pressing(k, t, 1);
+  set_limit(contact, m);
   return m;
 }
 

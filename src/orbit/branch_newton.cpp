@@ -144,16 +144,30 @@ Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
-/// Along a family Phi - I is zero, too: t is not to drift along it.
-Vector BranchNewton::without_families(const Corrected& at, const Vector& t) const {
-  const Eigen::Index n = at.monodromy.rows();
-  if (map_.autonomous() || at.ones == 0 || n == 0) return t;
+Eigen::MatrixXd BranchNewton::families(const Corrected& at) const {
+  const Eigen::Index n = at.monodromy.rows(), all = size(at.pass);
+  const Eigen::Index count = map_.autonomous() ? 0 : std::min(n, static_cast<Eigen::Index>(at.ones));
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(all, count);
+  if (count == 0) return directions;
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy - Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
-  const Eigen::MatrixXd vectors = symmetric_eigen(A.transpose() * A).vectors;
-  Vector rest = t;
-  for (Eigen::Index k = 0; k < std::min(n, static_cast<Eigen::Index>(at.ones)); ++k)
-    rest.head(n) -= vectors.col(k).dot(rest.head(n)) * vectors.col(k);
+  directions.topRows(n) = symmetric_eigen(A.transpose() * A).vectors.leftCols(count);
+  return directions;
+}
+
+Vector BranchNewton::along_families(const Corrected& at, const Vector& t, const Vector& way) const {
+  const Eigen::MatrixXd directions = families(at);
+  if (directions.cols() == 0) return t;
+  const Vector part = directions * (directions.transpose() * way);
+  const Vector both = part + std::sqrt(std::max(0.0, 1.0 - part.squaredNorm())) * t;
+  return both / both.norm();
+}
+
+/// Along a family Phi - I is zero, too: t is not to drift along it.
+Vector BranchNewton::without_families(const Corrected& at, const Vector& t) const {
+  const Eigen::MatrixXd directions = families(at);
+  if (directions.cols() == 0) return t;
+  const Vector rest = t - directions * (directions.transpose() * t);
   return rest.norm() > least_left ? Vector(rest / rest.norm()) : t;
 }
 
@@ -164,8 +178,7 @@ Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<
     at.multipliers = multipliers_of(at.monodromy);
   }
   at.ones = ones.value_or(std::max<std::size_t>(count_ones(at.multipliers), map_.autonomous() ? 1 : 0));
-  const Vector way = without_families(at, before);
-  const Vector t = known ? way : without_families(at, tangent(at, way));
+  const Vector t = known ? before : without_families(at, tangent(at, without_families(at, before)));
   at.tests = test_values(at.multipliers, at.ones, t[t.size() - 1]);
   return t;
 }

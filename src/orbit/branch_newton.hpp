@@ -67,6 +67,10 @@ class BranchNewton {
                  bool known = false) const;
   /// Whether corrections hold the parameter along this direction.
   [[nodiscard]] static bool holds(const Vector& t);
+  /// Directions of families: so many columns as multipliers are 1 for reasons of their own, in y, of length 1.
+  [[nodiscard]] Eigen::MatrixXd families(const Corrected& at) const;
+  /// t, with that part of `way` that lies in families.
+  [[nodiscard]] Vector along_families(const Corrected& at, const Vector& t, const Vector& way) const;
   /// Coordinates at the section, dT/T, s of the orbit of twice the period that leaves at a flip.
   [[nodiscard]] Vector flip_direction(const Corrected& at) const;
   /// The same of the branch that crosses the one along t at a branch point.

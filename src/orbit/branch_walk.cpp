@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/rescale.hpp"
+#include "orbit/family_middle.hpp"
 #include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/shooting.hpp"
@@ -58,6 +59,14 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   return transient.done() && close(orbit_state(transient.end));
 }
 
+/// To the middle of the family that the orbit is one of.
+bool BranchWalk::centre(Corrected& here, const Vector& t) {
+  std::optional<Corrected> middle = family_middle(map_, newton_, here, t);
+  if (!middle || sequence_of(middle->pass) != sequence_of(here.pass)) return false;
+  here = std::move(*middle);
+  return true;
+}
+
 /// A section away from events, if this one is near to one. The point before moves there, too.
 void BranchWalk::cut_anew(Corrected& here, std::optional<BranchPlace>& place) {
   if (map_.autonomous()) return;
@@ -95,7 +104,7 @@ Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected&
   if (!secant) return newton_.examine(here, before);
   const Vector way = newton_.examine(here, *secant, {}, true);
   if (turning_ && newton_.holds(way)) return way;
-  const Vector tangent = newton_.examine(here, way);
+  const Vector tangent = newton_.along_families(here, newton_.examine(here, way), way);
   turning_ = tangent.dot(way) < alike;
   return turning_ ? way : tangent;
 }
@@ -306,6 +315,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     t = before;
     newton_.measure(here.pass, &t);
     t = direction(place, here, t);
+    if (centre(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
     if (!add(here, special)) return;
     complete_ = last && special.empty();
@@ -327,6 +337,7 @@ void BranchWalk::walk_from_start() {
   if (!begin(here)) return;
   const bool back = options_.resumed && !options_.resumed->towards_to;
   const Vector t = newton_.examine(here, newton_.upwards(here.pass, back ? -1.0 : 1.0));
+  centre(here, t);
   if (options_.resumed) {
     keep_mark(here, t);
     walk(std::move(here), t);

@@ -3,6 +3,8 @@
 //   predictor along the direction, corrector across it (branch_newton.hpp); test functions between two points
 //   (special_points.hpp)
 //
+// Of a family of orbits the walk follows the one in its middle (family_middle.hpp).
+//
 // Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
 // Where another branch begins the walk keeps a junction:
 //
@@ -58,6 +60,7 @@ class BranchWalk {
   [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
   [[nodiscard]] bool restart(Corrected& here, double sign);
   [[nodiscard]] bool returns(const Corrected& here);
+  bool centre(Corrected& here, const Vector& t);
   void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
   [[nodiscard]] Vector direction(const std::optional<BranchPlace>& place, Corrected& here,
                                  const Vector& before);

@@ -1,7 +1,9 @@
 #include "orbit/period_map.hpp"
 
 #include <cmath>
+#include <limits>
 
+#include "contact/friction.hpp"
 #include "run/observer.hpp"
 #include "sensitivity/tangent_run.hpp"
 #include "signorini/simulate.hpp"
@@ -11,6 +13,31 @@ namespace {
 
 constexpr int fewest_in_modes = 6;  // below, series are as fast. Chosen.
 constexpr int rows_a_period = 24;   // of which amplitudes are made; chosen
+
+/// The least value of a function that is seen at some times: that of a parabola where three of them have one.
+class Least {
+ public:
+  void see(double t, double value) {
+    const bool inside = seen_ > 1 && f_[1] < f_[0] && f_[1] <= value && f_[1] <= least_ && t > t_[1];
+    if (inside) {
+      const double a = (f_[1] - f_[0]) / (t_[1] - t_[0]), b = (value - f_[1]) / (t - t_[1]);
+      const double bend = (b - a) / (t - t_[0]), slope = a + bend * (t_[1] - t_[0]);
+      vertex_ = f_[1] - slope * slope / (4.0 * bend);
+    }
+    if (seen_ == 0 || t > t_[1]) {
+      t_ = {t_[1], t};
+      f_ = {f_[1], value};
+    }
+    least_ = std::min(least_, value);
+    ++seen_;
+  }
+  [[nodiscard]] double value() const { return std::min(least_, vertex_); }
+
+ private:
+  std::array<double, 2> t_{}, f_{};
+  long seen_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(), vertex_ = least_;
+};
 
 /// Amplitudes, events.
 class CycleRecorder final : public Recorder {
@@ -31,6 +58,7 @@ class CycleRecorder final : public Recorder {
       u_low_ = u_high_ = *sample.u;
       v_low_ = v_high_ = *sample.v;
       for (const ContactSample& c : sample.contacts) T_.emplace_back(c.T, c.T);
+      margins_.resize(sample.contacts.size());
       first_ = false;
     }
     u_low_ = u_low_.cwiseMin(*sample.u);
@@ -45,8 +73,16 @@ class CycleRecorder final : public Recorder {
     for (std::size_t c = 0; c < T_.size(); ++c) {
       T_[c].first = std::min(T_[c].first, sample.contacts[c].T);
       T_[c].second = std::max(T_[c].second, sample.contacts[c].T);
-      grow(pass_.T_amplitude, T_[c].second - T_[c].first, s.force * model_.unit.force);
+      const double force = s.force * model_.unit.force;
+      grow(pass_.T_amplitude, T_[c].second - T_[c].first, force);
+      const double T = sample.contacts[c].T;
+      const double limit = static_friction(model_.contacts[c]) * std::abs(sample.contacts[c].N);
+      margins_[c][0].see(sample.t, (limit - T) / force);
+      margins_[c][1].see(sample.t, (limit + T) / force);
     }
+  }
+  void finish() {
+    for (const auto& [up, down] : margins_) pass_.margins.push_back({up.value(), down.value()});
   }
   bool progress(double t) override { return outer_ == nullptr || outer_->progress(t); }
 
@@ -61,6 +97,7 @@ class CycleRecorder final : public Recorder {
   bool first_ = true;
   Vector u_low_, u_high_, v_low_, v_high_;
   std::vector<std::pair<double, double>> T_;
+  std::vector<std::array<Least, 2>> margins_;
 };
 
 class NoRows final : public TangentListener {
@@ -105,6 +142,7 @@ class Bundle {
     }
     sizes_.assign(columns_.size(), 1.0);
     tangents_.emplace(model, run, columns_, sizes_, listener_);
+    tangents_->cross_smooth_grazes();
     if (flow != nullptr && parameter == nullptr) tangents_->cross_by(*flow);
   }
 
@@ -218,6 +256,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   pass.response = report.response;
   pass.energy = report.audit.initial.stored();
   pass.cycle = change(report.audit.initial, report.audit.final);
+  recorder.finish();
   if (pass.done()) follower.finish();
   return pass;
 }

@@ -6,6 +6,8 @@
 // Units: of the model that is computed, the machine's; events and energies are those of the scene.
 #pragma once
 
+#include <array>
+
 #include "orbit/orbit_state.hpp"
 #include "sensitivity/state_flow.hpp"
 
@@ -25,6 +27,8 @@ struct OrbitPass {
   Vector parameter_rates;     ///< of the end by the parameter, where there is one
   std::string reason;         ///< why they are not known
   std::vector<OutputExtremes> response;
+  /// Least over the rows of f_s |N| - T and of f_s |N| + T, one a contact, in scales of the model.
+  std::vector<std::array<double, 2>> margins;
   std::vector<bool> held;  ///< contacts that never changed their state, closed and not slipping
   bool interrupted = false;
 

@@ -46,8 +46,8 @@ void refuse_laws_that_are_not_linear(const Model& model, const RunSpec& run) {
           ida_instead);
     if (friction_varies(contact))
       refuse(run,
-             fmt::format("needs linear laws, but the friction of contact '{}' depends on its slip rate",
-                         contact.name),
+             fmt::format("needs linear laws, but the friction of contact '{}' depends on its {}",
+                         contact.name, contact.friction.by_force() ? "normal force" : "slip rate"),
              ida_instead);
   }
 }

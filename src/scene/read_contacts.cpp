@@ -31,6 +31,19 @@ void read_rising_friction(Table& table, Friction& friction) {
                                    shortest(friction.kinetic), shortest(friction.static_)));
 }
 
+void read_friction_by_force(Table& table, Friction& friction) {
+  for (const char* key : {"static", "kinetic", "stribeck_velocity", "slow", "fast", "velocity"})
+    if (table.has(key))
+      table.fail(key,
+                 "cannot be combined with light, heavy or force: friction depends on the slip rate or on the "
+                 "normal force, not on both");
+  for (const char* key : {"light", "heavy", "force"})
+    table.require(key, " (required for friction that depends on the normal force)");
+  friction.static_ = table.number("light");
+  friction.kinetic = table.number("heavy");
+  friction.force = table.number("force");
+}
+
 void read_falling_friction(Table& table, Friction& friction) {
   table.require("static", "");
   friction.static_ = table.number("static");
@@ -50,7 +63,10 @@ Friction read_friction(Table& contact) {
   if (node && node->is_table()) {
     Table table = contact.child("friction");
     const bool rises = table.has("slow") || table.has("fast") || table.has("velocity");
-    rises ? read_rising_friction(table, friction) : read_falling_friction(table, friction);
+    const bool by_force = table.has("light") || table.has("heavy") || table.has("force");
+    by_force ? read_friction_by_force(table, friction)
+    : rises  ? read_rising_friction(table, friction)
+             : read_falling_friction(table, friction);
     table.finish();
   } else {
     const std::string expected = describe_type(*find_key("contacts[]", "friction"));
@@ -59,14 +75,16 @@ Friction read_friction(Table& contact) {
     friction = {value, value};
   }
   Record record;
-  record.set(friction.rises() ? "slow" : "static", toml_number(friction.static_));
-  record.set(friction.rises() ? "fast" : "kinetic", toml_number(friction.kinetic));
+  const bool rises = friction.rises(), by_force = friction.by_force();
+  record.set(by_force ? "light" : rises ? "slow" : "static", toml_number(friction.static_));
+  record.set(by_force ? "heavy" : rises ? "fast" : "kinetic", toml_number(friction.kinetic));
   for (const FrictionConstant& constant : friction_constants)
     if (const auto& value = friction.*constant.value)
       record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
-  // The same at all rates: a number.
-  if (friction.rises() && friction.kinetic == friction.static_) friction.velocity.reset();
+  // The same at all rates, or at all forces: a number.
+  if (rises && friction.kinetic == friction.static_) friction.velocity.reset();
+  if (by_force && friction.kinetic == friction.static_) friction.force.reset();
   return friction;
 }
 

@@ -63,6 +63,10 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
   contact.table = table.path();
   contact.law = table.choice("law") == "rigid" ? Law::rigid : Law::compliant;
   contact.friction = read_friction(table);
+  if (contact.friction.by_force())
+    table.fail("friction",
+               "found light, heavy and force, expected one coefficient: the force at a node of a seam "
+               "depends on its mesh");
   contact.normal_force = constant_history(0.0);
   if (contact.law == Law::rigid && is_word(table, "contact_mass", "none")) {
     // nothing rebounds there

@@ -16,7 +16,7 @@ std::string refusal_of(const Model& model, const RunSpec& run) {
   if (run.step == StepControl::doubling) return "the lengths of steps follow their errors";
   if (has_massless(model)) return "parts without mass have no discrete derivative";
   for (const Contact& c : model.contacts)
-    if (friction_varies(c)) return "friction depends on the slip rate";
+    if (friction_varies(c)) return std::string("there is ") + named_friction(c);
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "contact/friction.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini {
@@ -10,10 +11,11 @@ void check_tangent_laws(const Scene& scene, const Model& model) {
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     const bool rises = c.friction.rises();
-    const char* what = c.bowl             ? "a pendulum whose normal force varies"
-                       : rises && c.shear ? "friction that rises with the slip rate beside a "
-                                            "tangential_stiffness"
-                       : c.borrows        ? "a rigid contact on parts without mass"
+    const char* what = c.bowl                  ? "a pendulum whose normal force varies"
+                       : rises && c.shear      ? "friction that rises with the slip rate beside a "
+                                                 "tangential_stiffness"
+                       : c.friction.by_force() ? named_friction(c)
+                       : c.borrows             ? "a rigid contact on parts without mass"
                        : rises && c.takes_impulses()
                            ? "friction that rises with the slip rate at a rigid contact"
                            : nullptr;

@@ -90,6 +90,7 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
   if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;  // pushed by another
   const double rate = fired ? crossing.derivatives[0] : crossing.form.rate(course.m.rate_before[c]);
   if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
+    if (crosses_grazes_ && is_smooth(course) && !drops_anchor(course, c)) return std::nullopt;
     course.stop(fmt::format("the {} of contact '{}' grazes: its rate is {:.3g}", to_string(guard->kind),
                             contact.name,
                             rate * factor_of(unit_of(crossing.form), model_.unit) / model_.unit.time));
@@ -99,6 +100,25 @@ std::optional<double> TangentEvents::time_of(Course& course, std::size_t c) cons
       derivative_.contacts[c].guards[index_of(state.state)][static_cast<std::size_t>(guard - forms.begin())];
   const double moved = form_rate.value(course.m.motion_before[c]) + crossing.form.rate(course.p_before[c]);
   return -moved / rate;
+}
+
+/// Velocities and accelerations of what has mass are the same before and after.
+bool TangentEvents::is_smooth(const Course& course) const {
+  const std::vector<DofKind>& kinds = course.m.instant.after.system->kinds();
+  const double rate = model_.scales.velocity / model_.scales.displacement;
+  return !differ(massive(course.m.before.a, kinds), massive(course.m.after.a, kinds), model_, same_motion,
+                 rate * rate) &&
+         !differ(massive(course.m.before.v, kinds), massive(course.m.after.v, kinds), model_, same_motion,
+                 rate);
+}
+
+/// One whose place would move with the time: ut - T/kt changes there.
+bool TangentEvents::drops_anchor(const Course& course, std::size_t c) const {
+  const State before = course.m.instant.mode_before[c].state, after = course.m.instant.after.mode[c].state;
+  if (after != State::stick || before == State::stick) return false;
+  const ContactMotion& rate = course.m.rate_before[c];
+  const double force_rate = model_.scales.force * model_.scales.velocity / model_.scales.displacement;
+  return is_open(before) || std::abs(rate.T) > same_motion * force_rate;
 }
 
 void TangentEvents::find_times(Course& course) const {
@@ -116,12 +136,7 @@ void TangentEvents::find_times(Course& course) const {
   const auto [least, most] = std::minmax_element(times.begin(), times.end());
   course.after.dt = times.front();
   if (*most - *least <= same * std::max(std::abs(*least), std::abs(*most)) + least_) return;
-  const std::vector<DofKind>& kinds = now.after.system->kinds();
-  const double rate = model_.scales.velocity / model_.scales.displacement;
-  if (!differ(massive(course.m.before.a, kinds), massive(course.m.after.a, kinds), model_, same_motion,
-              rate * rate) &&
-      !differ(massive(course.m.before.v, kinds), massive(course.m.after.v, kinds), model_, same_motion,
-              rate)) {
+  if (is_smooth(course)) {
     course.after.dt = 0.0;  // nothing jumps: each has its own, and the motion none
     return;
   }

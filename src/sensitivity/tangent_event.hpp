@@ -7,6 +7,10 @@
 // Where derivatives from both sides of p differ there is none: two guards that fall at one instant and part
 // with the parameter, a guard that grazes, one that stands at zero afterwards and would fall for other
 // values.
+//
+// Of a guard that grazes, dt/dp has no bound. Where the motion is as smooth after it as before,
+//   u'- = u'+,  u''- = u''+        and no anchor is dropped whose place depends on the time,
+// w does not depend on dt/dp: derivatives of states alone (orbits) can cross such a graze with dt/dp = 0.
 #pragma once
 
 #include <optional>
@@ -54,11 +58,15 @@ class TangentEvents {
 
   [[nodiscard]] TangentAfter pass(const InstantMotion& motion, const TangentBefore& before,
                                   TangentSeries& series) const;
+  /// Grazes where nothing jumps are crossed; the times of their events have no derivative.
+  void cross_smooth_grazes() { crosses_grazes_ = true; }
 
  private:
   struct Course;
   void find_times(Course& course) const;
   [[nodiscard]] std::optional<double> time_of(Course& course, std::size_t contact) const;
+  [[nodiscard]] bool is_smooth(const Course& course) const;
+  [[nodiscard]] bool drops_anchor(const Course& course, std::size_t contact) const;
   void move_state(Course& course) const;
   void move_anchors(Course& course) const;
   [[nodiscard]] bool vanishes(double rate, double terms, double scale) const;
@@ -71,6 +79,7 @@ class TangentEvents {
   const ModelDerivative& derivative_;
   double size_;   // of the parameter
   double least_;  // a rate of times that is nothing
+  bool crosses_grazes_ = false;
 };
 
 }  // namespace signorini

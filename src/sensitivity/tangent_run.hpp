@@ -32,6 +32,10 @@ class TangentRun final : public MotionObserver {
   /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` knows are crossed in closed form,
   /// whatever drives them. No rows are told on the way, instants are. It must outlive this.
   void cross_by(StateFlow& flow) { flow_ = &flow; }
+  /// Of states alone: events that graze are crossed where nothing jumps (tangent_event.hpp).
+  void cross_smooth_grazes() {
+    for (TangentState& state : states_) state.events.cross_smooth_grazes();
+  }
 
   void begin(const ObservedInstant& start) override;
   void step(const ObservedStep& step) override;

@@ -81,9 +81,10 @@ Vector Finder::closing() const {
           !is_open(mode[k].state) || std::any_of(record_.impulses.begin(), record_.impulses.end(),
                                                  [&](const RecordedImpulse& p) { return p.contact == k; });
       if (own == nullptr || !touches) continue;
-      const double gap = rounding::of_elimination * see(c, k, record_.before).place;
+      const Sight before = see(c, k, record_.before);
+      const double gap = rounding::of_elimination * before.place;
       const double friction =
-          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, see(c, k, record_.before).dut);
+          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, before.dut, before.N);
       if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
       if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
         rows.add(c.tangent, own->by_t, 0.0);
@@ -110,7 +111,7 @@ bool Finder::lets_massless_jump() const {
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
-  if (c.own || c.shear || c.friction.varies() || !(c.friction.static_ > c.friction.kinetic)) return false;
+  if (c.own || c.shear || c.friction.varies() || !c.friction.drops()) return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
   if (kind_of(old.state) != State::stick || kind_of(now.state) == State::stick) return false;
@@ -152,7 +153,9 @@ void Finder::friction_continuity(std::size_t k) {
   if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
   if (moves_at_once(k) && lets_massless_jump()) return slide_at_once(k);
   const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
-  const double fs = c.friction.static_, fk = c.friction.kinetic, kt = *c.tangential_stiffness;
+  const bool by_force = c.friction.by_force();
+  const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;
+  const double fk = by_force ? fs : c.friction.kinetic, kt = *c.tangential_stiffness;
   const double off_N =
       rounding::of_elimination * (size_of_normal(c, a) + std::abs(a.N) + std::abs(b.N)) +
       of_tolerance * (c.normal_stiffness * (bench_.limits.rtol * a.place + bench_.limits.displacement));

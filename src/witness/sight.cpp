@@ -16,6 +16,12 @@ double size_on(const Combination& form, const Vector& x, double reach) {
   return std::sqrt(of_form * of_x);
 }
 
+/// Of friction that depends on N: what dF/d|N| is.
+double growth_of_limit(const Contact& c, double N) {
+  const double x = std::max(0.0, -N) / *c.friction.force;
+  return friction_at(c, 0.0, N) - (c.friction.static_ - c.friction.kinetic) * x * std::exp(-x);
+}
+
 /// kt of the spring between body and sliding point; 0: none, or with a dashpot beside it.
 double shear_stiffness(const Contact& c) { return c.tangential_stiffness.value_or(0.0); }
 
@@ -25,8 +31,12 @@ int sign_of_slip(State state) {
   return kind_of(state) == State::slip_plus ? 1 : kind_of(state) == State::slip_minus ? -1 : 0;
 }
 
-double friction_at(const Contact& c, double slip_rate) {
+double friction_at(const Contact& c, double slip_rate, double N) {
   const Friction& f = c.friction;
+  if (f.force) {
+    const double light = std::exp(-std::max(0.0, -N) / *f.force);
+    return f.static_ * light + f.kinetic * (1.0 - light);
+  }
   if (!f.varies()) return f.kinetic;
   const double part = std::exp(-std::abs(slip_rate) / f.rate_of_change());
   return f.static_ * part + f.kinetic * (1.0 - part);
@@ -90,12 +100,15 @@ SeenGuards guards_of(const Contact& c, const ContactState& state, const Sight& m
   }
   if (!c.is_pressed()) guards.add({"tension", -m.N, size_N, -dN, of_N});
   if (!c.has_friction() || kind_of(state.state) == State::closed) return guards;
-  const double fs = c.friction.static_, fk = c.friction.kinetic;
+  const bool by_force = c.friction.force.has_value();
+  const double fs = by_force ? friction_at(c, 0.0, m.N) : c.friction.static_;
+  const double growth = by_force ? growth_of_limit(c, m.N) : fs;
+  const double fk = by_force ? growth : c.friction.kinetic;
   if (const int s = sign_of_slip(state.state); s == 0) {
     const double size = fs * size_N + (kt > 0.0 ? kt * (m.place + std::abs(state.anchor)) : std::abs(m.T));
     const double off = fs * of_N + (kt > 0.0 ? kt * of_u : tol.rtol * std::abs(m.T) + tol.force);
     const double side = m.T >= 0.0 ? 1.0 : -1.0;
-    guards.add({"friction", -fs * m.N - std::abs(m.T), size, -fs * dN - side * kt * m.dut, off});
+    guards.add({"friction", -fs * m.N - std::abs(m.T), size, -growth * dN - side * kt * m.dut, off});
   } else {
     double rate = s * m.dut, size = m.speed, off = of_v;
     if (kt > 0.0) {

@@ -38,8 +38,8 @@ struct SeenGuards {
 [[nodiscard]] Sight glance(const Contact& contact, std::size_t k, const WitnessedSide& side);
 /// +1, -1 while slipping, else 0; open; sticking.
 [[nodiscard]] int sign_of_slip(State state);
-/// |T|/|N| while it slips at this rate.
-[[nodiscard]] double friction_at(const Contact& c, double slip_rate);
+/// |T|/|N| while it slips at this rate under this N.
+[[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
 /// The guards of a state at a motion whose forces are those of the state's own rows.
 [[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
                                    const WitnessLimits& limits);

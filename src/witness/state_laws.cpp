@@ -29,7 +29,7 @@ struct HeldRows {
     double of_row = rounding::of_elimination * m.push;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
-      const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * friction_at(c, m.dut);
+      const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * friction_at(c, m.dut, m.N);
       columns.push_back(-response.by_n - friction * response.by_t);
       rows.push_back(&c.normal);
       asked.push_back(hold ? -m.ddg : 0.0);
@@ -129,7 +129,7 @@ void Finder::old_rows(std::size_t k) {
   if (is_open(state.state) && !c.is_pressed())
     check("friction force", m.T);
   else if (s != 0 && !c.shear)
-    check("friction force", m.T + s * friction_at(c, m.dut) * m.N);
+    check("friction force", m.T + s * friction_at(c, m.dut, m.N) * m.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", m.T - kt * (m.ut - state.anchor));
 }
@@ -177,7 +177,7 @@ void Finder::friction_of(std::size_t k, const Sight& m) {
   double asked = 0.0, size = std::abs(m.T);
   if (s != 0) {
     if (c.friction.varies() && c.shear) return;  // its rate follows from T, it is no datum
-    const double f = friction_at(c, m.dut);
+    const double f = friction_at(c, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
@@ -208,7 +208,8 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   Sight& m = result.m;
   const bool solved_N = c.takes_impulses() && !is_open(old.state),
              solved_T = HeldRows::holds_tangent(c, old.state);
-  const double sliding = -sign_of_slip(old.state) * friction_at(c, m.dut), N = m.N, T = m.T;
+  const double N = m.N, T = m.T;
+  const auto sliding = [&] { return -sign_of_slip(old.state) * friction_at(c, m.dut, m.N) * m.N; };
   // What its old rows say of its forces directly, and what that does to accelerations.
   if (!solved_N)
     m.N = c.is_pressed()       ? -m.q
@@ -216,7 +217,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
                                : c.normal_stiffness * m.g + c.normal_damping * m.dg;
   if (!solved_T)
     m.T = kind_of(old.state) == State::stick && !c.shear ? *c.tangential_stiffness * (m.ut - old.anchor)
-                                                         : sliding * m.N;
+                                                         : sliding();
   Vector push = -(m.N - N) * own->by_n;
   if (!solved_T) push -= (m.T - T) * own->by_t;
   HeldRows held;
@@ -241,7 +242,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
     m.T = T + change.forces[solved_N ? 1 : 0];
     result.unsure_T = change.unsure[solved_N ? 1 : 0];
   }
-  if (solved_N && !solved_T) m.T = sliding * m.N;
+  if (solved_N && !solved_T) m.T = sliding();
   m.ddg += c.normal.dot(push);
   m.ddut += c.tangent.dot(push);
   return result;

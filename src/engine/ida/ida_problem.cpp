@@ -159,6 +159,7 @@ ContactMotion IdaProblem::motion(std::size_t k, double t, const double* y, const
     m.pressing = forcing.pressing(k, t, 0);
     m.pressing_rate = forcing.pressing(k, t, 1);
   }
+  set_limit(contact, m);
   return m;
 }
 

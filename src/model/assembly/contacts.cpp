@@ -47,6 +47,18 @@ void check_compliant(const ContactSpec& spec, const Contact& contact) {
                      "a compliant contact with friction needs a tangential stiffness > 0");
 }
 
+/// Friction that depends on N: p' follows from the rate of N, which a dashpot would make a matter of accelerations.
+void check_friction_by_force(const ContactSpec& spec) {
+  if (!spec.friction.by_force()) return;
+  const auto refuse = [&](const std::string& what) {
+    throw SceneError(spec.place, spec.key("friction"), "friction that depends on the normal force " + what);
+  };
+  if (takes_impulses(spec.law)) refuse("is not known to rigid contacts; use law = \"compliant\"");
+  if (!spec.tangential_stiffness) refuse("needs a tangential_stiffness");
+  if (spec.normal_damping != 0.0) refuse("cannot be combined with normal_damping");
+  if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
+}
+
 /// A law of one's own: what it may be made of.
 void check_own(const ContactSpec& spec, const Scene& scene) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
@@ -75,7 +87,8 @@ void check_own(const ContactSpec& spec, const Scene& scene) {
                            law.states.size() - 1));
     }
     for (const Form& f : forms)
-      if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0)
+      if (f.an != 0.0 || f.at != 0.0 || f.pressing != 0.0 || f.pressing_rate != 0.0 || f.limit != 0.0 ||
+          f.limit_rate != 0.0)
         refuse(fmt::format("state '{}': forms are on N, T, g, ut and their rates", state.name));
   }
 }
@@ -120,6 +133,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.capture_velocity = spec.capture_velocity;
     c.tangent = tangent_form(spec, map);
     leave_out_held_friction(scene, contacts.size(), c);
+    check_friction_by_force(spec);
     if (has_gap(spec.law)) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);

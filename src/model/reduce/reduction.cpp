@@ -64,7 +64,7 @@ void check_frozen(const Scene& scene, const Model& model) {
 }
 
 bool normal_needs_mass(const Contact& c) {
-  const bool tells_rate = c.friction.rises() && c.tangential_stiffness;
+  const bool tells_rate = friction_varies(c) && c.tangential_stiffness;
   return c.has_gap() && (c.takes_impulses() || c.normal_damping > 0.0 || tells_rate || c.bowl);
 }
 

@@ -26,7 +26,7 @@ Json contact_json(const Contact& contact, const ContactSample& sample) {
   json["ut"] = sample.ut;
   json["N"] = sample.N;
   json["T"] = sample.T;
-  json["limit"] = -static_friction(contact) * sample.N;
+  json["limit"] = sticking_limit(contact, sample.N);
   return json;
 }
 

@@ -162,7 +162,7 @@ void TableRows::check_forces(const Row& row, const ContactState& state, const ch
   if (c.has_spring() && !c.borrows && c.normal_damping == 0.0 && row.gap)
     check("normal force", row.N, kn * *row.gap);
   if (const int s = sign_of_slip(state.state); s != 0 && !c.friction.varies())
-    check("friction force", row.T, -s * c.friction.kinetic * row.N);
+    check("friction force", row.T, -s * friction_at(c, 0.0, row.N) * row.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", c.borrows ? 0.0 : row.T, kt * (row.ut - state.anchor));
 }

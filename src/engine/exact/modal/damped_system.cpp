@@ -99,7 +99,7 @@ std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "nothing moves";
   for (const Contact& contact : model.contacts) {
     if (contact.shear) return "shear elements";
-    if (friction_varies(contact)) return "friction that depends on the slip rate";
+    if (friction_varies(contact)) return named_friction(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";

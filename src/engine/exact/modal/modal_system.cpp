@@ -28,7 +28,7 @@ std::string coupling_refusal(const Model& model) {
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.shear) return "shear elements";
     if (contact.normal_damping != 0.0) return "dashpots of contacts";
-    if (friction_varies(contact)) return "friction that depends on the slip rate";
+    if (friction_varies(contact)) return named_friction(contact);
   }
   if (std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; }))
     return "massless degrees of freedom";

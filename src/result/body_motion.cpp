@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-BodyMotion::BodyMotion(const Scene& scene, const Model& model)
+BodyMotionFile::BodyMotionFile(const Scene& scene, const Model& model)
     : scene_(scene), nodes_(drawn_mesh_nodes(scene)), movers_(scene, model) {
   if (nodes_.empty()) return;
   const std::size_t times = scene.run.grid().size();
@@ -18,7 +18,7 @@ BodyMotion::BodyMotion(const Scene& scene, const Model& model)
   every_ = std::max<std::size_t>(1, (times + wanted - 2) / wanted);
 }
 
-std::vector<double> BodyMotion::row(const Sample& sample) const {
+std::vector<double> BodyMotionFile::row(const Sample& sample) const {
   std::vector<double> values{sample.t};
   for (const int node : nodes_)
     for (const std::size_t axis : {0, 1})
@@ -26,7 +26,7 @@ std::vector<double> BodyMotion::row(const Sample& sample) const {
   return values;
 }
 
-void BodyMotion::add(const Sample& sample) {
+void BodyMotionFile::add(const Sample& sample) {
   if (nodes_.empty()) return;
   if (count_++ % every_ == 0) {
     rows_.push_back(row(sample));
@@ -36,7 +36,7 @@ void BodyMotion::add(const Sample& sample) {
   }
 }
 
-void BodyMotion::write(const std::filesystem::path& directory) const {
+void BodyMotionFile::write(const std::filesystem::path& directory) const {
   if (rows_.empty()) return;
   CsvFile file(directory / "body_motion.csv");
   CsvBlock block;

@@ -13,12 +13,12 @@
 
 namespace signorini {
 
-class BodyMotion {
+class BodyMotionFile {
  public:
   static constexpr std::size_t most_values = 400'000, fewest_times = 25, most_times = 250;
 
   /// Nothing is kept of a scene without bodies.
-  BodyMotion(const Scene& scene, const Model& model);
+  BodyMotionFile(const Scene& scene, const Model& model);
   /// At every output time.
   void add(const Sample& sample);
   /// Nothing where nothing was kept. Errors: FileError.

@@ -86,7 +86,7 @@ struct RunDirectory::Writers {
   TableFile<Sample> energy;
   std::optional<TableFile<ResponseRow>> response;
   std::optional<TableFile<SeamRow>> seams;
-  std::optional<BodyMotion> body_motion;
+  std::optional<BodyMotionFile> body_motion;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<BodyFrameWriter> body_frames;
   std::unique_ptr<StateWriter> states;

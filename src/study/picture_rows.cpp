@@ -65,7 +65,7 @@ class PictureRows final : public Recorder {
   CsvBlock events_;
   std::vector<std::vector<MotionRow>> motions_;
   Curves curves_;
-  std::optional<BodyMotion> bodies_;
+  std::optional<BodyMotionFile> bodies_;
 };
 
 /// Row by row; a certificate has added columns behind those of the run.

@@ -56,7 +56,9 @@ TEST_CASE(
     const Model model = build_model(scene);
     const Folder folder;
     for (const bool pictures : {true, false}) {
-      RunDirectory directory(folder / (pictures ? "with" : "without"), scene, model, {.pictures = pictures});
+      RunDirectoryOptions options;
+      options.pictures = pictures;
+      RunDirectory directory(folder / (pictures ? "with" : "without"), scene, model, options);
       directory.finish(simulate(model, scene.run, directory));
     }
     CHECK_FALSE(std::filesystem::exists(folder / "without" / "body_motion.csv"));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/moved_start.hpp"
+
 namespace signorini {
 namespace {
 
@@ -107,8 +109,9 @@ Model disturbed(const Model& model, std::uint64_t seed) {
   for (int i = 0; i < near.size(); ++i) {
     if (touches[static_cast<std::size_t>(i)]) continue;
     near.v0[i] *= disturb.next();
-    if (!model.static_start) near.u0[i] *= disturb.next();  // else it follows from the other data
+    if (!model.static_start) near.u0[i] *= disturb.next();
   }
+  if (const auto moved = moved_start(model, near)) near.u0 += *moved;  // it follows from the other data
   return near;
 }
 

@@ -3,7 +3,8 @@
 //   x -> x (1 + delta r),   delta = 1e-15,  |r| in [1/2, 1], the same r for M_ij and M_ji
 //
 // Of a reduced model the data are those of the structure: x^T K x of a shape is off by what its terms are, which may cancel.
-// What stays: times of breakpoints, the initial state of what touches, displacements of a static start, gaps that are
+// A static start without friction follows its data (moved_start.hpp).
+// What stays: times of breakpoints, the initial state of what touches, displacements of other static starts, gaps that are
 // closed, and zeros. So laws, states at the start and symmetry of the matrices are those of the model. The same seed gives
 // the same model.
 #pragma once

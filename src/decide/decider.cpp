@@ -209,6 +209,21 @@ void Decider::touch_first(Course& course) const {
   if (model_.contacts[c].normal_damping > 0.0) course.instant.u += at * way;
 }
 
+/// Parts without mass are on their way to where the states that are tried balance, and another contact fails by more than
+/// the instant: how fast the rest of them slides is told where they arrive, not on the way. Once: in a circle all are asked.
+void Decider::arrive_first(Course& course) const {
+  if (course.decision.rounds < 2 || course.blurred) return;
+  const auto carried = [&](const Failure& f) {
+    const Contact& c = model_.contacts[f.contact];
+    return !c.takes_impulses() && !c.sticks_rigidly() && carries_massless(model_, c);
+  };
+  const bool on_the_way = std::any_of(course.failed.begin(), course.failed.end(), [&](const Failure& f) {
+    return f.guard != Guard::sliding && f.sign.order == 0 && carried(f);
+  });
+  if (on_the_way)
+    std::erase_if(course.failed, [&](const Failure& f) { return f.guard == Guard::sliding && carried(f); });
+}
+
 /// Contacts that decide alone take their next states. Returns the blocks that must be decided together.
 std::vector<Block> Decider::react(Course& course) const {
   Findings& found = course.found;
@@ -216,10 +231,13 @@ std::vector<Block> Decider::react(Course& course) const {
   std::vector<std::size_t> turning;
   course.touched.reset();
   touch_first(course);
+  arrive_first(course);
   for (const Failure& f : course.failed) {
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
-    if (!course.decision.visited[c]) course.decision.crossings[c] = crossing(f.form, course.jets[c]);
+    // What is touched on the way is touched at a time that others give.
+    if (!course.decision.visited[c] && course.touched != c)
+      course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
     if (found.sliders) jointly[block_of_[c]] = true;
     const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;

@@ -53,6 +53,7 @@ class Decider {
   void look(Course& course, bool before);
   [[nodiscard]] std::optional<double> touched_at(const Failure& f, const Course& course) const;
   void touch_first(Course& course) const;
+  void arrive_first(Course& course) const;
   [[nodiscard]] std::vector<Block> react(Course& course) const;
   void stop(const std::vector<std::size_t>& turning, Course& course) const;
   [[nodiscard]] Refusal enumerate(std::size_t block, Course& course);

@@ -1,8 +1,10 @@
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
 #include "base/rounding.hpp"
+#include "model/assembly/selection.hpp"
 #include "witness/laws.hpp"
 
 namespace signorini {
@@ -59,6 +61,7 @@ void Finder::continuity() {
     if (off <= limit) continue;
     if (!closed) closed = closing();
     limit += (*closed)[i];
+    if (off > limit) limit += unsure_without_mass(i);
     if (off <= limit) continue;
     add(-1, "continuity", off, limit, turn ? Unit{} : seen::length, false);
     break;
@@ -66,6 +69,21 @@ void Finder::continuity() {
   if ((record_.start && !record_.continues) || !record_.located) return;
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     if (!model_.contacts[k].own) friction_continuity(k);
+}
+
+/// Where there is no mass u follows from forces, and springs of contacts make forces of its rounding: those of stiff ones
+/// bend the structure by  sum_j |(K^-1)_ij| noise_j,  K: of the structure on what has no mass. 0: it has mass there, or K
+/// is singular.
+double Finder::unsure_without_mass(int dof) const {
+  if (bench_.has_mass(dof) || record_.after.loads.empty() || record_.before.loads.empty()) return 0.0;
+  const std::vector<int>& all = bench_.massless();
+  const SparseMatrix only = selection(all, model_.size());
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt(only.transpose() * model_.stiffness * only);
+  if (ldlt.info() != Eigen::Success) return 0.0;
+  const Vector by_force = ldlt.solve(only.transpose() * Vector::Unit(model_.size(), dof));
+  const Vector noise = massless_noise(bench_, record_.before, 0) + massless_noise(bench_, record_.after, 0);
+  const double bent = by_force.cwiseAbs().dot(only.transpose() * noise);
+  return std::isfinite(bent) ? bent : 0.0;
 }
 
 /// What gaps of rigid contacts, as large as their rounding, move u by where they close together by the smallest change in
@@ -107,14 +125,16 @@ bool Finder::lets_massless_jump() const {
   return any;
 }
 
-/// It stuck at its static limit, which is above the kinetic one, and slides, or is open.
+/// It stuck at its static limit, which is above the kinetic one, and slides, or is open, or has slid and stopped at once: a
+/// row of slip from stick to stick.
 bool Finder::lets_go(std::size_t k) const {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (c.own || c.shear || c.friction.varies() || !c.friction.drops()) return false;
   const RecordedEvent* event = event_of(k);
   if (event == nullptr || event->t_uncertainty < 0.0) return false;
-  if (kind_of(old.state) != State::stick || kind_of(now.state) == State::stick) return false;
+  const bool stopped = kind_of(now.state) == State::stick && event->type == "slip";
+  if (kind_of(old.state) != State::stick || (kind_of(now.state) == State::stick && !stopped)) return false;
   const Sight before = see(c, k, record_.before);
   for (const SeenGuard& guard : guards_of(c, old, before, bench_.limits)) {
     if (guard.law != std::string_view("friction")) continue;

@@ -132,6 +132,7 @@ class Finder {
   void guard_of(const RecordedEvent& event);
   void friction_continuity(std::size_t k);
   [[nodiscard]] Vector closing() const;
+  [[nodiscard]] double unsure_without_mass(int dof) const;
   [[nodiscard]] Sight touching(std::size_t k, const WitnessedSide& side) const;
   void row_of(const RecordedEvent& event);
   [[nodiscard]] bool is_released(std::size_t k) const;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "behaviour/halves.hpp"
 #include "signorini/simulate.hpp"
@@ -152,8 +153,9 @@ direction = {9}
                                  : "force = \"N\", mass = \"t\", length = \"mm\", time = \"s\"");
 }
 
-/// Two blocks that do not match on the ground, dragged to and fro at the top; law: of both seams.
-std::string dragged_blocks(const char* engine, double degrees, const std::string& law) {
+/// Two blocks that do not match on the ground, dragged to and fro at the top; law: of both seams, friction: of the upper.
+std::string dragged_blocks(const char* engine, double degrees, const std::string& law,
+                           const char* friction = "0.3") {
   const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
   return fmt::format(
       R"(schema = 1
@@ -190,7 +192,7 @@ contact_mass = "none"
 name = "joint"
 slave = "high.bottom"
 master = "low.top"
-friction = 0.3
+friction = {9}
 contact_mass = "none"
 {6}
 [[loads]]
@@ -199,7 +201,7 @@ traction = 2500.0
 direction = [{7:.17g}, {8:.17g}]
 history = {{ type = "harmonic", omega = 300.0 }}
 )",
-      9.81 * s, -9.81 * c, engine, degrees, 0.05 * c - 0.1 * s, 0.05 * s + 0.1 * c, law, c, s);
+      9.81 * s, -9.81 * c, engine, degrees, 0.05 * c - 0.1 * s, 0.05 * s + 0.1 * c, law, c, s, friction);
 }
 
 Scene dragged(const char* engine, double degrees, const std::string& law) {
@@ -361,6 +363,38 @@ TEST_CASE("rigid seams without mass are the limit of compliant ones: differences
     const double now = farthest(limit, simulate(dragged("exact", 0.0, compliant_law(k))));
     if (before > 0.0) CHECK(before / now == doctest::Approx(10.0).epsilon(0.1));
     before = now;
+  }
+}
+
+TEST_CASE("what slides at once keeps sliding where another seam closes on the way; witness and laws") {
+  // joint.2 lets go at its static limit 0.35 N and drops to 0.3 N; the parts without mass that follow close joint.1, which
+  // has just opened. How fast joint.2 slides is told where they arrive: it was stuck halfway, at 0.306 N.
+  for (const auto& [engine, degrees, law] : {std::tuple{"exact", 0.0, std::string(rigid_law)},
+                                             {"exact", 33.7, std::string(rigid_law)},
+                                             {"ida", 0.0, std::string(rigid_law)},
+                                             {"exact", 0.0, compliant_law(1e13)}}) {
+    CAPTURE(engine);
+    CAPTURE(degrees);
+    CAPTURE(law);
+    const std::string text = dragged_blocks(engine, degrees, law, "{ static = 0.35, kinetic = 0.3 }");
+    const Scene scene = parse_scene(text, "blocks.toml", {{"run.t_end", "0.0065"}});
+    const Model model = build_model(scene);
+    const Result result = simulate(scene);
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(result.report.witness.violated == 0);
+    long seen = 0;
+    for (std::size_t i = 0; i + 1 < result.events.size(); ++i) {
+      const Event &closing = result.events[i], &slip = result.events[i + 1];
+      if (closing.type != EventType::contact || slip.t != closing.t) continue;
+      ++seen;
+      CHECK(model.contacts[static_cast<std::size_t>(closing.contact)].name == "joint.1");
+      CHECK(model.contacts[static_cast<std::size_t>(slip.contact)].name == "joint.2");
+      CHECK(!closing.t_uncertainty);  // its own guard gives no time
+      CHECK(slip.to == State::slip_plus);
+      CHECK(slip.T == doctest::Approx(-0.35 * slip.N).epsilon(1e-6));
+      CHECK(slip.T_after == doctest::Approx(-0.3 * slip.N_after).epsilon(1e-9));
+    }
+    CHECK(seen == 1);
   }
 }
 

@@ -20,6 +20,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double of_roundings = 30.0;
 /// Both runs may be as far off as the one is from its better neighbour, and neighbours err as well.
 constexpr double of_steps = 5.0;
+// Chosen: three tell most pairs, and of two a third lies thirty times as far once in some hundred pairs.
+constexpr std::size_t few_copies = 3, many_copies = 9;
 /// Sums over a hundred terms.
 constexpr double rounding_of_sums = 100.0 * eps;
 /// Of a difference of a few terms.
@@ -294,6 +296,35 @@ bool is_explained(Class verdict) {
          verdict != Class::understated && verdict != Class::unexplained;
 }
 
+namespace {
+
+/// By an engine without steps, where it takes the scene; else with a hundredth of the tolerance.
+Scene better(Scene scene) {
+  const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
+                                   [](const ContactSpec& c) { return c.friction.varies() || c.bowl; });
+  if (linear)
+    scene.run.engine = Engine::exact;
+  else
+    scene.run.rtol = std::max(1e-14, 0.01 * scene.run.rtol);
+  return scene;
+}
+
+/// So many runs beside a scene that tell how far it may be off: every datum off by one rounding; of ida a better one first,
+/// then other steps.
+std::vector<Scene> copies_of(const Scene& scene, std::size_t count) {
+  std::vector<Scene> copies;
+  if (scene.run.engine != Engine::ida) {
+    for (std::uint64_t seed = 3; copies.size() < count; ++seed) copies.push_back(disturbed(scene, seed));
+    return copies;
+  }
+  copies.push_back(better(scene));
+  for (const double part : {0.7, 0.5, 0.85, 0.6, 0.95, 0.4, 0.75, 0.3})
+    if (copies.size() < count) copies.emplace_back(scene).run.rtol *= part;
+  return copies;
+}
+
+}  // namespace
+
 struct RelationJudge::Members {
   Scene scene;
   Bounds bounds;
@@ -314,6 +345,7 @@ struct RelationJudge::Members {
     return result;
   }
 
+  [[nodiscard]] Spread spread_of(const Related& related, std::size_t count) const;
   [[nodiscard]] const Spread& of(const Related& related) const {
     const bool other_steps = related.from > 0.0 || !related.same_steps;
     if (scene.run.engine == Engine::newmark && other_steps) {
@@ -331,16 +363,9 @@ struct RelationJudge::Members {
       return *spread;
     }
     // One distance to a better run may be small by chance: other steps are another sample of the error.
-    Scene better = scene, other_steps_of = scene;
+    Scene other_steps_of = scene;
     other_steps_of.run.rtol *= 0.7;
-    // `exact` refuses the others.
-    const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
-                                     [](const ContactSpec& c) { return c.friction.varies() || c.bowl; });
-    if (linear)
-      better.run.engine = Engine::exact;
-    else
-      better.run.rtol = std::max(1e-14, 0.01 * scene.run.rtol);
-    spread = spread_by({better, other_steps_of}, of_steps);
+    spread = spread_by({better(scene), other_steps_of}, of_steps);
     return *spread;
   }
 
@@ -394,9 +419,11 @@ void RelationJudge::Members::events(const Related& related, const SeenRun& other
     const LoggedEvent &x = a[pair.reference], &y = b[pair.other];
     if (std::max(x.t, y.t) >= result.until) continue;
     ++result.events;
-    // A going on begins with the rounding of what was written; errors before it are in the whole's only.
+    // A going on begins from what a run of the first part left, which states nothing: its error there is another of the
+    // whole's.
+    const double before = related.from > 0.0 ? x.uncertainty : 0.0;
     const double allowed =
-        x.uncertainty + y.uncertainty + rounding_of_sums * (run.t + std::abs(related.later));
+        x.uncertainty + y.uncertainty + before + rounding_of_sums * (run.t + std::abs(related.later));
     const double off = std::abs(x.t - y.t);
     result.worst = std::max(result.worst, off / allowed);
     if (off > allowed)
@@ -574,6 +601,23 @@ Scene with_rows_of(const SeenRun& run, const Related& related) {
 
 }  // namespace
 
+/// In its own numbers the other scene may be worse conditioned: along the axes a beam's bending has the rounding of EI, turned
+/// it has that of EA, too; and `ida` takes other steps there. Copies are held against each other: beside the run that is
+/// judged, what is wrong in it would be in the spread, and allow itself.
+Spread RelationJudge::Members::spread_of(const Related& related, std::size_t count) const {
+  std::vector<SeenRun> copies;
+  for (const Scene& copy : copies_of(with_rows_of(run, related), count)) {
+    SeenRun near = see_plainly(copy, bounds);
+    if (near.end == Track::End::refused) continue;
+    write_back(run, related, near);
+    copies.push_back(std::move(near));
+  }
+  Spread result;
+  const double factor = scene.run.engine == Engine::ida ? of_steps : of_roundings;
+  for (std::size_t i = 1; i < copies.size(); ++i) result.include(copies[0], copies[i], factor);
+  return result;
+}
+
 Likeness RelationJudge::compare(const Related& related) const {
   return compare(related, see(with_rows_of(m_->run, related), m_->bounds));
 }
@@ -600,23 +644,16 @@ Likeness RelationJudge::compared(const Related& related, SeenRun other) const {
     if (m_->copies_part(result.at)) result.verdict = Class::understated;
     return result;
   }
-  if (!by_rows || m_->scene.run.engine == Engine::ida) return result;
-  // In its own numbers the other scene may be worse conditioned: along the axes a beam's bending has the rounding
-  // of EI, turned it has that of EA, too. Copies are held against each other: beside the run that is judged, what is
-  // wrong in it would be in the spread, and allow itself.
-  std::vector<SeenRun> copies;
-  for (const std::uint64_t seed : {3U, 4U, 5U}) {
-    SeenRun near = see_plainly(disturbed(with_rows_of(m_->run, related), seed), m_->bounds);
-    if (near.end == Track::End::refused) continue;
-    write_back(m_->run, related, near);
-    copies.push_back(std::move(near));
+  if (!by_rows) return result;
+  // Few copies may lie close together by chance.
+  for (const std::size_t count : {few_copies, many_copies}) {
+    const Spread as_written = m_->spread_of(related, count);
+    if (as_written.rows.empty()) return result;
+    Likeness again;
+    m_->all(related, other, &as_written, again);
+    if (is_explained(again.verdict) || count == many_copies) return again;
   }
-  Spread as_written;
-  for (std::size_t i = 1; i < copies.size(); ++i) as_written.include(copies[0], copies[i], of_roundings);
-  if (as_written.rows.empty()) return result;
-  Likeness again;
-  m_->all(related, other, &as_written, again);
-  return again;
+  return result;
 }
 
 }  // namespace signorini::differential

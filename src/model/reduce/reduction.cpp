@@ -13,6 +13,7 @@
 #include "model/modes/growth.hpp"
 #include "model/reduce/kept_modes.hpp"
 #include "model/reduce/rayleigh.hpp"
+#include "model/reduce/reduced_start.hpp"
 #include "model/reduce/static_shapes.hpp"
 #include "model/statics/null_motions.hpp"
 
@@ -416,6 +417,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   reduce_state(scene, b, facts.modes, model, physical, facts);
   facts.cancellation = cancellation(model.stiffness, b);
   set_matrices(b, model);
+  if (!scene.initial.saved) settle_start(model);
   name_dofs(facts, b, model);
   facts.shapes = std::move(b.shapes);
   model.reduction = std::move(facts);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "witness/witness.hpp"
 
 using namespace signorini;
@@ -266,6 +267,57 @@ TEST_CASE("parts without mass jump where friction drops to its kinetic value, an
   LetGo drops;
   drops.anchor = 1e-6;  // of what sticks beside
   CHECK(tells_of(drops.found(1.0), "continuity of friction"));
+}
+
+TEST_CASE("stiff springs of contacts make forces of the rounding of u, and these move what has no mass") {
+  Chain chain;
+  constexpr double stiff = 1e13, behind = 20.0;
+  chain.model.contacts[0].tangential_stiffness = stiff;
+  chain.mode[0] = {State::stick, chain.u[2]};
+  const double unsure = rounding::of_elimination * stiff * std::abs(chain.u[2]) / behind;
+  const auto told_at = [&](double off) {
+    Vector moved = chain.u;
+    moved[2] += off;
+    InstantRecord record;
+    record.t = 1.0;
+    record.resolution = 1e-15;
+    record.before = record.after = chain.sides();
+    record.after.u = &moved;
+    return tells_of(Witness(chain.model, {}).instant(record), "continuity");
+  };
+  CHECK_FALSE(told_at(0.5 * unsure));
+  CHECK(told_at(50.0 * unsure));
+  chain.model.dofs[2].massless = false;  // with mass it moves by velocities alone
+  chain.model.mass.insert(2, 2) = 1.0;
+  CHECK(told_at(0.5 * unsure));
+}
+
+TEST_CASE("what slid and stopped at once has a row of slip from stick to stick; without it u does not jump") {
+  Chain chain;
+  chain.model.contacts[0].friction.static_ = 0.6;
+  std::vector<ContactState> stuck = {{State::stick, 0.0}}, stopped = {{State::stick, 0.25}};
+  const Vector limit = Eigen::Vector2d(chain.forces[0], -0.6 * chain.forces[0]);
+  Vector moved = chain.u;
+  moved[2] += 0.1;
+  InstantRecord record;
+  record.t = 1.0;
+  record.resolution = 1e-15;
+  record.before = record.after = chain.sides();
+  record.before.mode = &stuck;
+  record.before.forces = &limit;
+  record.after.mode = &stopped;
+  record.after.u = &moved;
+  const auto told = [&] { return tells_of(Witness(chain.model, {}).instant(record), "continuity"); };
+  CHECK(told());
+  RecordedEvent slip{0, "slip", State::stick, State::stick, -1.0, 1e-15};
+  record.events = {slip};
+  CHECK_FALSE(told());
+  record.events[0].type = "stick";
+  CHECK(told());
+  record.events = {slip};
+  const Vector below = Eigen::Vector2d(chain.forces[0], -0.55 * chain.forces[0]);
+  record.before.forces = &below;  // not at its limit
+  CHECK(told());
 }
 
 TEST_SUITE_END();

@@ -50,7 +50,7 @@ TEST_SUITE_BEGIN("unit/result/body_motion");
 
 TEST_CASE(
     "body motion: nodes and supports of a mesh at output times, evenly left out, never without pictures") {
-  for (const auto& [output_dt, rows] : {std::pair{0.25, 5u}, std::pair{0.001, 202u}}) {
+  for (const auto& [output_dt, rows] : {std::pair{0.25, 5u}, std::pair{0.001, 251u}}) {
     CAPTURE(output_dt);
     const Scene scene = dragged_strip(output_dt);
     const Model model = build_model(scene);

@@ -3,7 +3,8 @@
 //   ModalMemory memory;      observer.memory() = &memory: run after run, as of orbits and their branches
 //
 // A state's complex modes cost as much as many periods in them. They depend on the structure alone, but for sums of
-// roots whose pairs are slow beside the run: kept ones are of a run at least as long, and at most 64 times so.
+// roots whose pairs are slow beside the run: kept ones are of a run at least as long, and at most 1e4 times so. They cost digits
+// of the works of such pairs in the shortest runs, none of the motion.
 #pragma once
 
 #include "engine/exact/modal/damped_system.hpp"

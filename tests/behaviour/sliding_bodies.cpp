@@ -1,10 +1,8 @@
-// Elastic blocks and stacks on ground that moves, beside the closed form of
-// rigid ones (Newmark 1965).
+// Elastic blocks and stacks on ground that moves, beside the closed form of rigid ones (Newmark 1965).
 //
-//   ground: acceleration a(t), velocity V(t);   limit N = f g;   slip begins
-//   where a = N, ends where the block has V again jump:  a = A for a time T
-//   slip = (A T)^2/(2 N) (1 - N/A) pulse: a = A sin(w t) for a time pi/w slip =
-//   int (V - v) dt,  v = V(t1) + N (t - t1),  sin(w t1) = N/A
+//   ground: acceleration a(t), velocity V(t);   limit N = f g;   slip begins where a = N, ends where the block has V again
+//   jump:   a = A for a time T                  slip = (A T)^2/(2 N) (1 - N/A)
+//   pulse:  a = A sin(w t) for a time pi/w      slip = int (V - v) dt,  v = V(t1) + N (t - t1),  sin(w t1) = N/A
 //
 // How far elastic blocks are from it. The foot carries T <= f W; as long as a node sticks, the block follows the ground.
 //

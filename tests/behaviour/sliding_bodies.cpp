@@ -15,6 +15,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -113,8 +114,7 @@ tangential_stiffness = {}
   }
 };
 
-/// Mean slip of each seam at the end, from below; how far the nodes of one are
-/// apart stays within their elastic strains.
+/// Mean slip of each seam at the end, from below.
 std::vector<double> slips(const Stack& stack) {
   const Scene scene = parse_scene(stack.text(), "stack.toml");
   const Result result = simulate(scene);

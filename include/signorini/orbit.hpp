@@ -17,6 +17,7 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,12 +92,13 @@ struct BranchMark {
   bool towards_to = true;                   ///< the parameter moves towards `to` there
   Orbit orbit;                              ///< period, phase, autonomous, start
   std::vector<std::string> sequences = {};  ///< those that the branch has met, by number
+  std::size_t points = 0;                   ///< of Branch::points up to the mark
 };
 
 /// A branch of orbits over a key of the scene.
 struct BranchOptions {
   OrbitOptions orbit = {};
-  std::string path;             ///< of the key
+  std::string path;  ///< of the key; "energy": what conservative motions store (OrbitOptions::energy)
   double from = 0.0, to = 0.0;  ///< its first and last value
   double step =
       0.02;  ///< greatest, of the range; a step counts changes of the state by parts of the amplitude as well
@@ -105,6 +107,9 @@ struct BranchOptions {
   /// point. 0: the first branch alone.
   int switches = 0;
   std::optional<BranchMark> resumed = {};  ///< continues from there, without that point
+  /// Hears after each point of the first branch of a function that makes its mark, which costs a run of a period: so a
+  /// branch that is killed can be resumed.
+  std::function<void(const std::function<BranchMark()>&)> marks = {};
 };
 
 struct BranchPoint {

@@ -32,6 +32,8 @@ struct OrbitCommand : OutputOptions {
   OrbitOptions search;
   std::string over;
   int switches = 0;
+  std::optional<double> step;
+  std::optional<int> most_points;
   bool resume = false;
 };
 
@@ -118,6 +120,15 @@ ExitCode not_found(const OrbitCommand& options, const Orbit& orbit) {
   return ExitCode::stopped;
 }
 
+void set_steps(const OrbitCommand& options, BranchOptions& over) {
+  if (options.step && !(*options.step > 0.0 && *options.step <= 1.0))
+    throw UsageError("--step: expected a part of the range, above 0 and at most 1");
+  if (options.most_points && *options.most_points < 1)
+    throw UsageError("--most-points: expected an integer of at least 1");
+  over.step = options.step.value_or(over.step);
+  over.most_points = options.most_points.value_or(over.most_points);
+}
+
 ExitCode run(const OrbitCommand& options, const std::vector<std::string>& command_line) {
   const std::vector<Override> changes = overrides_of(options.settings);
   const fs::path path = directory_of(options);
@@ -127,8 +138,11 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
     over.orbit = options.search;
     if (options.switches < 0) throw UsageError("--switch: expected an integer of at least 0");
     over.switches = options.switches;
+    set_steps(options, over);
     return run_over(options.scene, reader_of(options.scene, changes), over, path, options, options.resume);
   }
+  if (options.step || options.most_points)
+    throw UsageError("--step, --most-points: expected --over, whose branch they are of");
   if (options.resume) throw UsageError("--resume: expected --over, whose branch it continues");
   check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
@@ -195,6 +209,14 @@ void add_orbit(Program& program) {
       ->add_option("--switch", options->switches,
                    "with --over: number of consecutive changes to a branch that begins at a flip or at a "
                    "branch point (default: 0)")
+      ->option_text("N");
+  command
+      ->add_option("--step", options->step,
+                   "with --over: greatest step from point to point, as a part of the range (default: 0.02)")
+      ->option_text("PART");
+  command
+      ->add_option("--most-points", options->most_points,
+                   "with --over: number of points after which a branch ends (default: 1000)")
       ->option_text("N");
   command->add_flag("--resume", options->resume,
                     "with --over: continue the branch that ended early in the directory");

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <limits>
+#include <optional>
 
 #include "base/number.hpp"
 #include "cli/gnuplot.hpp"
@@ -10,6 +12,7 @@
 #include "cli/owned_folder.hpp"
 #include "cli/table.hpp"
 #include "cli/terminal.hpp"
+#include "orbit/reader_at.hpp"
 #include "result/plot_folder.hpp"
 #include "scene/unit_of_output.hpp"
 #include "signorini/output.hpp"
@@ -31,6 +34,37 @@ class BranchWatch final : public Recorder {
   void event(const Event& /*event*/) override {}
   void sample(const Sample& /*sample*/) override {}
   bool progress(double /*t*/) override { return !Interrupt::asked(); }
+};
+
+/// Writes last/ while the branch is followed, as often as it takes no more than a part of the time.
+class MarkWriter {
+ public:
+  /// before: points of the branch that is resumed.
+  MarkWriter(const fs::path& path, const SceneReader& read, const BranchOptions& over, std::size_t before)
+      : path_(path), read_(read), over_(over), before_(before) {}
+
+  void see(const std::function<BranchMark()>& mark) {
+    const auto begin = Clock::now();
+    if (written_ && begin - *written_ < marks_apart * took_) return;
+    write(mark());
+    written_ = Clock::now();
+    took_ = *written_ - begin;
+  }
+  void write(BranchMark mark) const {
+    mark.points += before_;
+    write_mark(path_, read_, over_, mark);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int marks_apart = 20;  // times what a mark takes. Chosen.
+
+  const fs::path& path_;
+  const SceneReader& read_;
+  const BranchOptions& over_;
+  std::size_t before_;
+  std::optional<Clock::time_point> written_;
+  Clock::duration took_{};
 };
 
 /// Points at which something happens, the first and the last one.
@@ -74,23 +108,26 @@ void read_over(const std::string& text, BranchOptions& options) {
 ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptions over, const fs::path& path,
                   const OutputOptions& options, bool resume) {
   if (!resume) check_folder(path, branch_folder(), options.force, scene);
-  const Scene first = read({{over.path, shortest(over.from)}});
+  const Scene first = branch_reader(read, over.path, over.from)({});
   std::vector<std::string> outputs;
   for (const OutputSpec& output : first.outputs) outputs.push_back(output.name);
   std::vector<BranchPoint> before;
   if (resume) {
     over.resumed = read_mark(path, read, over);
-    before = read_branch(path, outputs.size());
+    before = read_branch(path, outputs.size(), over.resumed->points);
   } else {
     begin_folder(path, branch_folder());
+    remove_mark(path);
   }
   BranchWriter writer(path, outputs);
   Interrupt interrupt;
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
+  MarkWriter marks(path, read, over, before.size());
+  over.marks = [&marks](const std::function<BranchMark()>& mark) { marks.see(mark); };
   Branch branch = follow(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());
-  if (branch.last && !branch.complete) write_mark(path, read, over, *branch.last);
+  if (branch.last && !branch.complete) marks.write(*branch.last);
   const std::string json = branch_json(over, first.units, branch);
   write_file(path / "branch.json", json);
   std::vector<std::string> labels;

@@ -9,7 +9,6 @@
 #include "base/number.hpp"
 #include "model/rescale.hpp"
 #include "orbit/orbit_engine.hpp"
-#include "orbit/reader_at.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
@@ -30,7 +29,7 @@ BranchMap::BranchMap(const SceneReader& read, const BranchOptions& options, cons
     : read_(read), options_(options), recorder_(recorder), autonomous_(first.autonomous) {
   const double at = options.resumed ? options.resumed->parameter : options.from;
   start_.s = (at - options.from) / (options.to - options.from);
-  const SceneReader begun = reader_at(read_, options_.path, at);
+  const SceneReader begun = branch_reader(read_, options_.path, at);
   t_end_ = std::max(begun({}).run.t_end, first.phase + 4.0 * first.period);
   Model on_orbit = build_model(orbit_scene(begun, first));
   machine_ = on_orbit.machine;
@@ -74,7 +73,7 @@ double BranchMap::parameter(double s) const {
 /// Loads that repeat themselves act up to the end of the run: far enough for the period at s and a transient.
 Scene BranchMap::scene_at(double s) const {
   const auto until = [&](double t_end) {
-    return read_({{options_.path, shortest(parameter(s))}, {"run.t_end", shortest(t_end)}});
+    return branch_reader(read_, options_.path, parameter(s))({{"run.t_end", shortest(t_end)}});
   };
   Scene scene = until(t_end_);
   if (autonomous_) return scene;
@@ -115,6 +114,7 @@ BranchMap::Kept BranchMap::make(double s) const {
   Model model = build_model(scene);
   RunSpec run = scene.run;
   run.engine = orbit_engine(model, run, start_.duration * machine_.time);
+  run.flow = orbit_flow(model, run);
   model = rescaled(std::move(model), inverse(machine_));
   check_structure(model);
   model.scales = first_.scales;  // tolerances and amplitudes are those of the whole branch
@@ -123,10 +123,12 @@ BranchMap::Kept BranchMap::make(double s) const {
   auto map =
       std::make_shared<PeriodMap>(driven_from(std::move(model), phase_ + section_ * period), run, recorder_);
   map->take_flow(flow_);
+  map->share(memory_);
   return {s, section_, period, std::move(map)};
 }
 
-const BranchMap::Kept& BranchMap::kept(double s) const {
+const BranchMap::Kept& BranchMap::kept(double at) const {
+  const double s = conservative() ? 0.0 : at;  // the map is the same for all energies
   for (const Kept& one : kept_) {
     if (one.map->flow()) flow_ = one.map->flow();
     if (one.s == s && one.section == section_) return one;
@@ -173,6 +175,7 @@ OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs)
 
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
+  if (conservative()) return Vector::Zero(section.basis().rows());
   const auto gap = [&](double s) -> std::optional<Vector> {
     const OrbitPass other = this->pass(
         {fitted(state.state, pass.begin.mode, s), autonomous_ ? state.duration : period(s), s}, false);

@@ -2,12 +2,14 @@
 //
 //   y = (x, dT, s)       x: directions at the section; dT where the motion is driven by itself; s: (p - from)/(to - from)
 //   G(y) = B^T (z(T; z, s) - z),    dG/ds by a difference of the map, dG/dx from Phi
+//   over the energy of conservative motions: dG/ds = 0, and the row (E(x) - E(s))/(to - from) = 0
 //
 // All models have the units of the machine of the first one, so that states are comparable.
 #pragma once
 
 #include "orbit/load_period.hpp"
 #include "orbit/period_map.hpp"
+#include "orbit/reader_at.hpp"
 #include "signorini/orbit.hpp"
 
 namespace signorini {
@@ -31,6 +33,9 @@ class BranchMap {
   /// The same over twice the period.
   [[nodiscard]] BranchMap doubled() const;
   [[nodiscard]] bool autonomous() const { return autonomous_; }
+  /// Over the energy of conservative motions.
+  [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
+  [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
   /// The loads' period at s, times `times`; machine's.
   [[nodiscard]] double period(double s) const;
@@ -70,9 +75,10 @@ class BranchMap {
     double s, section, period;
     std::shared_ptr<const PeriodMap> map;
   };
-  [[nodiscard]] const Kept& kept(double s) const;
+  [[nodiscard]] const Kept& kept(double at) const;
   [[nodiscard]] Kept make(double s) const;
   mutable std::vector<Kept> kept_;
+  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
   mutable std::shared_ptr<StateFlow> flow_;  // of the last map that had one
 };
 

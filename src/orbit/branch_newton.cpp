@@ -61,7 +61,8 @@ Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass
   const OrbitSection section(map_.model(), pass.begin);
   const Eigen::MatrixXd& B = section.basis();
   const Eigen::Index n = section.size(), extra = map_.autonomous() ? 1 : 0;
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n + extra, n + extra + 1);
+  const Eigen::Index rows = n + extra + (map_.conservative() ? 1 : 0);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, n + extra + 1);
   const Vector over = sizes_.cwiseInverse();
   J.topLeftCorner(n, n) = over.asDiagonal() * (B.transpose() * pass.end_rates) * sizes_.asDiagonal();
   J.topLeftCorner(n, n) -= Eigen::MatrixXd::Identity(n, n);
@@ -70,6 +71,11 @@ Eigen::MatrixXd BranchNewton::jacobian(const BranchState& state, const OrbitPass
     J.block(0, n, n, 1) = over.cwiseProduct(B.transpose() * section.rates(pass.end)) * state.duration;
     Vector along = sizes_.cwiseProduct(B.transpose() * section.rates(pass.begin));
     J.block(n, 0, 1, n) = (along / along.norm()).transpose();
+  }
+  if (map_.conservative()) {
+    J.row(rows - 1).head(n) =
+        sizes_.cwiseProduct(energy_slope(map_.model(), pass, section)).transpose() / map_.range();
+    J(rows - 1, J.cols() - 1) = -1.0;
   }
   return J;
 }
@@ -82,6 +88,11 @@ std::string BranchNewton::refusal(const OrbitPass& pass, Eigen::Index unknowns) 
 }
 
 double BranchNewton::closed_at_last() const { return std::max(corrected_at_last, of_noise_at_last * noise_); }
+
+/// E(s) - E(x), in the scene's units.
+double BranchNewton::energy_missing(const Corrected& c) const {
+  return map_.parameter(c.state.s) - c.pass.energy;
+}
 
 Corrected BranchNewton::correct(BranchState guess, const Vector& direction, const Vector& by_s) const {
   Corrected c;
@@ -96,6 +107,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     c.reason = refusal(c.pass, t.size());
     if (!c.reason.empty()) return c;
     c.residual = orbit_residual(map_.model(), c.pass);
+    if (map_.conservative()) c.residual = std::max(c.residual, std::abs(energy_missing(c)) / c.pass.energy);
     const bool stands = c.iterations > 0 && c.residual > 0.5 * before && c.residual <= closed_at_last();
     if (c.residual <= enough || stands) {
       c.done = true;
@@ -105,12 +117,15 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
     if (!held && (slope.size() != section.size() || stale)) slope = by_parameter(c.state, c.pass);
-    Eigen::MatrixXd A(t.size(), t.size());
-    A << jacobian(c.state, c.pass, slope), t.transpose();
-    Vector b = Vector::Zero(t.size());
+    const Eigen::MatrixXd J = jacobian(c.state, c.pass, slope);
+    Eigen::MatrixXd A(J.rows() + 1, t.size());
+    A << J, t.transpose();
+    Vector b = Vector::Zero(A.rows());
+    if (map_.conservative()) b[J.rows() - 1] = energy_missing(c) / map_.range();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
-    const Vector dy = shortest_solution(A, b, singular);
+    Vector dy = shortest_solution(A, b, singular);
+    if (held) dy[dy.size() - 1] = 0.0;  // to rounding it is
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
       return c;
@@ -138,9 +153,10 @@ bool BranchNewton::holds(const Vector& t) { return std::abs(t[t.size() - 1]) >= 
 
 Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   if (at.by_s.size() == 0) at.by_s = by_parameter(at.state, at.pass);
-  Eigen::MatrixXd A(before.size(), before.size());
-  A << jacobian(at.state, at.pass, at.by_s), before.transpose();
-  const Vector t = shortest_solution(A, Vector::Unit(before.size(), before.size() - 1), singular);
+  const Eigen::MatrixXd J = jacobian(at.state, at.pass, at.by_s);
+  Eigen::MatrixXd A(J.rows() + 1, before.size());
+  A << J, before.transpose();
+  const Vector t = shortest_solution(A, Vector::Unit(A.rows(), A.rows() - 1), singular);
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
@@ -177,7 +193,8 @@ Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<
     at.monodromy = monodromy(map_.model(), at.pass);
     at.multipliers = multipliers_of(at.monodromy);
   }
-  at.ones = ones.value_or(std::max<std::size_t>(count_ones(at.multipliers), map_.autonomous() ? 1 : 0));
+  const std::size_t of_time = map_.conservative() ? 2 : map_.autonomous() ? 1 : 0;
+  at.ones = ones.value_or(std::max(count_ones(at.multipliers), of_time));
   const Vector t = known ? before : without_families(at, tangent(at, without_families(at, before)));
   at.tests = test_values(at.multipliers, at.ones, t[t.size() - 1]);
   return t;

@@ -89,6 +89,7 @@ class BranchNewton {
 
  private:
   [[nodiscard]] Vector without_families(const Corrected& at, const Vector& t) const;
+  [[nodiscard]] double energy_missing(const Corrected& c) const;
   void close_damped(Corrected& c, Eigen::Index unknowns) const;
   [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;
   [[nodiscard]] std::string refusal(const OrbitPass& pass, Eigen::Index unknowns) const;

@@ -43,7 +43,8 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   next.state = map_.fitted(std::move(next.state), here.pass.begin.mode, next.s);
   const std::shared_ptr<const PeriodMap> at = map_.at(next.s);
   const auto close = [&](const OrbitState& state) {
-    const ShootingStart start{state, next.duration, map_.autonomous(), newton_.closed_at_last(), {}};
+    ShootingStart start{state, next.duration, map_.autonomous(), newton_.closed_at_last(), {}};
+    if (map_.conservative()) start.energy = map_.parameter(next.s);
     Shot shot = shoot(*at, start, corrected_to);
     if (!shot.closed || shot.pass.end_rates.size() == 0) return false;
     here.state = {shot.state, shot.duration, next.s};
@@ -318,6 +319,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     if (centre(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
     if (!add(here, special)) return;
+    offer_mark();
     complete_ = last && special.empty();
     if (complete_) {
       end_ = fmt::format("reached {} = {:.9g}", options_.path, value(here));
@@ -345,6 +347,7 @@ void BranchWalk::walk_from_start() {
   }
   if (!add(here, "")) return;
   keep_mark(here, t);
+  offer_mark();
   if (only_shifts(here, t)) {
     end_ = fmt::format("{} only shifts the motion in time: the orbit is the same for all its values",
                        options_.path);
@@ -362,7 +365,13 @@ void BranchWalk::keep_mark(const Corrected& here, const Vector& t) {
 std::optional<BranchMark> BranchWalk::mark() {
   if (!last_) return std::nullopt;
   map_.move_section(last_section_);
-  return BranchMark{map_.parameter(last_->s), towards_to_, map_.orbit_at(*last_), branch_.sequences};
+  return BranchMark{map_.parameter(last_->s), towards_to_, map_.orbit_at(*last_), branch_.sequences,
+                    last_points_};
+}
+
+void BranchWalk::offer_mark() {
+  last_points_ = branch_.points.size();
+  if (number_ == 1 && options_.marks) options_.marks([this] { return mark().value(); });
 }
 
 /// What a scene refuses on the way ends the branch, which keeps its points.

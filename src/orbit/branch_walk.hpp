@@ -79,6 +79,7 @@ class BranchWalk {
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
                                                        const Vector& t, double ds) const;
   void keep_mark(const Corrected& here, const Vector& t);
+  void offer_mark();
   void keep_junction(const Located& point);
   [[nodiscard]] std::string sequence_of(const OrbitPass& pass) const;
   [[nodiscard]] int number_of_sequence(const OrbitPass& pass);
@@ -97,6 +98,7 @@ class BranchWalk {
   bool complete_ = false;
   std::optional<BranchState> last_;
   double last_section_ = 0.0;
+  std::size_t last_points_ = 0;
   bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one

@@ -30,6 +30,11 @@ class Search {
   [[nodiscard]] bool forced();
   [[nodiscard]] bool by_itself();
   [[nodiscard]] bool close(const OrbitState& state, double section, double period);
+  [[nodiscard]] PeriodMap map_of(Model model, bool interruptible = true) const {
+    PeriodMap map(std::move(model), run_, interruptible ? recorder_ : nullptr);
+    map.share(memory_);
+    return map;
+  }
   void stability();
   void tell(const OrbitState& at_section, double section);
   bool stop(std::string reason) {
@@ -51,6 +56,7 @@ class Search {
   OrbitState initial_;
   Model first_;  // as the scene begins, in the machine's units
   RunSpec run_;
+  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
 };
 
 /// Time over which histories that begin anew must be known.
@@ -106,6 +112,7 @@ void Search::set_period(const Scene& scene) {
         fmt::format("found \"{}\", expected \"exact\" or \"ida\": orbits need the motion between events to "
                     "rounding, or its tangents",
                     to_string(run_.engine)));
+  run_.flow = orbit_flow(given_, run_);
   closed_ = orbit_state_error(run_);
   const Factors to_machine = inverse(given_.machine);
   first_ = rescaled(given_, to_machine);
@@ -126,11 +133,11 @@ void Search::set_period(const Scene& scene) {
 }
 
 bool Search::forced() {
-  const PeriodMap scene(first_, run_, recorder_);
+  const PeriodMap scene = map_of(first_);
   OrbitState state = initial_;
   double length = before_ + options_.transient * period_;
   const Model base = driven_from(first_, before_);
-  const PeriodMap at_phase(base, run_, recorder_);
+  const PeriodMap at_phase = map_of(base);
   for (int i = 0; i < most_transients; ++i) {
     const OrbitPass transient =
         length > 0.0 ? (i == 0 ? scene : at_phase).pass({state, length, false}) : OrbitPass{};
@@ -149,7 +156,7 @@ bool Search::forced() {
       at_section = orbit_state(to_section.end);
     }
     std::shared_ptr<StateFlow> flow = map_ ? map_->flow() : nullptr;
-    map_.emplace(driven_from(base, section), run_, recorder_);
+    map_ = map_of(driven_from(base, section));
     map_->take_flow(std::move(flow));
     if (close(at_section, section, period_)) return true;
     if (shot_.interrupted) return false;
@@ -158,13 +165,13 @@ bool Search::forced() {
 }
 
 bool Search::by_itself() {
-  const PeriodMap scene(first_, run_, recorder_);
+  const PeriodMap scene = map_of(first_);
   const double length = before_ + std::max(run_.t_end, options_.transient * period_);
   const OrbitPass transient = scene.pass({initial_, length, false});
   if (!transient.done()) return stop("the transient stopped: " + transient.outcome.reason);
   const Recurrence found = recurrence(first_, transient.instants);
   if (!(found.period > 0.0) && period_ > 0.0) {
-    map_.emplace(first_, run_, recorder_);
+    map_ = map_of(first_);
     return close(initial_, 0.0, period_);
   }
   if (!(found.period > 0.0))
@@ -174,7 +181,7 @@ bool Search::by_itself() {
         length * unit_));
   const OrbitPass to_section = scene.pass({initial_, found.section, false});
   if (!to_section.done()) return stop("the transient stopped: " + to_section.outcome.reason);
-  map_.emplace(driven_from(first_, found.section), run_, recorder_);
+  map_ = map_of(driven_from(first_, found.section));
   const double period = period_ > 0.0 ? period_ : found.period * options_.times;
   return close(orbit_state(to_section.end), 0.0, period);
 }
@@ -221,7 +228,7 @@ void Search::stability() {
 /// The run from the orbit's time 0.
 void Search::tell(const OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
-  const PeriodMap map(base, run_, nullptr);
+  const PeriodMap map = map_of(base, false);
   OrbitState start = at_section;
   if (section > 0.0) start = orbit_state(map_->pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);

@@ -11,7 +11,9 @@ namespace signorini {
 namespace {
 
 Orbit first_orbit(const SceneReader& read, const BranchOptions& options, Recorder* recorder) {
-  return find_orbit(reader_at(read, options.path, options.from), options.orbit, recorder);
+  OrbitOptions search = options.orbit;
+  if (options.path == over_energy) search.energy = options.from;
+  return find_orbit(branch_reader(read, options.path, options.from), search, recorder);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "orbit/orbit_engine.hpp"
 
+#include <algorithm>
+
 #include "model/decay.hpp"
 #include "run/choose_engine.hpp"
+#include "run/choose_flow.hpp"
 #include "run/engines.hpp"
 #include "signorini/error.hpp"
 
@@ -10,7 +13,8 @@ namespace {
 
 // Chosen: a series takes a step for every 5 decay times, some hundred steps a period.
 constexpr double most_decays = 2000.0;
-constexpr double of_tolerance = 100.0;  // chosen: errors of a step add up over the steps of a period
+constexpr Eigen::Index fewest_unknowns = 40;  // of complex modes, as in run/choose_flow.cpp
+constexpr double of_tolerance = 100.0;        // chosen: errors of a step add up over the steps of a period
 
 }  // namespace
 
@@ -23,6 +27,16 @@ Engine orbit_engine(const Model& model, const RunSpec& run, double duration) {
   }
   if (fastest_decay(model) * duration <= most_decays) return Engine::exact;
   return choose_engine(model, run).engine;
+}
+
+Flow orbit_flow(const Model& model, const RunSpec& run) {
+  if (run.flow != Flow::automatic || run.engine != Engine::exact) return run.flow;
+  const ModalKind kind = modal_kind(model);
+  const bool can = kind.objection.empty() && kind.damped && !kind.crowded;
+  const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
+    return contact.takes_impulses() || contact.sticks_rigidly();
+  });
+  return can && !rigid && model.size() >= fewest_unknowns ? Flow::modal : run.flow;
 }
 
 double orbit_state_error(const RunSpec& run) {

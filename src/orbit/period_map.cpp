@@ -177,8 +177,11 @@ class Bundle {
 /// Keeps what a pass is made of, and leads the tangents along.
 class Follower final : public MotionObserver {
  public:
-  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow)
-      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow) {}
+  Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow,
+           ModalMemory& kept)
+      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), memory_(kept) {}
+
+  ModalMemory* memory() override { return &memory_; }
 
   void begin(const ObservedInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
@@ -215,6 +218,7 @@ class Follower final : public MotionObserver {
   const OrbitLeg& leg_;
   OrbitPass& pass_;
   StateFlow* flow_;
+  ModalMemory& memory_;
   std::optional<Bundle> bundle_;
 };
 
@@ -249,7 +253,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   if (leg.tangents && leg.parameter == nullptr && model_.size() >= fewest_in_modes &&
       (!flow_ || !flow_->fits(model_)))
     flow_ = modes_uncouple(model_) ? std::make_shared<StateFlow>(model_) : nullptr;
-  Follower follower(model, bare, leg, pass, flow_.get());
+  Follower follower(model, bare, leg, pass, flow_.get(), *memory_);
   const Report report = simulate(model, run, recorder, follower);
   pass.outcome = report.outcome;
   pass.interrupted = report.outcome.kind == Outcome::Kind::interrupted;

@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "engine/exact/modal/modal_memory.hpp"
 #include "orbit/orbit_state.hpp"
 #include "sensitivity/state_flow.hpp"
 
@@ -58,12 +59,15 @@ class PeriodMap {
   /// made yet, or there is none.
   [[nodiscard]] const std::shared_ptr<StateFlow>& flow() const { return flow_; }
   void take_flow(std::shared_ptr<StateFlow> flow) { flow_ = std::move(flow); }
+  /// Mode shapes of contact states, shared by all maps of one search.
+  void share(std::shared_ptr<ModalMemory> memory) { memory_ = std::move(memory); }
 
  private:
   Model model_;
   RunSpec run_;
   Recorder* recorder_;
   mutable std::shared_ptr<StateFlow> flow_;
+  std::shared_ptr<ModalMemory> memory_ = std::make_shared<ModalMemory>();
 };
 
 }  // namespace signorini

@@ -1,6 +1,7 @@
 // reader_at.hpp: a scene with one key at a value, as a reader of scenes.
 //
 //   reader_at(read, path, x)(changes) = read([path = x, changes...])
+//   branch_reader: the same; a branch over the energy of conservative motions changes no key
 #pragma once
 
 #include <string>
@@ -19,6 +20,13 @@ namespace signorini {
     all.insert(all.end(), changes.begin(), changes.end());
     return read(all);
   };
+}
+
+/// Stands in place of a key: what is stored by conservative motions.
+inline constexpr const char* over_energy = "energy";
+
+[[nodiscard]] inline SceneReader branch_reader(SceneReader read, const std::string& path, double value) {
+  return path == over_energy ? std::move(read) : reader_at(std::move(read), path, value);
 }
 
 }  // namespace signorini

@@ -23,21 +23,6 @@ constexpr double least_singular = 1e-9;
 
 double over(double value, double amplitude) { return amplitude > 0.0 ? value / amplitude : value; }
 
-/// dE/dz B, in the scene's units.
-Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section) {
-  const Vector Ma = model.mass * pass.begin.a, Mv = model.mass * pass.begin.v;
-  const double unit = model.unit.force * model.unit.length;
-  Vector slope(section.size());
-  for (Eigen::Index k = 0; k < slope.size(); ++k) {
-    const OrbitState d = section.unscaled(section.basis().col(k));
-    slope[k] = Mv.dot(d.v) - Ma.dot(d.u);
-    for (std::size_t c = 0; c < d.shears.size(); ++c)
-      if (const auto& kt = model.contacts[c].tangential_stiffness)
-        slope[k] += pass.begin.forces[static_cast<Eigen::Index>(2 * c + 1)] * d.shears[c] / *kt;
-  }
-  return unit * slope;
-}
-
 /// Of the state, and of the energy where it is given.
 double residual_to(const Model& model, const ShootingStart& start, const OrbitPass& pass) {
   const double gap = orbit_residual(model, pass);
@@ -104,6 +89,20 @@ bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
 
 }  // namespace
 
+Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section) {
+  const Vector Ma = model.mass * pass.begin.a, Mv = model.mass * pass.begin.v;
+  const double unit = model.unit.force * model.unit.length;
+  Vector slope(section.size());
+  for (Eigen::Index k = 0; k < slope.size(); ++k) {
+    const OrbitState d = section.unscaled(section.basis().col(k));
+    slope[k] = Mv.dot(d.v) - Ma.dot(d.u);
+    for (std::size_t c = 0; c < d.shears.size(); ++c)
+      if (const auto& kt = model.contacts[c].tangential_stiffness)
+        slope[k] += pass.begin.forces[static_cast<Eigen::Index>(2 * c + 1)] * d.shears[c] / *kt;
+  }
+  return unit * slope;
+}
+
 double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap) {
   double worst = 0.0;
   const std::size_t nu = section.displacements(), nv = section.velocities();
@@ -120,8 +119,19 @@ double orbit_residual(const Model& model, const OrbitPass& pass) {
   return residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin));
 }
 
+namespace {
+
+/// Another sequence of events is no noise: Phi means nothing there.
+bool same_sequence(const OrbitPass& a, const OrbitPass& b) {
+  return std::equal(
+      a.events.begin(), a.events.end(), b.events.begin(), b.events.end(),
+      [](const Event& x, const Event& y) { return x.contact == y.contact && x.type == y.type; });
+}
+
+}  // namespace
+
 std::optional<double> map_noise(const Model& model, const OrbitPass& first, const OrbitPass& second) {
-  if (first.end_rates.size() == 0 || !second.done()) return std::nullopt;
+  if (first.end_rates.size() == 0 || !second.done() || !same_sequence(first, second)) return std::nullopt;
   const OrbitSection section(model, first.begin);
   if (OrbitSection(model, second.begin).size() != section.size()) return std::nullopt;
   const Vector gap = section.coordinates(first.end) - section.coordinates(first.begin);

@@ -44,12 +44,15 @@ struct Shot {
 [[nodiscard]] double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vector& gap);
 
 /// The noise of the map: |z2 - z1 - Phi (z1 - z0)| over the amplitude, where z1, z2 are the images of z0, z1. Nothing where
-/// it is not known.
+/// it is not known, or the two passes have other events.
 [[nodiscard]] std::optional<double> map_noise(const Model& model, const OrbitPass& first,
                                               const OrbitPass& second);
 /// An orbit is closed whose residual is no more than so many times the noise: a residual is a difference of two states. No
 /// greater noise is accepted. Chosen, both.
 inline constexpr double of_noise_at_last = 10.0, greatest_noise = 1e-6;
+
+/// dE/dz B, in the scene's units.
+[[nodiscard]] Vector energy_slope(const Model& model, const OrbitPass& pass, const OrbitSection& section);
 
 /// B^T Phi B of a pass that has tangents.
 [[nodiscard]] Eigen::MatrixXd monodromy(const Model& model, const OrbitPass& pass);

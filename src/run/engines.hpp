@@ -18,6 +18,8 @@
 
 namespace signorini {
 
+class ModalMemory;
+
 /// What engines are made of. All of it must outlive them, but for run and tolerance.
 struct EngineParts {
   const Model& model;
@@ -26,6 +28,7 @@ struct EngineParts {
   const RunSpec& run;
   const Tolerance& tolerance;
   int max_order;
+  ModalMemory* memory = nullptr;  ///< of `exact` in modes, of earlier runs; null: none
 };
 
 /// An engine that does not take the scene: why, without what to use instead.

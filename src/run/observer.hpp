@@ -10,6 +10,8 @@
 
 namespace signorini {
 
+class ModalMemory;
+
 /// A step that was made.
 struct ObservedStep {
   const Step& step;
@@ -38,6 +40,8 @@ class MotionObserver {
   virtual void begin(const ObservedInstant& start) = 0;
   virtual void step(const ObservedStep& step) = 0;
   virtual void instant(const ObservedInstant& instant) = 0;
+  /// What engine `exact` in modes keeps for the next run; null: nothing.
+  virtual ModalMemory* memory() { return nullptr; }
   /// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.
   virtual double moves(const Step& /*step*/) { return 0.0; }
   /// The run ends here, between events.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/rounding.hpp"
+#include "model/same_states.hpp"
 #include "sensitivity/contact_rates.hpp"
 #include "sensitivity/listed_modes.hpp"
 
@@ -19,17 +20,6 @@ constexpr double longest_decay_at_once = 4.0;       // alpha t at once, as Oscil
 struct ModalBundle {
   Eigen::MatrixXd z, rate;
 };
-
-bool alike(const SparseMatrix& a, const SparseMatrix& b) {
-  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() && (a - b).norm() == 0.0;
-}
-
-bool alike(const Contact& a, const Contact& b) {
-  const auto friction = [](const Friction& f) { return std::pair{f.static_, f.kinetic}; };
-  return a.law == b.law && a.normal.terms == b.normal.terms && a.tangent.terms == b.tangent.terms &&
-         a.normal_stiffness == b.normal_stiffness && a.tangential_stiffness == b.tangential_stiffness &&
-         friction(a.friction) == friction(b.friction) && a.own == b.own;
-}
 
 /// z and rate of each mode some time later, of a motion that begins with these amplitudes in every mode.
 ModalPoint mode_response(const Oscillators& oscillators, const Amplitudes& zero, double z, double rate,
@@ -85,12 +75,7 @@ StateFlow::StateFlow(const Model& model) : model_(model), basis_(model_) {
   felt_ = contact_dofs(model_, {});
 }
 
-bool StateFlow::fits(const Model& model) const {
-  return alike(model.mass, model_.mass) && alike(model.damping, model_.damping) &&
-         alike(model.stiffness, model_.stiffness) &&
-         std::equal(model.contacts.begin(), model.contacts.end(), model_.contacts.begin(),
-                    model_.contacts.end(), [](const Contact& a, const Contact& b) { return alike(a, b); });
-}
+bool StateFlow::fits(const Model& model) const { return same_contact_states(model, model_); }
 
 void StateFlow::make(Modes& modes) const {
   const Spectrum& spectrum = modes.state->spectrum;

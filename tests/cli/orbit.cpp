@@ -1,8 +1,10 @@
 // signorini orbit: files, exit codes, and a run.toml that computes the orbit once more.
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "cli/program.hpp"
 
@@ -137,6 +139,65 @@ TEST_CASE("cli orbit: a branch that the scene refuses on the way is resumed wher
   CHECK(again.code == 4);  // refused again, and no point is lost
   CHECK(rows_of(shell.read("b/branch.csv")) >= before);
   CHECK(shell.run({"orbit", "s.toml", "--resume"}).code == 2);
+}
+
+TEST_CASE("cli orbit: a killed branch is resumed without a row twice or missing") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  const auto over = [](std::vector<std::string> more) {
+    std::vector<std::string> line{"orbit", "s.toml", "--over",    "loads.1.amplitude=3.0:3.5",
+                                  "-o",    "b",      "--no-plots"};
+    line.insert(line.end(), more.begin(), more.end());
+    return line;
+  };
+  const pid_t child = shell.start(over({"--step", "1e-5", "--most-points", "1000000"}));
+  for (int i = 0;
+       i < 2000 && !(exists(shell, "b/last/mark.json") && rows_of(shell.read("b/branch.csv")) > 40); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(child, SIGKILL);
+  CHECK(shell.wait(child).code == 128 + SIGKILL);
+  CHECK(nlohmann::json::parse(shell.read("b/branch.json")).empty());
+  const Ending ending = shell.run(over({"--resume", "--step", "0.1"}));
+  CAPTURE(ending.err);
+  REQUIRE(ending.code == 0);
+  const std::string table = shell.read("b/branch.csv");
+  double before = 2.9;
+  std::istringstream rows(table.substr(table.find('\n') + 1));
+  for (std::string row; std::getline(rows, row);) {
+    const double parameter = std::stod(row);
+    CHECK(parameter > before);
+    before = parameter;
+  }
+  CHECK(before == 3.5);
+  const nlohmann::json branch = nlohmann::json::parse(shell.read("b/branch.json"));
+  CHECK(branch.at("complete") == true);
+  CHECK(rows_of(table) == branch.at("points").get<std::size_t>() + 1);
+  // A branch of its own ends there, too.
+  const Ending whole = shell.run(
+      {"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.5", "-o", "w", "--no-plots", "--step", "0.1"});
+  REQUIRE(whole.code == 0);
+  const auto amplitude = [](const std::string& text) {
+    const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    double p = 0.0, T = 0.0, a = 0.0;
+    REQUIRE(std::sscanf(last.c_str(), "%lf,%lf,%lf", &p, &T, &a) == 3);
+    return a;
+  };
+  CHECK(std::abs(amplitude(table) - amplitude(shell.read("w/branch.csv"))) <= 1e-9);
+}
+
+TEST_CASE("cli orbit: steps and points of a branch are those that were asked for") {
+  const Shell shell;
+  shell.write("s.toml", rubbed(harmonic()));
+  const Ending few = shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3.0:3.5", "-o", "b",
+                                "--no-plots", "--most-points", "3"});
+  CHECK(few.code == 4);
+  CHECK(few.err.find("3 points, no more were asked for") != std::string::npos);
+  CHECK(rows_of(shell.read("b/branch.csv")) == 4);
+  for (const char* wrong : {"--step=0", "--step=2", "--most-points=0"}) {
+    CAPTURE(wrong);
+    CHECK(shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3:4", wrong, "--force"}).code == 2);
+  }
+  CHECK(shell.run({"orbit", "s.toml", "--step=0.1", "--force"}).code == 2);
 }
 
 TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of the range") {

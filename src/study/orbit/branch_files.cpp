@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "base/json.hpp"
-#include "base/number.hpp"
 #include "base/output_directory.hpp"
 #include "orbit/reader_at.hpp"
 #include "result/csv_read.hpp"
@@ -39,12 +38,12 @@ void BranchWriter::add(const BranchPoint& point) {
   file_.write(block_);
 }
 
-std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outputs) {
+std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outputs, std::size_t rows) {
   CsvReader reader(directory / "branch.csv");
   const auto at = [&](const char* name) { return reader.column(name); };
   const std::size_t first_output = at("amplitude") + 1;
   std::vector<BranchPoint> points;
-  while (reader.next()) {
+  while (points.size() < rows && reader.next()) {
     BranchPoint p;
     p.parameter = reader.number(at("parameter"));
     p.period = reader.number(at("period"));
@@ -65,45 +64,78 @@ std::vector<BranchPoint> read_branch(const fs::path& directory, std::size_t outp
     p.special = reader.cell(at("special"));
     points.push_back(std::move(p));
   }
+  if (points.size() < rows)
+    throw FileError((directory / "branch.csv").string(),
+                    fmt::format("has {} rows, expected {} up to the point in last/", points.size(), rows));
   return points;
 }
 
+namespace {
+
+fs::path mark_folder(const fs::path& directory) {
+  const fs::path last = directory / "last", before = directory / "last.before";
+  return !fs::exists(last) && fs::exists(before) ? before : last;
+}
+
+Json mark_json(const BranchOptions& options, const BranchMark& mark) {
+  return {{"path", options.path},        {"from", options.from},  {"to", options.to},
+          {"parameter", mark.parameter}, {"points", mark.points}, {"towards_to", mark.towards_to},
+          {"sequences", mark.sequences}};
+}
+
+}  // namespace
+
 void write_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options,
                 const BranchMark& mark) {
-  const SceneReader there = reader_at(read, options.path, mark.parameter);
-  const fs::path last = directory / "last";
-  make_directory(last);
+  const SceneReader there = branch_reader(read, options.path, mark.parameter);
+  const fs::path last = directory / "last", next = directory / "last.next",
+                 before = directory / "last.before";
+  std::error_code error;
+  fs::remove_all(next, error);
+  make_directory(next);
   const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);
-  write_orbit(last, scene, build_model(scene), mark.orbit);
+  write_orbit(next, scene, build_model(scene), mark.orbit);
+  write_file(next / "mark.json", json_text(mark_json(options, mark)));
+  fs::remove_all(before, error);
+  fs::rename(last, before, error);  // there may be none yet
+  fs::rename(next, last, error);
+  if (error) throw FileError(last.string(), "cannot be written: " + error.message());
+  fs::remove_all(before, error);
+}
+
+void remove_mark(const fs::path& directory) {
+  std::error_code error;
+  for (const char* name : {"last", "last.before", "last.next"}) fs::remove_all(directory / name, error);
 }
 
 BranchMark read_mark(const fs::path& directory, const SceneReader& read, const BranchOptions& options) {
-  const fs::path file = directory / "branch.json", orbit_file = directory / "last" / "orbit.json";
+  const fs::path last = mark_folder(directory);
   BranchMark mark;
   try {
-    std::ifstream stream(file, std::ios::binary), orbit_stream(orbit_file, std::ios::binary);
-    const Json branch = parse_json(stream);
-    if (branch.at("path") != options.path || branch.at("from") != options.from ||
-        branch.at("to") != options.to)
-      throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
-                                   branch.at("path").get<std::string>(), branch.at("from").get<double>(),
-                                   branch.at("to").get<double>()));
-    if (branch.at("complete") == true)
+    std::ifstream branch_stream(directory / "branch.json", std::ios::binary);
+    if (parse_json(branch_stream).value("complete", false))
       throw UsageError(fmt::format("--resume: the branch in {} is complete", directory.string()));
-    mark.parameter = branch.at("last").at("parameter");
-    mark.towards_to = branch.at("last").at("towards_to");
-    mark.sequences = branch.at("sequences");
+    std::ifstream stream(last / "mark.json", std::ios::binary);
+    std::ifstream orbit_stream(last / "orbit.json", std::ios::binary);
+    const Json saved = parse_json(stream);
+    if (saved.at("path") != options.path || saved.at("from") != options.from || saved.at("to") != options.to)
+      throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
+                                   saved.at("path").get<std::string>(), saved.at("from").get<double>(),
+                                   saved.at("to").get<double>()));
+    mark.parameter = saved.at("parameter");
+    mark.towards_to = saved.at("towards_to");
+    mark.sequences = saved.at("sequences");
+    mark.points = saved.at("points");
     const Json orbit = parse_json(orbit_stream);
     mark.orbit.found = true;
     mark.orbit.period = orbit.at("period");
     mark.orbit.phase = orbit.at("phase");
     mark.orbit.autonomous = orbit.at("autonomous");
   } catch (const Json::exception&) {
-    throw FileError(file.string(), "has no point to continue from");
+    throw FileError(directory.string(), "has no point of a branch to continue from");
   }
-  const std::string start = (directory / "last" / "start").string();
-  mark.orbit.start = read({{options.path, shortest(mark.parameter)},
-                           {"run.initial", "{ run = " + Json(start).dump() + " }"}})
+  mark.orbit.start = branch_reader(read, options.path, mark.parameter)(
+                         {{"run.initial", "{ run = " + Json((last / "start").string()).dump() + " }"}})
                          .initial.saved.value();
   return mark;
 }

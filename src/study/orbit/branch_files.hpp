@@ -2,7 +2,9 @@
 //
 //   branch.csv    a row a point of the branch, as it comes (docs/command-line.md)
 //   branch.json   the key, why the branch ends, its sequences of events by number
-//   last/         the last point of the first branch, as `orbit` writes an orbit: --resume continues from there
+//   last/         a point of the first branch, as `orbit` writes an orbit, and mark.json: --resume continues from there
+//
+// last/ is written while the branch is followed, through a neighbour that takes its place: a kill leaves a whole one.
 #pragma once
 
 #include <filesystem>
@@ -24,14 +26,16 @@ class BranchWriter {
   CsvFile file_;
 };
 
-/// Rows of branch.csv. Errors: FileError.
+/// The first rows of branch.csv. Errors: FileError, also where there are fewer.
 [[nodiscard]] std::vector<BranchPoint> read_branch(const std::filesystem::path& directory,
-                                                   std::size_t outputs);
+                                                   std::size_t outputs, std::size_t rows);
 
 /// DIR/last. Errors: FileError.
 void write_mark(const std::filesystem::path& directory, const SceneReader& read, const BranchOptions& options,
                 const BranchMark& mark);
-/// The mark of a branch that ended early. Errors: FileError; UsageError where the branch is complete, or another one.
+/// Removes the mark of an earlier branch.
+void remove_mark(const std::filesystem::path& directory);
+/// The mark of a branch that ended early, or was killed. Errors: FileError; UsageError where the branch is complete, or another one.
 [[nodiscard]] BranchMark read_mark(const std::filesystem::path& directory, const SceneReader& read,
                                    const BranchOptions& options);
 

@@ -11,9 +11,12 @@ namespace signorini {
 
 class DampedFlow final : public ModalFlow {
  public:
-  /// All but t_end must outlive it.
-  DampedFlow(const Model& model, const OpenBasis& basis, double t_end)
-      : motion_(model, basis, t_end), proof_(motion_), works_(motion_) {}
+  /// All but t_end must outlive it. kept: as of DampedMotion.
+  DampedFlow(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
+      : motion_(model, basis, t_end, kept),
+        proof_(motion_),
+        works_(motion_),
+        made_before_(motion_.system().made()) {}
 
   [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
                                   ModalPoint& now) override;
@@ -45,12 +48,13 @@ class DampedFlow final : public ModalFlow {
     return motion_.ripple(from, time, omega);
   }
   [[nodiscard]] double dependence() const override { return motion_.dependence(); }
-  [[nodiscard]] long states_made() const override { return motion_.system().made(); }
+  [[nodiscard]] long states_made() const override { return motion_.system().made() - made_before_; }
 
  private:
   DampedMotion motion_;
   DampedProof proof_;
   DampedWorks works_;
+  long made_before_;
 };
 
 }  // namespace signorini

@@ -33,8 +33,13 @@ struct ModalQuantity {
 
 class DampedMotion {
  public:
-  DampedMotion(const Model& model, const OpenBasis& basis, double t_end)
-      : model_(model), basis_(basis), t_end_(t_end), system_(model, basis, t_end) {}
+  /// kept: of a structure that is alike (modal_memory.hpp), or null.
+  DampedMotion(const Model& model, const OpenBasis& basis, double t_end, DampedSystem* kept = nullptr)
+      : model_(model),
+        basis_(basis),
+        t_end_(t_end),
+        own_(kept == nullptr ? std::make_unique<DampedSystem>(model, basis, t_end) : nullptr),
+        system_(kept == nullptr ? *own_ : *kept) {}
 
   /// As ModalFlow::start.
   [[nodiscard]] std::string start(const Segment& segment, const Vector& q, const Vector& rate,
@@ -87,7 +92,8 @@ class DampedMotion {
   const Model& model_;
   const OpenBasis& basis_;
   const double t_end_;
-  DampedSystem system_;
+  std::unique_ptr<DampedSystem> own_;
+  DampedSystem& system_;
   std::shared_ptr<const DampedState> state_;
   const Decision* decision_ = nullptr;
   TimeBasis time_;

@@ -21,17 +21,23 @@ constexpr int most_corrections = 4;      // of the time of a fall; one is enough
 
 }  // namespace
 
-ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end)
+ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
+                         ModalMemory* memory)
     : model_(model),
       structure_(structure),
-      basis_(model),
+      kept_(memory != nullptr ? memory->of(model, t_end) : nullptr),
+      own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
+      basis_(kept_ ? kept_->basis : *own_basis_),
       taylor_(model, structure, systems, t_end),
       turning_(model.contacts.size()) {
   if (!basis_.failure().empty()) return;
-  if (proportional_refusal(model).empty())
+  if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
-  else
-    flow_ = std::make_unique<DampedFlow>(model, basis_, t_end);
+  } else {
+    if (kept_ && !kept_->damped)
+      kept_->damped = std::make_unique<DampedSystem>(kept_->model, kept_->basis, kept_->t_end);
+    flow_ = std::make_unique<DampedFlow>(model, basis_, t_end, kept_ ? kept_->damped.get() : nullptr);
+  }
   of_contacts_ = rows_of({});
 }
 

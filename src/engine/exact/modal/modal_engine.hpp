@@ -10,14 +10,16 @@
 
 #include "engine/exact/exact_engine.hpp"
 #include "engine/exact/modal/modal_flow.hpp"
-#include "engine/exact/modal/open_basis.hpp"
+#include "engine/exact/modal/modal_memory.hpp"
 
 namespace signorini {
 
 class ModalEngine final : public Stepper {
  public:
   /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
-  ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
+  /// memory: of earlier runs, or null.
+  ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
+              ModalMemory* memory = nullptr);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -83,7 +85,9 @@ class ModalEngine final : public Stepper {
 
   const Model& model_;
   const Structure& structure_;
-  OpenBasis basis_;
+  std::shared_ptr<ModalMemory::Kept> kept_;  // null: nothing is
+  std::unique_ptr<OpenBasis> own_basis_;
+  const OpenBasis& basis_;
   Rows watched_, of_contacts_;
   std::unique_ptr<ModalFlow> flow_;  // null without open modes
   ExactEngine taylor_;

@@ -1,0 +1,168 @@
+// Orbits of random forced scenes: closed to rounding, or a reason; multipliers against differences of runs.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <complex>
+#include <random>
+
+#include "behaviour/rates.hpp"
+#include "signorini/orbit.hpp"
+
+using namespace signorini;
+using namespace signorini::tests;
+
+namespace {
+
+class RandomForced {
+ public:
+  explicit RandomForced(unsigned seed) : random_(seed), damping_of_mass_(seed % 2 == 1) {}
+
+  /// One to five masses in a chain, one or two contacts of any kind, a harmonic load.
+  [[nodiscard]] std::string scene() {
+    n_ = whole(1, 5);
+    std::string text = matrices();
+    const int contacts = whole(1, 2);
+    for (int c = 0; c < contacts; ++c)
+      text += fmt::format("[[contacts]]\nname = \"c{}\"\n", c) + contact(whole(0, n_ - 1));
+    return text + fmt::format(
+                      "[[loads]]\ndirection = {{ d{} = 1.0 }}\namplitude = {}\nhistory = {{ type = "
+                      "\"harmonic\", omega = {}, phase = {} }}\n",
+                      whole(0, n_ - 1), real(0.3, 2.0), real(0.4, 3.0), real(0.0, 6.0));
+  }
+  [[nodiscard]] int size() const { return n_; }
+
+ private:
+  [[nodiscard]] double real(double a, double b) {
+    return a + (b - a) * static_cast<double>(random_()) / 4294967296.0;
+  }
+  [[nodiscard]] int whole(int a, int b) { return a + static_cast<int>(real(0.0, b - a + 1.0)); }
+  [[nodiscard]] std::string matrices() {
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n_, n_), K = M;
+    double before = real(0.5, 4.0);
+    for (int i = 0; i < n_; ++i) {
+      const double next = real(0.5, 4.0);
+      M(i, i) = real(0.5, 2.0);
+      K(i, i) = before + next;
+      if (i + 1 < n_) K(i, i + 1) = K(i + 1, i) = -next;
+      before = next;
+    }
+    const Eigen::MatrixXd C = real(0.01, 0.15) * M + (damping_of_mass_ ? 0.0 : 0.02) * K;
+    const auto text = [](const Eigen::MatrixXd& a) {
+      std::vector<std::string> rows;
+      for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        std::vector<double> row(static_cast<std::size_t>(a.cols()));
+        for (Eigen::Index j = 0; j < a.cols(); ++j) row[static_cast<std::size_t>(j)] = a(i, j);
+        rows.push_back(fmt::format("[{}]", fmt::join(row, ", ")));
+      }
+      return fmt::format("[{}]", fmt::join(rows, ", "));
+    };
+    return fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n[run]\nt_end "
+        "= "
+        "50.0\nengine = \"exact\"\ncertify = false\n[matrices]\nmass = {}\nstiffness = {}\ndamping = {}\n",
+        text(M), text(K), text(C));
+  }
+  [[nodiscard]] std::string contact(int d) {
+    const int side = whole(0, 1) == 0 ? -1 : 1;
+    switch (whole(0, 4)) {
+      case 0:
+        return fmt::format("law = \"compliant\"\nnormal = {{ d{} = {} }}\ngap = {}\nnormal_stiffness = {}\n",
+                           d, side, real(0.0, 0.5), real(5.0, 200.0));
+      case 1:
+        return fmt::format(
+            "law = \"compliant\"\nnormal = {{ d{} = {} }}\ngap = {}\nnormal_stiffness = {}\n{}", d, side,
+            real(0.0, 0.3), real(5.0, 100.0),
+            n_ > 1 ? fmt::format("tangent = {{ d{} = 1.0 }}\ntangential_stiffness = {}\nfriction = {}\n",
+                                 (d + 1) % n_, real(5.0, 100.0), real(0.1, 0.6))
+                   : "");
+      case 2:
+        return fmt::format(
+            "law = \"slider\"\ntangent = {{ d{} = 1.0 }}\nnormal_force = 1.0\nfriction = "
+            "{}\ntangential_stiffness = {}\n",
+            d, real(0.05, 0.4), real(5.0, 50.0));
+      case 3:
+        return fmt::format("law = \"slider\"\ntangent = {{ d{} = 1.0 }}\nnormal_force = 1.0\nfriction = {}\n",
+                           d, real(0.05, 0.4));
+      default:
+        return fmt::format("law = \"rigid\"\nnormal = {{ d{} = {} }}\ngap = {}\nrestitution = {}\n", d, side,
+                           real(0.05, 0.5), real(0.3, 0.9));
+    }
+  }
+
+  std::mt19937 random_;
+  bool damping_of_mass_;
+  int n_ = 1;
+};
+
+/// dz(T)/dz by central differences of runs over h: of u, v and the shears that a run begins with.
+Eigen::MatrixXd monodromy_by_runs(const std::string& text, const Orbit& orbit, int n, double h) {
+  std::vector<std::size_t> shears;
+  const SavedState start = orbit_scene(reader_of_text(text), orbit).initial.saved.value();
+  for (std::size_t c = 0; c < start.shears.size(); ++c)
+    if (start.shears[c].second != 0.0 && start.slips[c].second == 0) shears.push_back(c);
+  const Eigen::Index motions = 2 * n, size = motions + static_cast<Eigen::Index>(shears.size());
+  Eigen::MatrixXd phi(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    Eigen::VectorXd ends[2];
+    for (int side = 0; side < 2; ++side) {
+      Scene moved = orbit_scene(reader_of_text(text), orbit);
+      SavedState& saved = *moved.initial.saved;
+      const double step = side == 0 ? -h : h;
+      if (j >= motions) saved.shears[shears[static_cast<std::size_t>(j - motions)]].second += step;
+      for (auto& [of, value] : saved.motions)
+        if (j < motions && of == fmt::format("d{}.{}", j % n, j < n ? "u" : "v")) value += step;
+      const Result run = simulate(moved);
+      ends[side].resize(size);
+      ends[side].head(motions) << run.rows.back().u, run.rows.back().v;
+      for (Eigen::Index c = motions; c < size; ++c)
+        ends[side][c] = run.rows.back().contacts[shears[static_cast<std::size_t>(c - motions)]].T;
+    }
+    phi.col(j) = (ends[1] - ends[0]) / (2.0 * h);
+  }
+  return phi;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("slow/orbit random");
+
+TEST_CASE("random forced scenes: an orbit closed to rounding, with the multipliers of runs, or a reason") {
+  int found = 0, none = 0, compared = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    CAPTURE(seed);
+    RandomForced random(seed);
+    const std::string text = random.scene();
+    const Orbit orbit = find_orbit(reader_of_text(text));
+    if (!orbit.found) {
+      ++none;
+      CHECK(!orbit.reason.empty());
+      continue;
+    }
+    ++found;
+    CHECK(orbit.residual <= 1e-12);
+    // Extrapolated: h^4 beside eps z/h.
+    const double h = 5e-7;
+    const Eigen::MatrixXd phi = (4.0 * monodromy_by_runs(text, orbit, random.size(), h) -
+                                 monodromy_by_runs(text, orbit, random.size(), 2.0 * h)) /
+                                3.0;
+    if (static_cast<std::size_t>(phi.rows()) != orbit.multipliers.size())
+      continue;  // rigid contacts that hold
+    ++compared;
+    std::complex<double> sum = 0.0, squares = 0.0;
+    double size = 1.0;
+    for (const auto& mu : orbit.multipliers) {
+      sum += mu;
+      squares += mu * mu;
+      size = std::max(size, std::abs(mu));
+    }
+    CHECK(std::abs(phi.trace() - sum.real()) <= 1e-7 * size);
+    CHECK(std::abs((phi * phi).trace() - squares.real()) <= 1e-7 * size * size);
+  }
+  MESSAGE(found << " orbits, " << none << " reasons, " << compared << " compared");
+  CHECK(found >= 190);
+  CHECK(compared >= 150);
+}
+
+TEST_SUITE_END();

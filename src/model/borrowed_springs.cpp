@@ -160,6 +160,46 @@ SparseMatrix with_block(const SparseMatrix& k, const SparseMatrix& a, const Eige
   return k + added;
 }
 
+/// F of parts without mass: displacements along n of contacts that borrow, by forces along n and t.
+struct Compliance {
+  std::vector<std::size_t> contacts;
+  Eigen::MatrixXd nn, nt;
+  Eigen::VectorXd friction;  ///< the greater coefficient
+};
+
+Compliance compliance_of(const Model& model) {
+  Compliance f;
+  bool any = false;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    if (!model.contacts[k].borrows) continue;
+    f.contacts.push_back(k);
+    any = any || model.contacts[k].has_friction();
+  }
+  if (!any) return {};
+  std::vector<int> light;
+  for (int i = 0; i < model.size(); ++i)
+    if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
+  const SparseMatrix pick = selection(light, model.size());
+  const SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
+  const auto m = static_cast<Eigen::Index>(f.contacts.size());
+  Eigen::MatrixXd n(static_cast<Eigen::Index>(light.size()), m), t = n, of_n = n;
+  t.setZero();
+  f.friction = Eigen::VectorXd::Zero(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Contact& c = model.contacts[f.contacts[static_cast<std::size_t>(i)]];
+    n.col(i) = pick.transpose() * full(c.normal, model.size());
+    of_n.col(i) = solver.solve(Vector(n.col(i)));
+    if (!c.has_friction()) continue;
+    t.col(i) = pick.transpose() * full(c.tangent, model.size());
+    f.friction[i] = std::max(c.friction.static_, c.friction.kinetic);
+  }
+  f.nn = of_n.transpose() * n;
+  f.nt = of_n.transpose() * t;
+  for (Eigen::Index i = 0; i < m; ++i)
+    f.nn(i, i) += 1.0 / model.contacts[f.contacts[static_cast<std::size_t>(i)]].normal_stiffness;
+  return f;
+}
+
 }  // namespace
 
 std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers, Model& model) {
@@ -227,32 +267,32 @@ void show_borrowed(const BorrowedSprings& springs, Model& model) {
     model.basis = model.basis ? SparseMatrix(p * *model.basis) : p;
 }
 
-void check_unique(const Scene& scene, const Model& model) {
-  std::vector<int> light;
-  for (int i = 0; i < model.size(); ++i)
-    if (model.dofs[static_cast<std::size_t>(i)].massless) light.push_back(i);
-  const bool any = std::any_of(model.contacts.begin(), model.contacts.end(),
-                               [](const Contact& c) { return c.borrows && c.has_friction(); });
-  if (!any) return;
-  const SparseMatrix pick = selection(light, model.size());
-  const SymmetricSolver solver(SparseMatrix(pick.transpose() * model.stiffness * pick));
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = model.contacts[k];
-    if (!c.borrows || !c.has_friction()) continue;
-    const Vector n = pick.transpose() * full(c.normal, model.size()),
-                 t = pick.transpose() * full(c.tangent, model.size());
-    const Vector of_n = solver.solve(n);
-    const double nn = n.dot(of_n) + 1.0 / c.normal_stiffness, nt = t.dot(of_n);
-    const double f = std::max(c.friction.static_, c.friction.kinetic);
-    if (f * std::abs(nt) >= nn)
+void check_unique(const Scene& scene, Model& model) {
+  const Compliance f = compliance_of(model);
+  for (std::size_t i = 0; i < f.contacts.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double nn = f.nn(at, at), nt = f.nt(at, at), coupled = std::abs(f.friction[at] * nt);
+    if (coupled >= nn)
       refuse_borrowing(
-          scene, k, "friction",
+          scene, f.contacts[i], "friction",
           fmt::format(
               "the forces of this contact are not unique while it slides: its friction force displaces it "
               "along the normal {:.4g} times as far as its normal force does, expected less than 1; expected "
               "friction below {:.4g}, mass at the contact, or law = \"compliant\"",
-              f * std::abs(nt) / nn, nn / std::abs(nt)));
+              coupled / nn, nn / std::abs(nt)));
   }
+  if (f.contacts.size() < 2) return;
+  const Eigen::MatrixXd coupling = f.nt * f.friction.asDiagonal();
+  const Eigen::VectorXd mu = generalized_eigenvalues(0.5 * (coupling + coupling.transpose()), f.nn);
+  const double most = mu.size() > 0 ? mu.cwiseAbs().maxCoeff() : 0.0;
+  if (most < 1.0) return;
+  model.warnings.push_back(
+      fmt::format("the forces of the {} rigid contacts without mass may not be unique while all of them "
+                  "slide to one side: this run "
+                  "takes one of the solutions; they are unique with {:.3g} times their friction, with mass "
+                  "at these contacts, or with law = "
+                  "\"compliant\"",
+                  f.contacts.size(), 1.0 / most));
 }
 
 }  // namespace signorini

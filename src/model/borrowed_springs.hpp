@@ -44,7 +44,8 @@ void continue_borrowed(const BorrowedSprings& springs, const Scene& scene, Model
 void show_borrowed(const BorrowedSprings& springs, Model& model);
 
 /// Errors: SceneError where the forces of a contact that slides would not be unique: f |F_nt| >= F_nn, F the compliance of
-/// parts without mass at it.
-void check_unique(const Scene& scene, const Model& model);
+/// parts without mass at it. A warning where those of contacts that slide to one side together may not be: the symmetric part of
+/// F_nn - s F_nt diag(f), s = 1 or -1, is not positive definite (if it is, they are unique).
+void check_unique(const Scene& scene, Model& model);
 
 }  // namespace signorini

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -13,6 +14,16 @@ using namespace signorini;
 
 namespace {
 
+/// Stiffness of a leg between (x, y) and (fx, fy), k along x and k_n along y, turned; rows of a matrix.
+std::string leg_stiffness(double angle, double k, double k_n) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double xx = c * c * k + s * s * k_n, yy = s * s * k + c * c * k_n, xy = c * s * (k - k_n);
+  const auto row = [](double a, double b) {
+    return fmt::format("[{0:.17g}, {1:.17g}, {2:.17g}, {3:.17g}]", a, b, -a, -b);
+  };
+  return fmt::format("[{}, {}, {}, {}]", row(xx, xy), row(xy, yy), row(-xx, -xy), row(-xy, -yy));
+}
+
 /// A mass on a foot without mass, k along x and k_n along y between them; pressed by P, pulled by a ramp r t.
 struct BlockOnFoot {
   double m = 2.0, k = 300.0, k_n = 900.0, P = 40.0, r = 3.0, fs = 0.5, fk = 0.5, t_end = 8.0;
@@ -21,11 +32,6 @@ struct BlockOnFoot {
 
   [[nodiscard]] Scene scene() const {
     const double c = std::cos(angle), s = std::sin(angle);
-    const double xx = c * c * k + s * s * k_n, yy = s * s * k + c * c * k_n, xy = c * s * (k - k_n);
-    const auto block = [&](int row, double sign) {
-      return row == 0 ? fmt::format("{:.17g}, {:.17g}", sign * xx, sign * xy)
-                      : fmt::format("{:.17g}, {:.17g}", sign * xy, sign * yy);
-    };
     return parse_scene(fmt::format(
                            R"(schema = 1
 units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
@@ -33,24 +39,23 @@ run = {{ t_end = {0}, engine = "{1}", rtol = 1e-10, output_dt = 0.25, initial = 
 [matrices]
 dofs = ["x", "y", "fx", "fy"]
 mass = [[{2}, 0.0, 0.0, 0.0], [0.0, {2}, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
-stiffness = [[{3}, {4}], [{5}, {6}], [{4}, {3}], [{6}, {5}]]
+stiffness = {3}
+[[loads]]
+direction = {{ x = {4:.17g}, y = {5:.17g} }}
+amplitude = {6}
+history = {{ type = "constant" }}
 [[loads]]
 direction = {{ x = {7:.17g}, y = {8:.17g} }}
 amplitude = {9}
-history = {{ type = "constant" }}
-[[loads]]
-direction = {{ x = {10:.17g}, y = {11:.17g} }}
-amplitude = {12}
 history = {{ type = "table", times = [0.0, 1.0e3], values = [0.0, 1.0e3] }}
 [[contacts]]
 name = "foot"
 law = "rigid"
-normal = {{ fx = {13:.17g}, fy = {14:.17g} }}
-tangent = {{ fx = {10:.17g}, fy = {11:.17g} }}
-friction = {{ static = {15}, kinetic = {16} }}
+normal = {{ fx = {10:.17g}, fy = {11:.17g} }}
+tangent = {{ fx = {7:.17g}, fy = {8:.17g} }}
+friction = {{ static = {12}, kinetic = {13} }}
 )",
-                           t_end, engine, m, block(0, 1.0), block(0, -1.0), block(1, 1.0), block(1, -1.0), s,
-                           -c, P, c, s, r, -s, c, fs, fk),
+                           t_end, engine, m, leg_stiffness(angle, k, k_n), s, -c, P, c, s, r, -s, c, fs, fk),
                        "foot.toml");
   }
   [[nodiscard]] double omega() const { return std::sqrt(k / m); }
@@ -108,46 +113,39 @@ constexpr double pulled_m = 2.0, pulled_k = 300.0, pulled_P = 40.0, pulled_r = 3
 
 /// A mass behind a foot without mass, which is pressed by P and pulled by r t; lengths in units of 1/unit m.
 std::string pulled_foot(const char* engine, double angle, double unit, double t_end) {
-  const double c = std::cos(angle), s = std::sin(angle), k = pulled_k / unit, k_n = 900.0 / unit;
-  const double xx = c * c * k + s * s * k_n, yy = s * s * k + c * c * k_n, xy = c * s * (k - k_n);
-  const auto row = [&](int i, double sign) {
-    return i == 0 ? fmt::format("{:.17g}, {:.17g}", sign * xx, sign * xy)
-                  : fmt::format("{:.17g}, {:.17g}", sign * xy, sign * yy);
-  };
-  const auto along = [&](double x, double y) {
-    return fmt::format("{{ fx = {:.17g}, fy = {:.17g} }}", x, y);
-  };
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto along = [](double x, double y) { return fmt::format("{{ fx = {:.17g}, fy = {:.17g} }}", x, y); };
   return fmt::format(R"(schema = 1
-units = {{ {13} }}
+units = {{ {10} }}
 run = {{ t_end = {0}, engine = "{1}", rtol = 1e-10, output_dt = 0.25, initial = "static", certify = false }}
 [matrices]
 dofs = ["x", "y", "fx", "fy"]
 mass = [[{2}, 0.0, 0.0, 0.0], [0.0, {2}, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
-stiffness = [[{3}, {4}], [{5}, {6}], [{4}, {3}], [{6}, {5}]]
+stiffness = {3}
 [[loads]]
-direction = {7}
-amplitude = {8}
+direction = {4}
+amplitude = {5}
 history = {{ type = "constant" }}
 [[loads]]
-direction = {9}
-amplitude = {10}
+direction = {6}
+amplitude = {7}
 history = {{ type = "table", times = [0.0, 1.0e3], values = [0.0, 1.0e3] }}
 [[contacts]]
 name = "foot"
 law = "rigid"
-normal = {11}
-tangent = {9}
-friction = {12}
+normal = {8}
+tangent = {6}
+friction = {9}
 [[output]]
 name = "foot"
 kind = "displacement"
-direction = {9}
+direction = {6}
 [[output]]
 name = "speed"
 kind = "velocity"
-direction = {9}
+direction = {6}
 )",
-                     t_end, engine, pulled_m / unit, row(0, 1.0), row(0, -1.0), row(1, 1.0), row(1, -1.0),
+                     t_end, engine, pulled_m / unit, leg_stiffness(angle, pulled_k / unit, 900.0 / unit),
                      along(s, -c), pulled_P, along(c, s), pulled_r, along(-s, c), pulled_f,
                      unit == 1.0 ? "force = \"N\", mass = \"kg\", length = \"m\", time = \"s\""
                                  : "force = \"N\", mass = \"t\", length = \"mm\", time = \"s\"");
@@ -435,6 +433,44 @@ friction = {}
   std::string damped = dragged_blocks("exact", 0.0, rigid_law);
   damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");
   refused(damped, "damping.beta damps it");
+}
+
+TEST_CASE(
+    "feet that couple: friction above (1 - c)/d is warned of, since their forces may not be unique "
+    "together") {
+  // Compliance of two feet: F_nn = [1 c; c 1], F_nt = [0 d; d 0], F_tt = 2. F_nn - s f F_nt is positive definite while
+  // |c - s f d| < 1: f < (1 - c)/d = 1.25 for s = -1.
+  const double c = 0.5, d = 0.4;
+  Eigen::Matrix4d F;
+  F << 1.0, 0.0, c, d, 0.0, 2.0, d, 0.0, c, d, 1.0, 0.0, d, 0.0, 0.0, 2.0;  // n1, t1, n2, t2
+  const Eigen::Matrix4d K = F.inverse();
+  const auto feet = [&](double f) {
+    std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+run = { t_end = 1.0 }
+[matrices]
+dofs = ["n1", "t1", "n2", "t2", "x"]
+mass = [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 1.0]]
+stiffness = [)";
+    for (int i = 0; i < 4; ++i)
+      text += fmt::format("[{:.17g}, {:.17g}, {:.17g}, {:.17g}, 0.0],", K(i, 0), K(i, 1), K(i, 2), K(i, 3));
+    text += "[0.0, 0.0, 0.0, 0.0, 1.0]]\n";
+    for (int k = 1; k <= 2; ++k)
+      text += fmt::format(
+          "[[contacts]]\nname = \"foot{0}\"\nlaw = \"rigid\"\nnormal = {{ n{0} = 1.0 }}\ntangent = {{ t{0} = "
+          "1.0 "
+          "}}\nfriction = {1}\n",
+          k, f);
+    std::string all;
+    for (const std::string& warning : build_model(parse_scene(text, "feet.toml")).warnings)
+      all += warning + "\n";
+    return all.find("may not be unique while all of them slide to one side") != std::string::npos
+               ? all
+               : std::string();
+  };
+  CHECK(feet(1.249).empty());
+  CHECK(feet(1.251).find("the forces of the 2 rigid contacts") != std::string::npos);
+  CHECK(feet(2.5).find("unique with 0.5 times their friction") != std::string::npos);
 }
 
 TEST_SUITE_END();

@@ -118,9 +118,9 @@ struct DrawnNode {
   bool held = false;  ///< by a support
 };
 
-/// A beam, a bar, a spring between two nodes, or a line of a rigid body's outline; dofs at both ends.
+/// A beam, a bar, a spring between two nodes, a line of a rigid body's outline, or an edge of a mesh; dofs at both ends.
 struct DrawnElement {
-  enum class Kind : unsigned char { beam, bar, spring, rigid };
+  enum class Kind : unsigned char { beam, bar, spring, rigid, mesh };
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
   int dofs[6] = {-1, -1, -1, -1, -1, -1};
   int nodes[2] = {-1, -1};  ///< indices into Model::drawn_nodes
@@ -189,6 +189,13 @@ struct Ties {
   }
 };
 
+/// What a load on parts with borrowed springs (model/borrowed_springs.hpp) adds to what is seen of the structure.
+struct SeenLoad {
+  std::size_t load = 0;  ///< index into Model::loads
+  Vector displacements;  ///< of the structure's degrees of freedom, for a history of 1
+  Vector energies;       ///< one for each of these loads, for histories of 1
+};
+
 /// Of run.geometric: Model::stiffness contains the stiffness of these forces.
 struct Geometric {
   FrozenForces forces;
@@ -233,28 +240,48 @@ struct Model {
   /// Where massless motions needed a degree of freedom of their own (model/undamped.hpp): displacements of
   /// the first degrees of freedom = basis * u.
   std::optional<SparseMatrix> basis;
+  std::vector<SeenLoad> seen_loads;
   std::optional<Ties> ties;  ///< rigid bodies
   std::optional<Geometric> geometric;
 
   [[nodiscard]] int size() const { return static_cast<int>(dofs.size()); }
   /// Whether displacements that are computed are those of physical_dofs().
   [[nodiscard]] bool is_physical() const { return !reduction && !basis && !ties; }
-  /// Displacements (or velocities) of physical_dofs(), where no support moves a rigid body.
+  /// Displacements (or velocities) of physical_dofs(), where no support moves a rigid body and no load is seen.
   [[nodiscard]] Vector physical(const Vector& u) const {
+    const Vector x = structural(u);
+    return ties ? ties->with_tied(x) : x;
+  }
+  /// The same without nodes that are tied.
+  [[nodiscard]] Vector structural(const Vector& u) const {
     Vector x = u;
     if (reduction)
       x = reduction->physical(u);
     else if (basis)
       x.head(basis->rows()) = *basis * u.head(basis->cols());
-    return ties ? ties->with_tied(x) : x;
+    return x;
   }
   /// Displacements (order 0) or velocities (1) at time t.
   [[nodiscard]] Vector physical(const Vector& u, double t, int order) const {
-    Vector x = physical(u);
+    Vector x = structural(u);
+    for (const SeenLoad& seen : seen_loads) {
+      const double value = loads[seen.load].history.piece(t).value(t, order);
+      x.head(seen.displacements.size()) += value * seen.displacements;
+    }
     if (!ties) return x;
+    x = ties->with_tied(x);
     for (const Ties::Given& g : ties->given)
       x[ties->rows.cols() + g.tied] += g.motion.piece(t).value(t, order);
     return x;
+  }
+  /// By so much energy of the structure and work of loads are less than those of what is computed.
+  [[nodiscard]] double seen_energy(double t) const {
+    double sum = 0.0;
+    for (const SeenLoad& a : seen_loads)
+      for (std::size_t j = 0; j < seen_loads.size(); ++j)
+        sum += 0.5 * a.energies[static_cast<Eigen::Index>(j)] * loads[a.load].history.value(t) *
+               loads[seen_loads[j].load].history.value(t);
+    return sum;
   }
   /// To which columns and drawing refer.
   [[nodiscard]] const std::vector<Dof>& physical_dofs() const {

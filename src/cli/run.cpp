@@ -86,7 +86,8 @@ std::string told(const Scene& scene, const Model& model, const CertifiedReport& 
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification(model, certified) +
          reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +
          (pictures ? "contacts.csv, motion.csv, energy.csv, curves.csv, " : "contacts.csv, energy.csv, ") +
-         frames + "summary.json, run.toml)\n";
+         (pictures && !scene.bodies.empty() ? "body_motion.csv, " : "") + frames +
+         "summary.json, run.toml)\n";
 }
 
 /// What would be quicker than a run that is expected to take `seconds` in all. Empty: nothing, or not by much.

@@ -94,9 +94,9 @@ SparseMatrix shifts(const Scene& scene, const Model& model, const std::vector<Ro
   return s;
 }
 
-/// Of dampers and loads nothing may act along S.
-void check_alone(const Scene& scene, const SparseMatrix& dampers, const Model& model,
-                 const std::vector<Row>& rows, const SparseMatrix& s) {
+/// Nothing may damp motions along S.
+void check_alone(const Scene& scene, const SparseMatrix& dampers, const std::vector<Row>& rows,
+                 const SparseMatrix& s) {
   const bool beta = scene.damping.beta > 0.0;
   const SparseMatrix damped = dampers * s;
   const auto strange = [&](Eigen::Index j, const std::string& what, const char* instead) {
@@ -110,12 +110,32 @@ void check_alone(const Scene& scene, const SparseMatrix& dampers, const Model& m
     if (beta) strange(j, "damping.beta damps it", "beta = 0");
     if (damped.col(j).norm() > 0.0) strange(j, "a damper acts on it", "no damper");
   }
-  for (const Load& load : model.loads) {
-    const Vector along = s.transpose() * full(load.direction, model.size());
-    const Vector terms = s.cwiseAbs().transpose() * full(load.direction, model.size()).cwiseAbs();
+}
+
+/// f' = f + K S X S^T f, and what is seen of f beside u'.
+void shift_loads(const SparseMatrix& s, const SparseMatrix& ks, const Eigen::MatrixXd& x, Model& model) {
+  std::vector<Vector> pushes;
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    Combination& direction = model.loads[i].direction;
+    const Vector f = full(direction, model.size());
+    Vector along = s.transpose() * f;
+    const Vector terms = s.cwiseAbs().transpose() * f.cwiseAbs();
     for (Eigen::Index j = 0; j < along.size(); ++j)
-      if (std::abs(along[j]) > rounding::of_many * terms[j])
-        strange(j, fmt::format("{} acts on it", load.name), "no load of its own");
+      if (std::abs(along[j]) <= rounding::of_many * terms[j]) along[j] = 0.0;
+    if (along.isZero(0.0)) continue;
+    const Vector shifted = x * along;
+    const Vector moved = s * shifted, added = ks * shifted;
+    model.seen_loads.push_back({i, -moved, {}});
+    const Vector all = f + added;
+    direction.terms.clear();
+    for (Eigen::Index k = 0; k < all.size(); ++k)
+      if (all[k] != 0.0) direction.terms.emplace_back(static_cast<int>(k), all[k]);
+    pushes.push_back(std::move(along));
+  }
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    model.seen_loads[i].energies.resize(static_cast<Eigen::Index>(pushes.size()));
+    for (std::size_t j = 0; j < pushes.size(); ++j)
+      model.seen_loads[i].energies[static_cast<Eigen::Index>(j)] = pushes[i].dot(x * pushes[j]);
   }
 }
 
@@ -146,7 +166,7 @@ std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMa
   const std::vector<Row> rows = rows_of(scene, model);
   if (rows.empty()) return std::nullopt;
   const SparseMatrix s = shifts(scene, model, rows);
-  check_alone(scene, dampers, model, rows, s);
+  check_alone(scene, dampers, rows, s);
   const SparseMatrix ks = model.stiffness * s;
   const Eigen::MatrixXd g(SparseMatrix(s.transpose() * ks));
   const Eigen::VectorXd l = 2.0 * g.cwiseAbs().rowwise().sum();
@@ -169,6 +189,7 @@ std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMa
   const Eigen::MatrixXd x = solve_dense(Eigen::MatrixXd(l.asDiagonal()) - 0.5 * (g + g.transpose()),
                                         Eigen::MatrixXd::Identity(m, m));
   model.stiffness = with_block(model.stiffness, ks, x);
+  shift_loads(s, ks, x, model);
   BorrowedSprings springs;
   for (const Row& row : rows) springs.rows.push_back({row.contact, row.normal});
   springs.shifts = s;

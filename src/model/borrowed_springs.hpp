@@ -1,8 +1,9 @@
 // borrowed_springs.hpp: rigid contacts where the structure has no mass.
 //
 //   K u = f + B l,   B^T u + ... = g: 0 <= g _|_ l >= 0          l: forces of these contacts along B, n or t each
-//   u = u' + S D l,  S = B (B^T B)^-1,  D = L^-1:
-//   K' u' = f + B l,   K' = K + K S (L - G)^-1 S^T K,   G = S^T K S,   l = -L g' where the contact is closed
+//   u = u' + S D l,  S = B (B^T B)^-1,  D = L^-1,  G = S^T K S,  X = (L - G)^-1:
+//   K' u' = f' + B l,   K' = K + K S X S^T K,   f' = f + K S X S^T f,   l = -L g' where the contact is closed
+//   u = u' + S X S^T (K u' - f),   energy of the structure and work of loads: less by f^T S X S^T f / 2
 //
 // Parts without mass follow at once, so a rigid contact there is a row g = 0 on displacements, and in stick ut = const; what
 // decides is a static complementarity problem, without restitution. It has the same form as that of a compliant contact
@@ -30,9 +31,9 @@ struct BorrowedSprings {
   SparseMatrix displacements;  ///< u = this * u'
 };
 
-/// Changes K and the contacts (law, stiffnesses, `borrows`); nothing: no rigid contact acts on parts without mass. After
-/// the loads, before the initial state; dampers: C without alpha M + beta K. Errors: SceneError where a damper or a load acts
-/// on these parts, where contacts share a motion of theirs, or where a contact reaches them by half.
+/// Changes K, loads and contacts (law, stiffnesses, `borrows`); nothing: no rigid contact acts on parts without mass. After
+/// the loads, before the initial state; dampers: C without alpha M + beta K. Errors: SceneError where a damper acts on
+/// these parts, where contacts share a motion of theirs, or where a contact reaches them by half.
 [[nodiscard]] std::optional<BorrowedSprings> borrow_springs(const Scene& scene, const SparseMatrix& dampers,
                                                             Model& model);
 

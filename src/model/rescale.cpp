@@ -237,6 +237,17 @@ Model rescaled(Model model, const Factors& factors) {
   rescale(model.beta, unit::time);
   rescale(model.omega1, unit::rate);
   rescale(model.omega_max, unit::rate);
+  for (SeenLoad& seen : model.seen_loads) {
+    const Dof* const dofs = model.reduction ? model.reduction->dofs.data() : model.dofs.data();
+    const double of_history = factor_of(model.loads[seen.load].of_history, factors);
+    for (Eigen::Index j = 0; j < seen.energies.size(); ++j) {
+      const SeenLoad& other = model.seen_loads[static_cast<std::size_t>(j)];
+      seen.energies[j] *= factor_of(unit::energy, factors) /
+                          (of_history * factor_of(model.loads[other.load].of_history, factors));
+    }
+    for (Eigen::Index i = 0; i < seen.displacements.size(); ++i)
+      seen.displacements[i] *= (dofs[i].rotation ? 1.0 : factors.length) / of_history;
+  }
   if (model.basis) rescale.basis(*model.basis);
   if (model.ties) Rescaling(factors, model.ties->dofs)(*model.ties);
   if (model.reduction) Rescaling(factors, model.reduction->dofs)(*model.reduction);

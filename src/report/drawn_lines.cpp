@@ -49,8 +49,7 @@ LineShapes across_of(const Json& row) {
   return {row[1].get<double>(), row[2].get<double>(), row[3].get<double>(), row[4].get<double>()};
 }
 
-double fitting_magnification(const Json& nodes, const Json& curve) {
-  double greatest = 0.0;
+double fitting_magnification(const Json& nodes, const Json& curve, double greatest) {
   for (const Json& node : nodes)
     for (const std::size_t c : {0, 1})
       if (const int column = node["u"][c].get<int>(); column >= 0)

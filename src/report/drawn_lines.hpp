@@ -19,6 +19,7 @@ namespace signorini {
 [[nodiscard]] LineShapes across_of(const Json& row);
 
 /// Of nodes and curve of run_data(): the greatest displacement is at most an eighth of the structure's greater extent.
-[[nodiscard]] double fitting_magnification(const Json& nodes, const Json& curve);
+/// greatest: that of nodes without a curve.
+[[nodiscard]] double fitting_magnification(const Json& nodes, const Json& curve, double greatest = 0.0);
 
 }  // namespace signorini

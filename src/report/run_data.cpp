@@ -10,12 +10,13 @@
 #include <optional>
 
 #include "base/thinned.hpp"
-#include "mesh/shared_edges.hpp"
 #include "model/element/element_kinds.hpp"
 #include "report/drawn_lines.hpp"
+#include "report/mesh_motion.hpp"
 #include "result/csv_read.hpp"
 #include "result/plot_parts.hpp"
 #include "scene/components.hpp"
+#include "scene/mesh_lines.hpp"
 #include "scene/outline.hpp"
 #include "signorini/result.hpp"
 
@@ -198,18 +199,10 @@ Json pieces_json(const Scene& scene, const Places& places) {
   return pieces;
 }
 
-/// Edges of the elements of bodies as pairs of nodes; of large meshes the boundaries alone.
+/// Pairs of nodes.
 Json mesh_json(const Scene& scene) {
-  constexpr std::size_t most_edges = 6000;
-  SharedEdges edges;
-  for (const BodySpec& body : scene.bodies) add_edges(body.mesh.elements, edges);
   Json mesh = Json::array();
-  for (const auto& [ends, edge] : edges) {
-    if (edges.size() > most_edges && edge.elements > 1) continue;
-    const bool middle = edge.nodes.size() == 3;
-    mesh.push_back({edge.nodes[0], edge.nodes[middle ? 2 : 1]});
-    if (middle) mesh.push_back({edge.nodes[2], edge.nodes[1]});
-  }
+  for (const auto& ends : mesh_lines(scene)) mesh.push_back(ends);
   return mesh;
 }
 
@@ -295,7 +288,7 @@ Json contact_json(const ContactSpec& contact, const Scene& scene, const Places& 
   if (scene.matrices && contact.normal && !direction.dofs.empty() && direction.dofs[0].second < 0.0)
     n[1] = -1.0;
   Json touched = Json::array();
-  for (const auto& [node, part] : direction.against) touched.push_back(places.of(node));
+  for (const auto& [node, part] : direction.against) touched.push_back({places.of(node), number(part)});
   return {{"name", contact.name},      {"node", place_of_direction(direction, places)},
           {"nx", number(n[0])},        {"ny", number(n[1])},
           {"against", touched},        {"slider", !contact.normal.has_value()},
@@ -416,13 +409,15 @@ Json run_data(const Scene& scene, const fs::path& directory) {
   const Displacements all = displacements(directory, scene.run.t_end);
   const Places places(scene, all.names);
   Json curve = curve_json(all);
-  const double magnification = fitting_magnification(places.json(), curve);
+  const MeshMotion mesh = mesh_motion(scene, directory);
+  const double magnification = fitting_magnification(places.json(), curve, mesh.greatest);
   return {{"t_end", number(scene.run.t_end)},
           {"units", {scene.units.force, scene.units.length, scene.units.time}},
           {"matrices", scene.matrices.has_value()},
           {"nodes", places.json()},
           {"pieces", pieces_json(scene, places)},
           {"mesh", mesh_json(scene)},
+          {"mesh_motion", mesh_motion_json(mesh)},
           {"shapes", shapes_json()},
           {"magnification", magnification},
           {"springs", springs_json(scene, places)},

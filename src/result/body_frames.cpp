@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "model/assembly/loads.hpp"
 #include "model/element/nodal_stress.hpp"
 #include "scene/history_from_spec.hpp"
 
@@ -69,17 +68,9 @@ BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const S
                                  const Model& model)
     : scene_(scene),
       beta_(model.beta),
-      movers_(scene.nodes.size()),
+      movers_(scene, model),
       bodies_(directory / "frame_bodies.csv", body_frame_table()) {
   if (!scene.seams.empty()) seams_.emplace(directory / "frame_seams.csv", seam_frame_table());
-  for (std::size_t n = 0; n < scene.nodes.size(); ++n)  // the first of the drawn nodes, in the same order
-    for (const std::size_t c : {0, 1}) movers_[n][c].dof = model.drawn_nodes[n].dofs[c];
-  for (const Support& support : scene.supports) {
-    if (!support.motion || support.rz) continue;
-    for (std::size_t n = 0; n < scene.nodes.size(); ++n)
-      if (scene.nodes[n].name == support.node)
-        movers_[n][support.ux ? 0 : 1].given = motion_of_support(scene, support);
-  }
   const Mesh mesh = make_mesh(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySpec& body = scene.bodies[i];
@@ -91,15 +82,10 @@ BodyFrameWriter::BodyFrameWriter(const std::filesystem::path& directory, const S
 
 /// Displacements (order 0) or velocities (1) of the nodes of a body.
 Vector BodyFrameWriter::of_body(const BodySpec& body, const Sample& sample, int order) const {
-  const Vector& all = order == 0 ? *sample.u : *sample.v;
   Vector own(static_cast<Eigen::Index>(2 * body.node_count));
   for (std::size_t k = 0; k < body.node_count; ++k)
-    for (const std::size_t c : {0, 1}) {
-      const Mover& mover = movers_[body.first_node + k][c];
-      double value = mover.dof >= 0 ? all[mover.dof] : 0.0;
-      if (mover.given) value = mover.given->piece(sample.t).value(sample.t, order);
-      own[static_cast<Eigen::Index>(2 * k + c)] = value;
-    }
+    for (const std::size_t c : {0, 1})
+      own[static_cast<Eigen::Index>(2 * k + c)] = movers_.value(body.first_node + k, c, sample, order);
   return own;
 }
 

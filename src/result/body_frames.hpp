@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "result/node_movers.hpp"
 #include "result/table.hpp"
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
@@ -51,17 +52,12 @@ class BodyFrameWriter {
   void write(const Sample& sample);
 
  private:
-  /// What moves a node along x or y: a degree of freedom, or a support.
-  struct Mover {
-    int dof = -1;
-    std::optional<History> given = {};
-  };
   [[nodiscard]] Vector of_body(const BodySpec& body, const Sample& sample, int order) const;
 
   const Scene& scene_;
   double beta_;
-  std::vector<std::array<Mover, 2>> movers_;  ///< a node of the scene
-  std::vector<History> strains_;              ///< a body: alpha T
+  NodeMovers movers_;
+  std::vector<History> strains_;  ///< a body: alpha T
   std::vector<Eigen::SparseMatrix<double, Eigen::RowMajor>> stresses_;
   TableFile<BodyFrameRow> bodies_;
   std::optional<TableFile<SeamFrameRow>> seams_;

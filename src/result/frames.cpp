@@ -12,6 +12,8 @@ const char* name_of(DrawnElement::Kind kind) {
       return "spring";
     case DrawnElement::Kind::rigid:
       return "rigid";
+    case DrawnElement::Kind::mesh:
+      return "mesh";
     case DrawnElement::Kind::beam:
       break;
   }

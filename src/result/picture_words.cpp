@@ -50,6 +50,7 @@ constexpr std::array words = {
     std::array<std::string_view, 3>{"supports", "Lager", "опоры"},
     std::array<std::string_view, 3>{"springs", "Federn", "пружины"},
     std::array<std::string_view, 3>{"rigid bodies", "starre Körper", "жёсткие тела"},
+    std::array<std::string_view, 3>{"mesh", "Netz", "сетка"},
     std::array<std::string_view, 3>{"bars", "Stäbe", "стержни"},
     std::array<std::string_view, 3>{"beams", "Balken", "балки"},
     std::array<std::string_view, 3>{"contact force", "Kontaktkraft", "сила контакта"},

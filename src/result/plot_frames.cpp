@@ -164,6 +164,7 @@ std::vector<Curve> shape_curves(const Frame& frame, const std::string& name, con
     add(kind, "x", "y", thin);
     add(kind, "X", "Y", std::string("lines ") + look, say(run, title));
   };
+  line("mesh", "linewidth 0.8 linecolor '#1f5f8b'", "mesh");
   line("spring", "linewidth 1 linecolor '#7a9a7a' dashtype 2", "springs");
   line("bar", "linewidth 1.6 linecolor '#1f5f8b'", "bars");
   line("rigid", "linewidth 1.6 linecolor '#8a5a2b'", "rigid bodies");

@@ -6,6 +6,7 @@
 
 #include "base/output_directory.hpp"
 #include "result/body_frames.hpp"
+#include "result/body_motion.hpp"
 #include "result/certificate_files.hpp"
 #include "result/csv.hpp"
 #include "result/frames.hpp"
@@ -28,11 +29,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 21> run_files = {
-    "events.csv",       "history.csv",     "errors.csv",   "contacts.csv",       "motion.csv",   "curves.csv",
-    "loads.csv",        "energy.csv",      "frames.csv",   "frame_contacts.csv", "summary.json", "run.toml",
-    "states.csv",       "report.html",     "response.csv", "instants.csv",       "orbit.json",   "seams.csv",
-    "frame_bodies.csv", "frame_seams.csv", frozen_file};
+constexpr std::array<std::string_view, 22> run_files = {
+    "events.csv",      "history.csv", "errors.csv", "contacts.csv",     "motion.csv",
+    "curves.csv",      "loads.csv",   "energy.csv", "frames.csv",       "frame_contacts.csv",
+    "summary.json",    "run.toml",    "states.csv", "report.html",      "response.csv",
+    "instants.csv",    "orbit.json",  "seams.csv",  "frame_bodies.csv", "frame_seams.csv",
+    "body_motion.csv", frozen_file};
 
 /// Replacing the run must not take the scene that is to be computed with it.
 void check_scene_is_kept(const fs::path& path, const std::string& scene) {
@@ -63,13 +65,14 @@ void check_run_directory(const fs::path& path, bool force) {
 }
 
 struct RunDirectory::Writers {
-  Writers(const fs::path& path, const Scene& scene, const Model& model)
+  Writers(const fs::path& path, const Scene& scene, const Model& model, bool for_pictures)
       : events(path / "events.csv", event_table(model)),
         history(path / "history.csv", history_table(model)),
         contacts(path / "contacts.csv", contact_table()),
         energy(path / "energy.csv", energy_table()) {
     if (!model.outputs.empty()) response.emplace(path / "response.csv", response_table(model));
     if (!scene.seams.empty()) seams.emplace(path / "seams.csv", seam_table());
+    if (for_pictures && !scene.bodies.empty()) body_motion.emplace(scene, model);
   }
 
   void add_seams(const Scene& scene, const Sample& sample) {
@@ -83,6 +86,7 @@ struct RunDirectory::Writers {
   TableFile<Sample> energy;
   std::optional<TableFile<ResponseRow>> response;
   std::optional<TableFile<SeamRow>> seams;
+  std::optional<BodyMotionFile> body_motion;
   std::unique_ptr<FrameWriter> frames;
   std::unique_ptr<BodyFrameWriter> body_frames;
   std::unique_ptr<StateWriter> states;
@@ -109,7 +113,7 @@ RunDirectory::Writers& RunDirectory::writers() {
     if (options_.force) remove_run(path_, false);
     write_file(path_ / "run.toml", scene_.resolved);
     if (model_.geometric) write_file(path_ / frozen_file, frozen_text(model_.geometric->forces));
-    writers_ = std::make_unique<Writers>(path_, scene_, model_);
+    writers_ = std::make_unique<Writers>(path_, scene_, model_, options_.pictures);
   } catch (const FileError&) {
     std::error_code ignored;
     for (const std::string_view name : run_files) fs::remove(path_ / name, ignored);
@@ -133,6 +137,7 @@ void RunDirectory::sample(const Sample& sample) {
     w.contacts.add({sample.t, model_.contacts[k], sample.contacts[k]});
   w.contacts.flush();
   w.add_seams(scene_, sample);
+  if (w.body_motion) w.body_motion->add(sample);
   w.energy.add(sample);
   w.energy.flush();
   if (sample.t == scene_.run.t_end) keep_state(sample);
@@ -195,7 +200,7 @@ void RunDirectory::abandon(double t, const std::string& reason) {
 std::string RunDirectory::finish(const Report& report) { return finish({report, std::nullopt, ""}); }
 
 std::string RunDirectory::finish(const CertifiedReport& run) {
-  writers();
+  if (const Writers& w = writers(); w.body_motion) w.body_motion->write(path_);
   if (run.certificate) write_certificate(path_, model_, *run.certificate);
   if (const std::string loads = load_table(model_, scene_.run.t_end); !loads.empty())
     write_file(path_ / "loads.csv", loads);

@@ -26,7 +26,7 @@ struct RunDirectoryOptions {
   bool force = false;
   std::vector<std::string> command_line;  ///< for summary.json
   bool instants = false;                  ///< instants.csv, too
-  bool pictures = true;                   ///< motion.csv and curves.csv, too
+  bool pictures = true;                   ///< motion.csv, curves.csv and body_motion.csv, too
 };
 
 /// Errors of all members: FileError.

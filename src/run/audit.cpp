@@ -77,6 +77,7 @@ void Auditor::begin(const Decision& decision, const Mode& first, const Forcing& 
   landings_.instant(decision.jet.t, decision, first);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
+  seen_at_start_ = model_.seen_energy(decision.jet.t);
   audit_.initial = energy(decision.jet.t, decision.mode, point);
   begun_ = true;
 }
@@ -226,7 +227,10 @@ Energy Auditor::energy(double t, const Works& ahead, const Mode& mode, const Poi
   return audited(t, energy_before(ahead, mode, point));
 }
 
-Energy Auditor::audited(double t, const Energy& e) {
+Energy Auditor::audited(double t, Energy e) {
+  const double unseen = model_.seen_energy(t);
+  e.elastic -= unseen;
+  e.loads -= unseen - seen_at_start_;
   audit_.work_of_loads = std::max(audit_.work_of_loads, std::abs(e.loads));
   const double exchanged =
       std::max({std::abs(e.loads), std::abs(e.surface), e.kinetic, e.friction, e.damping});

@@ -60,7 +60,7 @@ class Auditor {
   [[nodiscard]] double work_of_jump(const Forcing& forcing, double t, const Point& before,
                                     const Decision& decision) const;
   /// Audits the balance of these.
-  Energy audited(double t, const Energy& e);
+  Energy audited(double t, Energy e);
   /// Kinetic, elastic and contact energy.
   [[nodiscard]] Energy stored(const Mode& mode, const Point& point) const;
 
@@ -75,6 +75,7 @@ class Auditor {
   [[nodiscard]] Place place_of(std::size_t contact, const Forcing& forcing, double t, State state,
                                const Point& point) const;
   std::vector<Place> at_start_;
+  double seen_at_start_ = 0.0;  ///< Model::seen_energy
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
   Landings landings_;

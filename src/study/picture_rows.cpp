@@ -1,12 +1,14 @@
 #include "study/picture_rows.hpp"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/json.hpp"
 #include "base/version.hpp"
+#include "result/body_motion.hpp"
 #include "result/picture_tables.hpp"
 #include "signorini/error.hpp"
 #include "signorini/simulate.hpp"
@@ -26,13 +28,19 @@ bool is_there(const fs::path& file) {
 /// Events, and what pictures need, in memory: files are written when both are known.
 class PictureRows final : public Recorder {
  public:
-  PictureRows(const Model& model, bool instants, const std::function<bool()>& go_on)
-      : table_(event_table(model)), instants_(instants), go_on_(go_on), motions_(model.contacts.size()) {
+  PictureRows(const PreparedRun& prepared, bool instants, const std::function<bool()>& go_on)
+      : table_(event_table(prepared.model)),
+        instants_(instants),
+        go_on_(go_on),
+        motions_(prepared.model.contacts.size()) {
+    if (!prepared.scene.bodies.empty()) bodies_.emplace(prepared.scene, prepared.model);
     table_.put_header(events_);
   }
 
   void event(const Event& event) override { table_.put_row(events_, event); }
-  void sample(const Sample& /*sample*/) override {}
+  void sample(const Sample& sample) override {
+    if (bodies_) bodies_->add(sample);
+  }
   [[nodiscard]] bool wants_motion() const override { return true; }
   void motion(int contact, const std::vector<MotionRow>& rows) override {
     motions_[static_cast<std::size_t>(contact)] = rows;
@@ -47,6 +55,7 @@ class PictureRows final : public Recorder {
     PictureTables tables(directory, model);
     for (std::size_t k = 0; k < motions_.size(); ++k) tables.motion(static_cast<int>(k), motions_[k]);
     tables.curves(curves_);
+    if (bodies_) bodies_->write(directory);
   }
 
  private:
@@ -56,6 +65,7 @@ class PictureRows final : public Recorder {
   CsvBlock events_;
   std::vector<std::vector<MotionRow>> motions_;
   Curves curves_;
+  std::optional<BodyMotionFile> bodies_;
 };
 
 /// Row by row; a certificate has added columns behind those of the run.
@@ -87,7 +97,7 @@ bool lacks_picture_rows(const fs::path& directory) {
 
 bool add_picture_rows(const fs::path& directory, const std::function<bool()>& go_on) {
   const PreparedRun prepared = prepare_run((directory / "run.toml").string(), {}, go_on);
-  PictureRows rows(prepared.model, is_there(directory / "instants.csv"), go_on);
+  PictureRows rows(prepared, is_there(directory / "instants.csv"), go_on);
   const Report report = simulate(prepared.model, prepared.scene.run, rows);
   if (report.outcome.kind == Outcome::Kind::interrupted) return false;
   if (!same_events(rows.events(), directory / "events.csv"))

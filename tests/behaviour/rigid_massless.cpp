@@ -104,6 +104,55 @@ void check_closed_form(const BlockOnFoot& block, double digits) {
   }
 }
 
+constexpr double pulled_m = 2.0, pulled_k = 300.0, pulled_P = 40.0, pulled_r = 3.0, pulled_f = 0.5;
+
+/// A mass behind a foot without mass, which is pressed by P and pulled by r t; lengths in units of 1/unit m.
+std::string pulled_foot(const char* engine, double angle, double unit, double t_end) {
+  const double c = std::cos(angle), s = std::sin(angle), k = pulled_k / unit, k_n = 900.0 / unit;
+  const double xx = c * c * k + s * s * k_n, yy = s * s * k + c * c * k_n, xy = c * s * (k - k_n);
+  const auto row = [&](int i, double sign) {
+    return i == 0 ? fmt::format("{:.17g}, {:.17g}", sign * xx, sign * xy)
+                  : fmt::format("{:.17g}, {:.17g}", sign * xy, sign * yy);
+  };
+  const auto along = [&](double x, double y) {
+    return fmt::format("{{ fx = {:.17g}, fy = {:.17g} }}", x, y);
+  };
+  return fmt::format(R"(schema = 1
+units = {{ {13} }}
+run = {{ t_end = {0}, engine = "{1}", rtol = 1e-10, output_dt = 0.25, initial = "static", certify = false }}
+[matrices]
+dofs = ["x", "y", "fx", "fy"]
+mass = [[{2}, 0.0, 0.0, 0.0], [0.0, {2}, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]
+stiffness = [[{3}, {4}], [{5}, {6}], [{4}, {3}], [{6}, {5}]]
+[[loads]]
+direction = {7}
+amplitude = {8}
+history = {{ type = "constant" }}
+[[loads]]
+direction = {9}
+amplitude = {10}
+history = {{ type = "table", times = [0.0, 1.0e3], values = [0.0, 1.0e3] }}
+[[contacts]]
+name = "foot"
+law = "rigid"
+normal = {11}
+tangent = {9}
+friction = {12}
+[[output]]
+name = "foot"
+kind = "displacement"
+direction = {9}
+[[output]]
+name = "speed"
+kind = "velocity"
+direction = {9}
+)",
+                     t_end, engine, pulled_m / unit, row(0, 1.0), row(0, -1.0), row(1, 1.0), row(1, -1.0),
+                     along(s, -c), pulled_P, along(c, s), pulled_r, along(-s, c), pulled_f,
+                     unit == 1.0 ? "force = \"N\", mass = \"kg\", length = \"m\", time = \"s\""
+                                 : "force = \"N\", mass = \"t\", length = \"mm\", time = \"s\"");
+}
+
 /// Two blocks that do not match on the ground, dragged to and fro at the top; law: of both seams, friction: of the upper.
 std::string dragged_blocks(const char* engine, double degrees, const std::string& law,
                            const char* friction = "0.3") {
@@ -197,6 +246,90 @@ TEST_CASE("a block on a foot without mass: slip begins where T reaches f N, the 
   check_closed_form({.engine = "ida", .angle = 0.7}, 1e-7);
 }
 
+TEST_CASE("loads on the foot itself: displacements, rates, energy and work are those of the foot") {
+  // The foot is pressed and pulled, the mass follows: stuck x = 0; sliding T = f P, m x'' = r t - f P = k (foot - x).
+  const double t1 = pulled_f * pulled_P / pulled_r, t_end = 8.0;
+  const auto check = [&](const char* engine, double angle, double unit, double digits) {
+    CAPTURE(engine);
+    CAPTURE(angle);
+    CAPTURE(unit);
+    const Result result = simulate(parse_scene(pulled_foot(engine, angle, unit, t_end), "foot.toml"));
+    REQUIRE(result.report.outcome.kind == Outcome::Kind::done);
+    CHECK(result.report.witness.violated == 0);
+    REQUIRE(result.events.size() == 1);
+    CHECK(std::abs(result.events[0].t - t1) <= digits * t1);
+    const auto x_at = [&](double d) { return pulled_r * d * d * d / (6.0 * pulled_m); };
+    const double c = std::cos(angle), s = std::sin(angle), P = pulled_P, r = pulled_r, k = pulled_k;
+    const double size = x_at(t_end - t1) + r * (t_end - t1) / k, top = pulled_f * P * size;
+    for (const auto& row : result.rows) {
+      CAPTURE(row.t);
+      const double d = std::max(0.0, row.t - t1), x = x_at(d), v = r * d * d / (2.0 * pulled_m);
+      const double foot = x + r * d / k, lost = pulled_f * P * foot;
+      const auto along = [&](const Vector& q, Eigen::Index at) { return (c * q[at] + s * q[at + 1]) / unit; };
+      const auto across = [&](const Vector& q, Eigen::Index at) {
+        return (-s * q[at] + c * q[at + 1]) / unit;
+      };
+      CHECK(std::abs(along(row.u, 0) - x) <= digits * size);
+      CHECK(std::abs(along(row.u, 2) - foot) <= digits * size);
+      CHECK(std::abs(across(row.u, 2)) <= digits * size);
+      CHECK(std::abs(across(row.u, 0)) <= digits * size);
+      CHECK(std::abs(along(row.v, 2) - (d > 0.0 ? v + r / k : 0.0)) <= digits * (v + r / k));
+      CHECK(std::abs(row.contacts[0].ut / unit - foot) <= digits * size);
+      CHECK(std::abs(row.contacts[0].N + P) <= digits * P);
+      CHECK(std::abs(row.contacts[0].T - std::min(r * row.t, pulled_f * P)) <= digits * P);
+      const double elastic = r * d * r * d / (2.0 * k), kinetic = 0.5 * pulled_m * v * v;
+      CHECK(std::abs(row.energy.elastic / unit - elastic) <= digits * top);
+      CHECK(std::abs(row.energy.kinetic / unit - kinetic) <= digits * top);
+      CHECK(std::abs(row.energy.friction / unit - lost) <= digits * top);
+      CHECK(std::abs(row.energy.loads / unit - (lost + elastic + kinetic)) <= digits * top);
+      CHECK(row.energy.contact == 0.0);
+    }
+    const Vector &u = result.rows.back().u, &v = result.rows.back().v;
+    const auto& last = result.responses.back().values;  // the foot and its rate, by outputs
+    CHECK(std::abs(last[0] - (c * u[2] + s * u[3])) <= 1e-12 * unit * size);
+    CHECK(std::abs(last[1] - (c * v[2] + s * v[3])) <= 1e-12 * unit * size);
+  };
+  for (const double angle : {0.0, 0.7}) check("exact", angle, 1.0, 1e-10);
+  check("exact", -2.1, 1000.0, 1e-10);
+  check("ida", 0.7, 1.0, 1e-7);
+}
+
+TEST_CASE(
+    "heat, tractions and pressures on nodes of a rigid seam without mass: the limit of compliant ones") {
+  const auto loaded = [](const char* engine, double degrees, const std::string& law) {
+    std::string text = dragged_blocks(engine, degrees, law);
+    text.insert(text.find("[[bodies]]\nname = \"high\""),
+                "thermal_expansion = 1e-5\ntemperature = { type = \"table\", times = [0.0, 0.06], values = "
+                "[0.0, 4.0] }\n");
+    text +=
+        "[[loads]]\ngroup = \"low.bottom\"\ntraction = 300.0\ndirection = [" +
+        fmt::format("{:.17g}, {:.17g}", std::cos(degrees * std::numbers::pi / 180.0),
+                    std::sin(degrees * std::numbers::pi / 180.0)) +
+        "]\nhistory = { type = \"harmonic\", omega = 200.0 }\n[[loads]]\ngroup = \"low.left\"\npressure = "
+        "500.0\nhistory = { type = \"harmonic\", omega = 250.0 }\n";
+    return text;
+  };
+  const auto run = [&](const char* engine, double degrees, const std::string& law) {
+    return simulate(parse_scene(loaded(engine, degrees, law), "loaded.toml"));
+  };
+  const Result limit = run("exact", 0.0, rigid_law);
+  REQUIRE(limit.report.outcome.kind == Outcome::Kind::done);
+  CHECK(limit.report.witness.violated == 0);
+  CHECK(limit.events.size() > 10);
+  const double off = farthest(limit, run("exact", 0.0, compliant_law(1e11)));
+  const double closer = farthest(limit, run("exact", 0.0, compliant_law(1e12)));
+  CHECK(off / closer == doctest::Approx(10.0).epsilon(0.1));
+  double most = 0.0;
+  for (const auto& row : limit.rows) most = std::max(most, row.energy.kinetic + row.energy.elastic);
+  for (const auto& row : limit.rows)
+    CHECK(std::abs(row.energy.balance() - limit.rows.front().energy.balance()) <= 1e-9 * most);
+  check_alike_events(limit, run("exact", 33.7, rigid_law), 1e-10);
+  check_alike_events(limit, run("ida", 0.0, rigid_law), 1e-6);
+  const auto halves = tests::halves::split_text(loaded("exact", 0.0, rigid_law), {}, 0.47);
+  CHECK(halves.events_agree);
+  CHECK(halves.state <= 1e-8);
+}
+
 TEST_CASE("rigid seams without mass: exact, ida and turned alike; laws, energy, halves") {
   const Result exact = simulate(dragged("exact", 0.0, rigid_law));
   REQUIRE(exact.report.outcome.kind == Outcome::Kind::done);
@@ -266,8 +399,7 @@ TEST_CASE("what slides at once keeps sliding where another seam closes on the wa
 }
 
 TEST_CASE(
-    "friction that makes forces without mass not unique is refused, as are loads, dampers and rebounds "
-    "there") {
+    "friction that makes forces without mass not unique is refused, as are dampers and rebounds there") {
   const auto refused = [](const std::string& text, const std::string& message) {
     CAPTURE(message);
     try {
@@ -300,8 +432,6 @@ friction = {}
           "contacts.foot.friction: the forces of this contact are not unique while it slides");
   refused(leaning("0.5", "restitution = 0.5\n"),
           "contacts.foot.restitution: fy.u has no mass, so nothing rebounds");
-  refused(leaning("0.5", "[[loads]]\ndirection = { fx = 1.0 }\namplitude = 1.0\n"),
-          "acts on it; a rigid contact there needs no load");
   std::string damped = dragged_blocks("exact", 0.0, rigid_law);
   damped.replace(damped.find("beta = 0.0"), 10, "beta = 1e-5");
   refused(damped, "damping.beta damps it");

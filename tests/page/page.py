@@ -225,6 +225,34 @@ def looks(browser):
     browser.look()
 
 
+def bodies(browser):
+    signorini("run", models / "dry-joint.toml", "-o", "joint", "--quiet")
+    path = page_of("joint")
+    check(f"dry-joint: {path.stat().st_size / 1e6:.2f} MB, less than 3", path.stat().st_size < 3e6)
+    browser.look()
+    browser.open(path)
+    clean(browser, "dry-joint")
+    # Where the page draws the nodes of the mesh beside what frame_bodies.csv says of them, at the magnification of the page.
+    rows = [line.split(",") for line in (work / "joint/frame_bodies.csv").read_text().splitlines()[1:]]
+    late = [row for row in rows if float(row[0]) == 0.12]
+    drawn = browser.run("""player.stop(0.12); const u = displacementsAt(0.12);
+        return data.nodes.map((node, k) => [node.name, u[k][0], u[k][1]]);""")
+    places = {name: (x, y) for name, x, y in drawn}
+    size = max(max(abs(float(row[5])), abs(float(row[6]))) for row in late)
+    off = max(max(abs(places[row[2]][0] - float(row[5])), abs(places[row[2]][1] - float(row[6]))) for row in late)
+    check(f"dry-joint: the mesh moves with the blocks, {off / size:.1e} of the greatest displacement off", size > 0 and off < 0.01 * size)
+    paths = browser.run("""const at = (t) => { player.stop(t); return document.querySelector('#stage > g:not(.ghost) .mesh').getAttribute('d'); };
+        return [at(0), at(0.12)]""")
+    check("dry-joint: and is drawn there", paths[0] != paths[1])
+    colours = browser.run("""player.stop(0.12); return [...document.querySelectorAll('#stage circle')].map(c => c.getAttribute('fill'))""")
+    check(f"dry-joint: nodes of the seam have the colour of their state {set(colours)}", len(colours) == 15 and len(set(colours)) == 1 and
+          colours[0] == browser.run("return data.states.find(([name]) => name === 'slip-')[1]"))
+    marks = browser.run("""const at = [...document.querySelectorAll('#stage circle')].map(c => [+c.getAttribute('cx'), +c.getAttribute('r')])
+        .sort((a, b) => a[0] - b[0]); return Math.min(...at.slice(1).map(([x, r], k) => x - at[k][0] - r - at[k][1]))""")
+    check(f"dry-joint: marks along the seam do not cover each other ({marks:.1f} px)", marks > -1)
+    browser.screenshot(pictures / "dry-joint-moved.png", whole=True)
+
+
 def hostile(browser):
     names = ["<script>owned()</script>", "%s%n", "a&amp", "</script>", "@script@", "`x`$(y)"]
     text = 'schema = 1\ntitle = "</title><script>window.owned=1</script> %s \' @data@ <!--"\n'
@@ -279,6 +307,7 @@ browser = Browser()
 try:
     pipeline(browser)
     hostile(browser)
+    bodies(browser)
     others(browser)
 finally:
     browser.close()

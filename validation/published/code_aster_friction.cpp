@@ -1,4 +1,4 @@
-// Code_Aster SDND100, SDND104, SDND106: Coulomb friction on one and two masses.
+// Code_Aster SDND100, SDND104, SDND106: Coulomb friction on one and two masses; SSNV128, SDNV104: on bodies.
 #include <array>
 
 #include "published/formulas.hpp"
@@ -141,6 +141,39 @@ std::vector<double> plate(const Settings& settings) {
   return {row.u[0], row.u[2], row.u[8], row.u[12]};  // nodes 1, 2, 5, 7 of the lowest row
 }
 
+// --- SDNV104: m x'' + c x' + k x = a + b t of a rigid pad, c = beta k of the scene
+
+struct Swing {
+  Real m, c, k;
+  struct State {
+    Real x, v;
+  };
+  /// After t, from s, under a force a + b t.
+  [[nodiscard]] State after(Real t, State s, Real a, Real b) const {
+    const Real mean = (a - b * c / k) / k, d = c / (2 * m), w = std::sqrt(k / m - d * d);
+    const Real p = s.x - mean, q = (s.v - b / k + d * p) / w, e = std::exp(-d * t);
+    const Real cos = std::cos(w * t), sin = std::sin(w * t);
+    return {mean + b / k * t + e * (p * cos + q * sin),
+            b / k + e * ((q * w - d * p) * cos - (p * w + d * q) * sin)};
+  }
+};
+
+std::vector<Figure> pushed_figures() {
+  const Real F = 200e3, friction = 0.3L * 70e3, T = 0.07L, forward = F - friction, back = F + friction;
+  const Swing pad{7000, 1e-3L * 24e3L, 24e3};
+  const Swing::State loaded = pad.after(T, {0, 0}, 0, forward / T);
+  const auto there = [&](Real t) { return pad.after(t - T, loaded, forward, 0); };
+  const Real turn = first_root([&](Real t) { return there(t).v; }, 1.0L, 1e-2L);
+  // The pad of the scene is elastic: its strains of 1e-6 beside 15 m, and its stick of 1e-5 s at the turn.
+  return {{"ux at 1.7 s, m", "14.91", there(1.7L).x, true, 1e-6},
+          {"ux at 3.4 s, m", "3.5", pad.after(3.4L - turn, {there(turn).x, 0}, back, 0).x, true, 1e-6}};
+}
+
+std::vector<double> pushed(const Settings& settings) {
+  const Result r = run("sdnv104.toml", settings);
+  return {row_at(r, 1.7).u[0], row_at(r, 3.4).u[0]};
+}
+
 }  // namespace
 
 std::vector<Case> code_aster_friction() {
@@ -149,7 +182,9 @@ std::vector<Case> code_aster_friction() {
            wear_figures, wears},
           {"SDND106, two masses", "Code_Aster V5.01.106, astest/sdnd106a.comm", 1e-5, 3e-7, 3e-7,
            pair_figures, pair},
-          {"SSNV128, plate on a plane", "Code_Aster V6.04.128", 1e-4, 0.05, 0.05, plate_figures, plate}};
+          {"SSNV128, plate on a plane", "Code_Aster V6.04.128", 1e-4, 0.05, 0.05, plate_figures, plate},
+          {"SDNV104, pad against springs", "Code_Aster V5.03.104, astest/sdnv104a.comm", 1e-3, 1e-6, 1e-5,
+           pushed_figures, pushed}};
 }
 
 }  // namespace signorini::published

@@ -28,11 +28,14 @@ DrawnElement between(const std::vector<DrawnNode>& nodes, int a, int b, DrawnEle
   return e;
 }
 
-void draw_element(const DofMap& map, std::size_t i, Model& model) {
+void draw_element(const Scene& scene, const DofMap& map, std::size_t i, Model& model) {
   const FiniteElement& e = map.mesh.element(i);
   const std::vector<ElementUnknown> unknowns = e.unknowns();
   for (const auto& [from, to, bends] : e.lines()) {
-    const auto kind = bends ? DrawnElement::Kind::beam : DrawnElement::Kind::bar;
+    const bool of_body = static_cast<std::size_t>(e.member()) >= scene.members.size();
+    const auto kind = bends     ? DrawnElement::Kind::beam
+                      : of_body ? DrawnElement::Kind::mesh
+                                : DrawnElement::Kind::bar;
     DrawnElement& drawn =
         model.drawing.emplace_back(between(model.drawn_nodes, e.nodes()[from], e.nodes()[to], kind));
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
@@ -71,7 +74,7 @@ DrawnContact drawn_contact(const ContactSpec& spec, const DofMap& map) {
 
 void add_drawing(const Scene& scene, const DofMap& map, Model& model) {
   for (std::size_t i = 0; i < map.mesh.nodes.size(); ++i) model.drawn_nodes.push_back(drawn_node(map, i));
-  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) draw_element(map, i, model);
+  for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) draw_element(scene, map, i, model);
   for (const Spring& s : scene.springs) {
     if (s.against.empty() || (s.stiffness == 0.0 && s.damping == 0.0)) continue;
     const int a = node_named(map.mesh, s.node), b = node_named(map.mesh, s.against);

@@ -1,10 +1,15 @@
 // nodal_stress.hpp: stresses of a body at its nodes, by the displacements around them.
 //
-//   sigma(x_k) = sum_e A_e sigma_e(x_k) / sum_e A_e,   sigma_e(x) = D ( sum_p L_p(x) B(x_p) u - alpha T e )
+//   sigma(x_k) = sum_j c_j sigma(x_j),   sum_j c_j q(x_j) = q(x_k) for 1, x, y (t3, q4), x^2, x y, y^2 too (t6, q8)
+//   c: the shortest of these, which is the polynomial that fits the sigma(x_j) best
 //
-// sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. e: elements at node k, A_e: their areas, x_p: points where
-// their stresses are most accurate, L_p: the (bi)linear function of point p (plane_element.hpp).
-// The mean is exact where stresses are constant, and continuous; it rounds off jumps between elements, which measure the mesh.
+// sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: the points of the elements round node k at which their
+// stresses are most accurate (plane_element.hpp). Where they do not determine the polynomial, or where it leads beyond them, as on a
+// boundary, the elements round another node of the same elements take their place: of those nodes that one which makes sum |c_j|,
+// the growth of errors at the points, least. Where none will do (a strip of one element across) it is the mean over the elements at
+// the node, weighted by areas, of the (bi)linear function in each.
+// So stresses at boundaries have the order of those inside. Jumps between elements, which measure the mesh, are rounded off.
+// Source: Zienkiewicz, Zhu, Int. J. Num. Meth. Eng. 33 (1992), 1331, with one patch a node.
 #pragma once
 
 #include <Eigen/Core>

@@ -157,6 +157,20 @@ Eigen::MatrixXd PlaneElement::stress_rows(double a, double b) const {
   return material_.stresses() * rows;
 }
 
+std::vector<PlaneElement::StressSample> PlaneElement::stress_samples() const {
+  static constexpr std::array<StressPoint, 1> middle{};
+  std::vector<StressSample> samples;
+  for (const auto& [a, b] :
+       shape_ == PlaneShape::q4 ? std::span<const StressPoint>(middle) : stress_points(shape_)) {
+    StressSample sample{{0.0, 0.0}, stress_rows(a, b)};
+    const Eigen::VectorXd values = shapes_at(shape_, a, b).values;
+    for (std::size_t k = 0; k < at_.size(); ++k)
+      for (const std::size_t c : {0, 1}) sample.at[c] += values[static_cast<Eigen::Index>(k)] * at_[k][c];
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
 Eigen::MatrixXd PlaneElement::nodal_stress_rows() const {
   const auto n = static_cast<Eigen::Index>(at_.size());
   const bool inner = shape_ == PlaneShape::q4;

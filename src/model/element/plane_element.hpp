@@ -48,6 +48,12 @@ class PlaneElement final : public FiniteElement {
   [[nodiscard]] const PlaneMaterial& material() const { return material_; }
   /// sigma_x, sigma_y, tau_xy at (a, b) by the unknowns, without heat: 3 x unknowns.
   [[nodiscard]] Eigen::MatrixXd stress_rows(double a, double b) const;
+  /// Where they are most accurate: the middle of t3 and q4, 3 points of t6, 2 x 2 of q8.
+  struct StressSample {
+    PlaneVector at{0.0, 0.0};
+    Eigen::MatrixXd rows;  ///< of stress_rows()
+  };
+  [[nodiscard]] std::vector<StressSample> stress_samples() const;
   /// The same at its nodes, rows 3 k to 3 k + 2 at node k: through the points where stresses are most accurate, extended to
   /// the nodes. t3: constant; t6: linear through 3 points; q4, q8: bilinear through 2 x 2.
   [[nodiscard]] Eigen::MatrixXd nodal_stress_rows() const;

@@ -92,7 +92,21 @@ class Maker {
     output.forces = row.forces;
     output.given = row.given;
     output.constant = row.constant;
+    for (const SeenLoad& seen : model_.seen_loads) see(seen, row, output);
     for (const PhysicalRow::Bowl& bowl : row.bowls) restore(bowl, output);
+  }
+
+  void see(const SeenLoad& seen, const PhysicalRow& row, Output& output) const {
+    const Load& load = model_.loads[seen.load];
+    const auto part = [&](const Vector& form) {
+      return form.head(seen.displacements.size()).dot(seen.displacements);
+    };
+    const double u = part(row.u), v = part(row.v), a = part(row.a);
+    if (v == 0.0 && a == 0.0) {
+      if (u != 0.0) output.given.push_back({load.history.scaled(u), load.name, u, load.of_history});
+      return;
+    }
+    output.given.push_back({load.history.with_rates(u, v, a)});
   }
 
   /// N u / R beside the spring N_0 / R of the scene, which stands in the row; N_K u / R of the model is damped by beta.

@@ -38,16 +38,19 @@ class Player {
     const svg = this.stage.svg, still = data.nodes.map(() => [0, 0, 0]);
     const ghost = drawn("g", { class: "ghost" }, svg), g = drawn("g", {}, svg);
     this.stage.fixed(g, this.magnification);
-    if (data.mesh.length) drawn("path", { class: "mesh", d: this.stage.mesh() }, ghost);
+    if (data.mesh.length) drawn("path", { class: "mesh", d: this.stage.mesh(still, 0) }, ghost);
     for (const piece of data.pieces) drawn("path", { class: "member bar", d: this.stage.piece(piece, still, 0) }, ghost);
     this.springShapes = data.springs.map(() => drawn("path", { class: "spring" }, g));
     this.touchShapes = data.contacts.map((c) => c.against.length && c.node >= 0 ? drawn("path", { class: "spring" }, g) : null);
+    this.mesh = drawn("path", { class: "mesh" }, g);
     this.members = drawn("path", { class: "member" }, g);
     this.bars = drawn("path", { class: "member bar" }, g);
     this.nodes = drawn("path", { class: "dots", "stroke-width": data.nodes.length <= 40 ? 6 : 3 }, g);
     this.loads = data.loads.map(() => drawn("path", { class: "load" }, g));
-    this.marks = data.contacts.map((contact) => drawn("circle", { r: contact.node < 0 ? 0 : Math.min(7, this.stage.mark / 2) }, g));
-    this.forces = data.contacts.map(() => drawn("path", { class: "force" }, g));  // on top: heads are seen
+    this.marks = data.contacts.map((contact) => drawn("circle",
+      { r: contact.node < 0 ? 0 : Math.max(1.5, Math.min(7, this.stage.mark / 2, 0.5 * this.stage.room(contact))) }, g));
+    this.forces = data.contacts.map((contact) => drawn("path",  // on top: heads are seen
+      { class: "force", "stroke-width": Math.max(1, Math.min(3, 0.4 * this.stage.room(contact))) }, g));
     this.greatest = 1e-300;
     for (const { motion } of data.contacts)
       motion.N.forEach((N, i) => { this.greatest = Math.max(this.greatest, Math.hypot(N, motion.T[i])); });
@@ -153,6 +156,7 @@ class Player {
     const u = displacementsAt(this.t), m = this.magnification, stage = this.stage;
     let beams = "", bars = "";
     for (const piece of data.pieces) if (piece.bar) bars += stage.piece(piece, u, m); else beams += stage.piece(piece, u, m);
+    if (data.mesh.length) put(this.mesh, "d", stage.mesh(u, m));
     put(this.members, "d", beams);
     put(this.bars, "d", bars);
     let dots = "";

@@ -31,6 +31,22 @@ const valueAt = (times, values, t) => {
 
 // Displacements of all nodes at a time: [ux, uy, rz] each; held ones are zero. The same arrays at every call.
 const moved = data ? data.nodes.map(() => [0, 0, 0]) : [];
+// Of meshes: a sum of shapes, each as large as its part at that time. A node that has a curve follows it.
+const moveMesh = (t) => {
+  const motion = data.mesh_motion;
+  if (!motion) return;
+  const free = motion.free ??= motion.nodes.map((k, i) => [k, i]).filter(([k]) => data.nodes[k].mesh);
+  const parts = motion.parts.map((part) => valueAt(motion.t, part, t));
+  for (const [k, i] of free) {
+    let x = 0, y = 0;
+    for (let j = 0; j < parts.length; ++j) {
+      x += parts[j] * motion.shapes[j][2 * i];
+      y += parts[j] * motion.shapes[j][2 * i + 1];
+    }
+    moved[k][0] = x;
+    moved[k][1] = y;
+  }
+};
 const displacementsAt = (t) => {
   const { times, columns } = data.curve;
   data.nodes.forEach((node, k) => {
@@ -39,6 +55,7 @@ const displacementsAt = (t) => {
       if (column) moved[k][i] = valueAt(times[column.t], column.u, t);
     }
   });
+  moveMesh(t);
   return moved;
 };
 
@@ -108,7 +125,14 @@ class Stage {
   // What does not move: grounds of contacts, supports. A ground stands as far off as its gap, which is magnified as the motion
   // is (m), and is as wide as its node goes.
   fixed(parent, m) {
+    const symbols = [];
     for (const support of data.supports) {
+      const node = data.nodes[support.node], kind = `${support.ux}${support.uy}${support.rz}`;
+      if (node.mesh) {  // of the nodes of a boundary as many as there is room for
+        const here = this.at(node.x, node.y);
+        if (symbols.some(([x, y, of]) => of === kind && Math.hypot(x - here[0], y - here[1]) < 24)) continue;
+        symbols.push([...here, kind]);
+      }
       const [x, y] = this.at(data.nodes[support.node].x, data.nodes[support.node].y);
       const clamp = support.rz ? `M${x - 8} ${y - 8}h16v16h-16z` : "";
       const down = support.uy ? `M${x} ${y}l-9 14h18zM${x - 12} ${y + 17}h24` : "";
@@ -122,14 +146,30 @@ class Stage {
       const foot = [x - off * nx, y - off * ny], far = m * this.pixels * this.reach(contact);
       const half = Math.min(this.wide, this.mark + far), hatches = Math.floor(half / 8);
       let path = `M${foot[0] - half * tx} ${foot[1] - half * ty}L${foot[0] + half * tx} ${foot[1] + half * ty}`;
+      const every = Math.ceil(16 / this.room(contact));  // along a seam not one over the other
+      if (every > 1 && data.contacts.indexOf(contact) % every) { drawn("path", { class: "ground", d: path }, parent); continue; }
       for (let i = -hatches; i <= hatches; ++i)
         path += `M${foot[0] + 8 * i * tx} ${foot[1] + 8 * i * ty}l${-7 * nx - 5 * tx} ${-7 * ny - 5 * ty}`;
       drawn("path", { class: "ground", d: path }, parent);
     }
   }
-  // How far its node goes along the tangent.
+  // Pixels to the next contact.
+  room(contact) {
+    if (!this.rooms) {
+      const at = data.contacts.map((c) => c.node < 0 ? [Infinity, 0] : this.at(data.nodes[c.node].x, data.nodes[c.node].y));
+      this.rooms = new Map(data.contacts.map((c, k) => [c, Math.min(100, ...at.filter((_, i) => i !== k && data.contacts[i].node !== c.node)
+        .map(([x, y]) => Math.hypot(x - at[k][0], y - at[k][1]) || 100))]));
+    }
+    return this.rooms.get(contact);
+  }
+  // How far its node goes along the tangent. Of a mesh: by the parts at each of their times.
   reach(contact) {
     const [cx, cy] = data.nodes[contact.node].u;
+    if (contact.reach === undefined && data.nodes[contact.node].mesh && data.mesh_motion) {
+      const { nodes, shapes, parts, t } = data.mesh_motion, i = nodes.indexOf(contact.node);
+      const along = shapes.map((shape) => shape[2 * i] * contact.ny - shape[2 * i + 1] * contact.nx);
+      contact.reach = i < 0 ? 0 : Math.max(...t.map((_, j) => Math.abs(along.reduce((sum, a, k) => sum + a * parts[k][j], 0))));
+    }
     if (contact.reach === undefined) {
       const { times, columns } = data.curve, both = [columns[cx], columns[cy]];
       const along = (t) => {
@@ -147,17 +187,28 @@ class Stage {
     const node = data.nodes[spring.a], [x, y] = this.at(node.x, node.y);
     return this.zigzag(end, [x - 70 * spring.dx, y + 70 * spring.dy]);
   }
-  mesh() {  // of bodies, at rest
-    return data.mesh.map(([a, b]) => {
-      const [x, y] = this.at(data.nodes[a].x, data.nodes[a].y), [X, Y] = this.at(data.nodes[b].x, data.nodes[b].y);
-      return `M${x.toFixed(1)} ${y.toFixed(1)}L${X.toFixed(1)} ${Y.toFixed(1)}`;
-    }).join("");
+  mesh(u, m) {  // of bodies
+    const places = [];
+    const text = (k) => {
+      if (!places[k]) {
+        const [x, y] = this.place(k, u, m);
+        places[k] = `${x.toFixed(1)} ${y.toFixed(1)}`;
+      }
+      return places[k];
+    };
+    let path = "";
+    for (const [a, b] of data.mesh) path += `M${text(a)}L${text(b)}`;
+    return path;
   }
   touched(contact, u, m) {
-    const places = contact.against.map((k) => this.place(k, u, m));
     const [x, y] = this.place(contact.node, u, m);
-    const X = places.reduce((sum, p) => sum + p[0], 0) / places.length, Y = places.reduce((sum, p) => sum + p[1], 0) / places.length;
-    return `M${x} ${y}L${X} ${Y}`;
+    let X = 0, Y = 0;  // by their weights, whose sum is one
+    for (const [k, part] of contact.against) {
+      const place = this.place(k, u, m);
+      X += part * place[0];
+      Y += part * place[1];
+    }
+    return `M${x.toFixed(1)} ${y.toFixed(1)}L${X.toFixed(1)} ${Y.toFixed(1)}`;
   }
 }
 
@@ -223,7 +274,7 @@ const placeLabels = (stage, g, labels) => {
 const plan = () => {
   const stage = new Stage(byId("plan")), still = data.nodes.map(() => [0, 0, 0]), g = drawn("g", {}, stage.svg);
   stage.fixed(g, 0);
-  if (data.mesh.length) drawn("path", { class: "mesh", d: stage.mesh() }, g);
+  if (data.mesh.length) drawn("path", { class: "mesh", d: stage.mesh(still, 0) }, g);
   for (const spring of data.springs) drawn("path", { class: "spring", d: stage.spring(spring, still, 0) }, g);
   for (const piece of data.pieces) drawn("path", { class: piece.bar ? "member bar" : "member", d: stage.piece(piece, still, 0) }, g);
   const few = data.nodes.filter((node) => !node.mesh).length <= 40, labels = [];

@@ -1,0 +1,94 @@
+#include "report/mesh_motion.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "base/eigen_dense.hpp"
+#include "result/csv_read.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double accuracy =
+    1e-3;  // of the greatest displacement: a quarter of a pixel where that is an eighth of 2000
+constexpr std::size_t most_on_page = 120'000;  // numbers: about 0.8 MB
+
+Json digits(double value, int count) {
+  return std::isfinite(value) ? Json(std::strtod(fmt::format("{:.{}g}", value, count).c_str(), nullptr))
+                              : Json(0.0);
+}
+
+}  // namespace
+
+void split_motion(const Eigen::MatrixXd& displacements, std::size_t most, MeshMotion& motion) {
+  motion.greatest = displacements.size() > 0 ? displacements.cwiseAbs().maxCoeff() : 0.0;
+  const Eigen::Index n = displacements.rows(), times = displacements.cols();
+  motion.shapes.resize(n, 0);
+  motion.parts.resize(times, 0);
+  if (!(motion.greatest > 0.0)) return;
+  const Eigen::MatrixXd scaled = displacements / motion.greatest;
+  const EigenPairs pairs = symmetric_eigen(scaled.transpose() * scaled);
+  const auto room = static_cast<Eigen::Index>(most / static_cast<std::size_t>(n + times));
+  Eigen::MatrixXd left = scaled;
+  for (Eigen::Index k = 1; k <= std::min(std::max<Eigen::Index>(room, 1), times); ++k) {
+    const Eigen::VectorXd w = pairs.vectors.col(times - k);
+    const Eigen::VectorXd shape = scaled * w;
+    const double size = shape.cwiseAbs().maxCoeff();
+    if (!(size > 0.0)) break;
+    left -= shape * w.transpose();
+    motion.shapes.conservativeResize(n, k);
+    motion.parts.conservativeResize(times, k);
+    motion.shapes.col(k - 1) = shape / size;
+    motion.parts.col(k - 1) = w * (size * motion.greatest);
+    if (left.cwiseAbs().maxCoeff() <= accuracy) break;
+  }
+}
+
+MeshMotion mesh_motion(const Scene& scene, const std::filesystem::path& directory) {
+  MeshMotion motion;
+  const TableFolder tables(directory);
+  if (!tables.has("body_motion.csv")) return motion;
+  CsvReader reader = tables.open("body_motion.csv");
+  std::map<std::string, std::size_t> header;
+  for (std::size_t k = 0; k < reader.header().size(); ++k) header.emplace(reader.header()[k], k);
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (const auto at = header.find(scene.nodes[i].name + ".ux"); at != header.end()) {
+      motion.nodes.push_back(static_cast<int>(i));
+      columns.push_back(at->second);
+    }
+  std::vector<double> values;
+  while (reader.next()) {
+    motion.times.push_back(reader.t());
+    for (const std::size_t column : columns)
+      for (const std::size_t axis : {0, 1}) values.push_back(reader.number(column + axis));
+  }
+  split_motion(Eigen::Map<const Eigen::MatrixXd>(values.data(), static_cast<Eigen::Index>(2 * columns.size()),
+                                                 static_cast<Eigen::Index>(motion.times.size())),
+               most_on_page, motion);
+  return motion;
+}
+
+Json mesh_motion_json(const MeshMotion& motion) {
+  if (motion.nodes.empty()) return nullptr;
+  Json times = Json::array(), shapes = Json::array(), parts = Json::array();
+  for (const double t : motion.times) times.push_back(digits(t, 9));
+  for (Eigen::Index k = 0; k < motion.shapes.cols(); ++k) {
+    Json shape = Json::array(), part = Json::array();
+    for (const double value : motion.shapes.col(k))
+      shape.push_back(digits(std::round(value * 1e4) * 1e-4, 5));
+    for (const double value : motion.parts.col(k)) part.push_back(digits(value, 6));
+    shapes.push_back(std::move(shape));
+    parts.push_back(std::move(part));
+  }
+  return {{"t", std::move(times)},
+          {"nodes", motion.nodes},
+          {"shapes", std::move(shapes)},
+          {"parts", std::move(parts)}};
+}
+
+}  // namespace signorini

@@ -148,8 +148,9 @@ struct ComplianceShare {
 struct Reduction {
   std::vector<Dof> dofs;   ///< the physical ones, to which columns and drawing refer
   Eigen::MatrixXd shapes;  ///< physical x reduced; the slip points of shear elements have no column
-  /// |x|^T |K| |x| / x^T K x of each shape: by so many roundings is its stiffness off where each entry of K is by one.
-  Vector cancellation;
+  /// |x_i|^T |K| |x_j| of two shapes; force/length: so much times a rounding is x_i^T K x_j off where each entry of K is by
+  /// one.
+  Eigen::MatrixXd stiffness_terms;
   double cutoff = 0.0;                          ///< rad per time
   int modes = 0;                                ///< kept, free motions included
   int free_modes = 0;                           ///< of them, those without stiffness

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/mixed_shapes.hpp"
 #include "certify/moved_start.hpp"
 
 namespace signorini {
@@ -49,9 +50,21 @@ class Disturber {
 
   /// Of reduced models: what is left of K's entries where they cancel.
   void shapes(const Reduction& reduction, SparseMatrix& k) {
-    for (Eigen::Index j = 0; j < reduction.cancellation.size(); ++j)
-      if (reduction.cancellation[j] > 1.0)
-        k.coeffRef(j, j) *= 1.0 + (next() - 1.0) * reduction.cancellation[j];
+    for (Eigen::Index j = 0; j < reduction.stiffness_terms.rows(); ++j) {
+      const double terms = reduction.stiffness_terms(j, j), own = k.coeff(j, j);
+      if (own > 0.0 && terms > own) k.coeffRef(j, j) += (next() - 1.0) * terms;
+    }
+  }
+  /// And of its products with other shapes.
+  void products(Model& near) {
+    const std::uint64_t own = mixed(++number_);
+    mix_shapes(
+        [&](Eigen::Index i, Eigen::Index j) {
+          const auto low = static_cast<std::uint64_t>(std::min(i, j));
+          const auto high = static_cast<std::uint64_t>(std::max(i, j));
+          return factor(own ^ mixed((high << 32U) | low)) - 1.0;
+        },
+        near);
   }
 
   void history(History& h) {
@@ -111,6 +124,7 @@ Model disturbed(const Model& model, std::uint64_t seed) {
     near.v0[i] *= disturb.next();
     if (!model.static_start) near.u0[i] *= disturb.next();
   }
+  if (model.reduction) disturb.products(near);
   if (const auto moved = moved_start(model, near)) near.u0 += *moved;  // it follows from the other data
   return near;
 }

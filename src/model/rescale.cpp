@@ -139,6 +139,8 @@ class Rescaling {
       (*this)(share.compliance, Unit{-1, 1, 0});
       (*this)(share.residual, Unit{-1, 1, 0});
     }
+    for (Eigen::Index i = 0; i < r.stiffness_terms.size(); ++i)
+      (*this)(r.stiffness_terms.data()[i], Unit{1, -1, 0});
     (*this)(r.ringing, unit::length);
     (*this)(r.initial_displacement_lost, unit::length);
     (*this)(r.initial_velocity_lost, unit::velocity);

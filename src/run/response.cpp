@@ -24,11 +24,12 @@ constexpr double most_pieces = 1e7;
 // what it does not follow (Lebesgue's constant of the points, and that itself).
 constexpr double hidden = 0.25;
 
-/// What e, of half the degree, may be for that: errors of degree n go with the power n + 1 of the part.
-double resolved(std::size_t stride) {
-  static const double of[] = {std::pow(located, 9.0 / 17.0), std::pow(located, 5.0 / 9.0),
-                              std::pow(located, 3.0 / 5.0)};
-  return stride == 1 ? of[0] : stride == 2 ? of[1] : of[2];
+/// What e, of half the degree, may be for that, where values vary by so much in a part: errors of degree n go with the power
+/// n + 1 of the part, relative to what varies there. A ripple on a large value is no part of that value.
+double resolved(std::size_t stride, double varies, double accuracy) {
+  if (!(varies > accuracy)) return accuracy;
+  const double power = stride == 1 ? 9.0 / 17.0 : stride == 2 ? 5.0 / 9.0 : 3.0 / 5.0;
+  return varies * std::pow(accuracy / varies, power);
 }
 
 /// Of displacements and velocities alone.
@@ -265,7 +266,8 @@ bool ResponseWatch::settled(const Watched& watched, Stepper& engine, const Part&
   double magnitude = 0.0;
   for (std::size_t i = watched.first; i < watched.first + watched.count; ++i)
     magnitude = std::max(magnitude, magnitudes_[i]);
-  if (error > std::max(resolved(stride) * size, rounding::of_elimination * magnitude)) return false;
+  const double asked = resolved(stride, at.greatest - at.least, located * size);
+  if (error > std::max(asked, rounding::of_elimination * magnitude)) return false;
   sharpen(watched, engine, part, stride);
   return true;
 }

@@ -144,6 +144,44 @@ stiffness = [[9.0, 0.0], [0.0, 1e8]]
   }
 }
 
+TEST_CASE("outputs: a ripple of a billionth that dies at once has its peak on a large value") {
+  // d0 = -0.19 - 0.025 t^2; d1 = v/w exp(-z t) sin w t, damped at three tenths of its critical rate
+  constexpr double omega = 2e4, v = 1.6e-5, z = 0.3 * omega, fall = 0.05;
+  const double w = std::sqrt(omega * omega - z * z);
+  const std::string text = R"(schema = 1
+units = { force = "N", mass = "kg", length = "m", time = "s" }
+[run]
+t_end = 0.01
+output_dt = 0.01
+engine = "exact"
+certify = false
+initial = { u = [-0.19, 0.0], v = [0.0, 1.6e-5] }
+[matrices]
+mass = [[1.0, 0.0], [0.0, 1.0]]
+stiffness = [[0.0, 0.0], [0.0, 4.0e8]]
+damping = [[0.0, 0.0], [0.0, 1.2e4]]
+[[loads]]
+direction = { d0 = 1.0 }
+amplitude = -0.05
+history = { type = "constant" }
+)" + output("sum", "displacement", "direction = { d0 = 1.0, d1 = 1.0 }");
+  const auto rate = [&](double t) {
+    return v * std::exp(-z * t) * (std::cos(w * t) - z / w * std::sin(w * t)) - fall * t;
+  };
+  double a = 0.0, b = 1.0 / omega * 2.0;
+  REQUIRE(rate(a) > 0.0);
+  REQUIRE(rate(b) < 0.0);
+  for (int i = 0; i < 100; ++i) (rate(0.5 * (a + b)) > 0.0 ? a : b) = 0.5 * (a + b);
+  const double peak = -0.19 - 0.5 * fall * a * a + v / w * std::exp(-z * a) * std::sin(w * a);
+  for (const char* flow : {"taylor", "modal"})
+    for (const char* t_end : {"0.01", "0.001", "0.0037"}) {
+      CAPTURE(std::string(flow));
+      CAPTURE(std::string(t_end));
+      const Computed c = compute(text, "exact", {{"run.flow", flow}, {"run.t_end", t_end}});
+      CHECK(std::abs(c.extremes("sum").maximum - peak) < 2e-12 * 0.19);
+    }
+}
+
 TEST_CASE("outputs: extremes are those of the motion, however rows are spaced") {
   // u = exp(-z t) (cos w t + z/w sin w t), u' = -exp(-z t)/w sin w t: extremes of u' where tan w t = w/z.
   const double z = 0.01, w = std::sqrt(1.0 - z * z), t = std::atan2(w, z) / w;

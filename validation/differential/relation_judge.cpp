@@ -228,8 +228,13 @@ double greatest_displacement(const SeenRun& run) {
   return greatest;
 }
 
+/// What a displacement is rounded by, relative to the greatest: engines with a step add so many increments, each rounded.
+double rounding_of_steps(const RunSpec& run) {
+  return run.dt && name_of(run.engine).accuracy == Accuracy::step ? run.t_end / *run.dt * eps : 0.0;
+}
+
 /// Forces of elements are k times a difference of displacements, which are known to some eps of the greatest.
-double rounding_of_element(const Model& model, const SeenColumn& column, double reached) {
+double rounding_of_element(const Model& model, const SeenColumn& column, double reached, double in_steps) {
   if (column.of != SeenColumn::Of::force) return 0.0;
   double greatest = std::max(model.scales.displacement, reached);
   for (Eigen::Index i = 0; i < model.u0.size(); ++i)
@@ -237,7 +242,7 @@ double rounding_of_element(const Model& model, const SeenColumn& column, double 
       greatest = std::max(greatest, std::abs(model.u0[i]));
   for (const Contact& c : model.contacts)
     if (c.name == column.contact)
-      return rounding_of_terms * greatest *
+      return std::max(rounding_of_terms, in_steps) * greatest *
              std::max(c.normal_stiffness, c.tangential_stiffness.value_or(0.0));
   return 0.0;
 }
@@ -544,10 +549,11 @@ RelationJudge::RelationJudge(Scene scene, const Bounds& bounds, bool with_peaks)
   const Model model = build_model(m_->scene);
   m_->open_start = !model.statics.doubts.empty();
   m_->shared_motion = shares_motion(model);
-  m_->floor = floors(m_->run, model.scales, rounding_of_sums + relative);
+  const double in_steps = rounding_of_steps(m_->scene.run);
+  m_->floor = floors(m_->run, model.scales, std::max(rounding_of_sums, in_steps) + relative);
   const double reached = greatest_displacement(m_->run);
   for (std::size_t j = 0; j < m_->floor.size(); ++j)
-    m_->floor[j] += rounding_of_element(model, m_->run.columns[j], reached);
+    m_->floor[j] += rounding_of_element(model, m_->run.columns[j], reached, in_steps);
 }
 
 RelationJudge::~RelationJudge() = default;

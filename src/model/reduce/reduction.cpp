@@ -371,15 +371,10 @@ void name_dofs(const Reduction& facts, const Basis& b, Model& model) {
   }
 }
 
-/// See Reduction; 1 where there is no stiffness.
-Vector cancellation(const SparseMatrix& stiffness, const Basis& b) {
-  const SparseMatrix sizes = stiffness.cwiseAbs();
-  Vector result = Vector::Ones(b.shapes.cols());
-  for (Eigen::Index j = 0; j < result.size(); ++j) {
-    const Vector x = b.shapes.col(j).cwiseAbs();
-    if (b.stiffness[j] > 0.0) result[j] = std::max(1.0, x.dot(sizes * x) / b.stiffness[j]);
-  }
-  return result;
+/// See Reduction.
+Eigen::MatrixXd stiffness_terms(const SparseMatrix& stiffness, const Basis& b) {
+  const Eigen::MatrixXd sizes = b.shapes.cwiseAbs();
+  return sizes.transpose() * (stiffness.cwiseAbs() * sizes);
 }
 
 }  // namespace
@@ -415,7 +410,7 @@ void reduce(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   reduce_contacts(scene, b, model);
   reduce_loads(b, model.beta, model.loads);
   reduce_state(scene, b, facts.modes, model, physical, facts);
-  facts.cancellation = cancellation(model.stiffness, b);
+  facts.stiffness_terms = stiffness_terms(model.stiffness, b);
   set_matrices(b, model);
   if (!scene.initial.saved) settle_start(model);
   name_dofs(facts, b, model);

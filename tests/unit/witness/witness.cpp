@@ -365,6 +365,15 @@ TEST_CASE("forces of the new state: its rows, no tension, no friction outside th
   CHECK(names(r.by(block(ground(Law::compliant))), "slip direction"));
 }
 
+TEST_CASE(
+    "the greatest velocity along n and t that an energy makes: roots of both compliances of mass, added") {
+  Model model = block(ground(Law::rigid));
+  model.mass.coeffRef(1, 1) = 5.0;
+  const double s = std::sin(angle), c = std::cos(angle);
+  const double nn = s * s / mass + c * c / 5.0, tt = c * c / mass + s * s / 5.0;
+  CHECK(Witness(model, {}).lightness(0) == doctest::Approx(std::sqrt(nn) + std::sqrt(tt)).epsilon(1e-14));
+}
+
 TEST_CASE("displacements do not jump") {
   Recorded r = sliding(0.5);
   r.u_before = along(-1e-3, 0.02001);

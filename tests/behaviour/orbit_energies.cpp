@@ -70,10 +70,10 @@ TEST_CASE("a branch over the energy is the backbone of a mass before a stop, fro
 }
 
 TEST_CASE(
-    "Code_Aster's SDND123, two masses between two stops: its energy lies below contact, the motion is "
-    "linear") {
+    "Code_Aster's SDND123, two masses between two stops: below the energy of contact the motion is linear, "
+    "above it faster") {
   // M = 1, K = (2, -1; -1, 1), stops of 30 at +-1 of the first mass. Its second mode touches at E = omega^2 (1 + 0.618^2)/2 = 1.809.
-  // Code_Aster has f = 0.257905285 at E = 1.19768 by a regularised stop that acts before it is touched: 1.5e-3 more.
+  // Code_Aster prints f = 0.257905285 at E = 1.19768, 1.5e-3 more. Its stop is regularised, which may be why: not verified.
   const double square = 0.5 * (3.0 + std::sqrt(5.0)), slope = 2.0 - square,
                f = std::sqrt(square) / (2.0 * std::numbers::pi);
   const auto text = [&](double u) {

@@ -107,22 +107,9 @@ void IdaEngine::start(const Segment& segment) {
   grazes_.start(decision.guards, levels);
   turns_.start(decision);
   watch_.start(decision.guards, std::move(levels));
-  remember(bdf_.start(segment, watch_));
-}
-
-/// The past that IDA was given, and the beginning, for the polynomials of the first steps.
-void IdaEngine::remember(const Rehearsal& past) {
-  const Decision& decision = *segment_.decision;
-  const double t = decision.jet.t;
-  for (int i = past.steps; i > 0; --i) {
-    const double x = -i * past.length;
-    on_polynomials(
-        decision.jet, x,
-        [&](Eigen::Index dof) { return model_.dofs[static_cast<std::size_t>(dof)].massless; }, point_);
-    fill(t + x, point_, i == past.steps ? history_.restart(t + x) : history_.push(t + x, past.length));
-  }
+  bdf_.start(segment, watch_);
   const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
-  fill(t, point, past.steps > 0 ? history_.push(t, past.length) : history_.restart(t));
+  fill(decision.jet.t, point, history_.restart(decision.jet.t));
 }
 
 void IdaEngine::evaluate(double t, Point& point) {

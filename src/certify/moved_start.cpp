@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/loads.hpp"
 #include "model/statics/held_rows.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -12,9 +13,7 @@ namespace {
 
 /// Forces at u0 that are left where the contacts that bear have the forces of their gaps there, rigid ones of the start.
 Vector left_over(const Model& model, const std::vector<double>& reactions) {
-  Vector force = -(model.stiffness * model.u0);
-  for (const Load& load : model.loads)
-    if (load.is_static) load.direction.add_to(force, load.history.value(0.0));
+  Vector force = static_load(model.loads, model.size()) - model.stiffness * model.u0;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& c = model.contacts[k];
     if (!c.has_gap() || !(reactions[k] > 0.0)) continue;

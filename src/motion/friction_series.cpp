@@ -13,7 +13,7 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
                                const Series& series)
     : contact_(&contact), index_(index), sign_(s) {
   if (contact.friction.by_force()) {
-    begin_by_force(s, normal, series);
+    begin_by_force(normal, series);
     return;
   }
   if (contact.shear) {
@@ -25,12 +25,12 @@ FrictionSeries::FrictionSeries(const Contact& contact, std::size_t index, int s,
 }
 
 /// N_0 follows from g or q: there is mass where such a contact acts.
-void FrictionSeries::begin_by_force(int s, const Form& normal, const Series& series) {
+void FrictionSeries::begin_by_force(const Form& normal, const Series& series) {
   const Friction& friction = contact_->friction;
   const double pressed = -normal_coefficient(*contact_, index_, normal, series, 0);
   limit_.emplace(friction, pressed);
-  row_ = sliding_row(s, limit_->slope());
-  row_.constant = s * (limit_->slope() * pressed - friction_limit(friction, pressed));
+  row_ = sliding_row(sign_, limit_->slope());
+  row_.constant = sign_ * (limit_->slope() * pressed - friction_limit(friction, pressed));
 }
 
 /// The rate of a point without mass, from the spring that holds it.

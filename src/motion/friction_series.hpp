@@ -37,7 +37,7 @@ class FrictionSeries {
   [[nodiscard]] double known(int k, const Series& series);
 
  private:
-  void begin_by_force(int s, const Form& normal, const Series& series);
+  void begin_by_force(const Form& normal, const Series& series);
   void begin_massless(int s, const Form& normal, const Series& series);
   [[nodiscard]] double slip_rate(std::size_t k, const Series& series) const;
 

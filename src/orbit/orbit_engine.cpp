@@ -1,7 +1,5 @@
 #include "orbit/orbit_engine.hpp"
 
-#include <algorithm>
-
 #include "model/decay.hpp"
 #include "run/choose_engine.hpp"
 #include "run/choose_flow.hpp"
@@ -13,8 +11,7 @@ namespace {
 
 // Chosen: a series takes a step for every 5 decay times, some hundred steps a period.
 constexpr double most_decays = 2000.0;
-constexpr Eigen::Index fewest_unknowns = 40;  // of complex modes, as in run/choose_flow.cpp
-constexpr double of_tolerance = 100.0;        // chosen: errors of a step add up over the steps of a period
+constexpr double of_tolerance = 100.0;  // chosen: errors of a step add up over the steps of a period
 
 }  // namespace
 
@@ -33,10 +30,7 @@ Flow orbit_flow(const Model& model, const RunSpec& run) {
   if (run.flow != Flow::automatic || run.engine != Engine::exact) return run.flow;
   const ModalKind kind = modal_kind(model);
   const bool can = kind.objection.empty() && kind.damped && !kind.crowded;
-  const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
-    return contact.takes_impulses() || contact.sticks_rigidly();
-  });
-  return can && !rigid && model.size() >= fewest_unknowns ? Flow::modal : run.flow;
+  return can && damped_modes_gain(model) ? Flow::modal : run.flow;
 }
 
 double orbit_state_error(const RunSpec& run) {

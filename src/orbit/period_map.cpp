@@ -76,7 +76,7 @@ class CycleRecorder final : public Recorder {
       const double force = s.force * model_.unit.force;
       grow(pass_.T_amplitude, T_[c].second - T_[c].first, force);
       const double T = sample.contacts[c].T;
-      const double limit = static_friction(model_.contacts[c]) * std::abs(sample.contacts[c].N);
+      const double limit = sticking_limit(model_.contacts[c], -std::abs(sample.contacts[c].N));
       margins_[c][0].see(sample.t, (limit - T) / force);
       margins_[c][1].see(sample.t, (limit + T) / force);
     }

@@ -20,7 +20,17 @@ constexpr int fewest_damped_unknowns = 40;  // where complex modes begin to gain
 constexpr double worth = 2.0;               // the series is so much dearer than the states' modes at least
 constexpr int most_damped_unknowns = 500;   // a state's complex modes take 120 n^2 bytes and some 5 s there
 
+bool has_rigid_rows(const Model& model) {
+  return std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
+    return contact.takes_impulses() || contact.sticks_rigidly();
+  });
+}
+
 }  // namespace
+
+bool damped_modes_gain(const Model& model) {
+  return model.size() >= fewest_damped_unknowns && !has_rigid_rows(model);
+}
 
 ModalKind modal_kind(const Model& model) {
   const std::string why = proportional_refusal(model);
@@ -41,14 +51,10 @@ FlowChoice cheaper_flow(const Model& model, const RunSpec& run, const ModalKind&
         false,
         "auto: with this many contacts, computing the modes of each contact state costs more than it saves"};
   if (!kind.damped) return {true, "auto: modes can follow the whole scene"};
-  const bool rigid = std::any_of(model.contacts.begin(), model.contacts.end(), [](const Contact& contact) {
-    return contact.takes_impulses() || contact.sticks_rigidly();
-  });
   // A symmetric trestle on rigid feet does not stay symmetric in them: nearly simultaneous landings.
-  if (rigid)
+  if (has_rigid_rows(model))
     return {false, "auto: hits of rigid contacts excite the whole mesh, so complex modes save no time"};
-  if (model.size() < fewest_damped_unknowns ||
-      worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
+  if (!damped_modes_gain(model) || worth * seconds_of_damped_states(model) > seconds_of_series(model, run))
     return {false, "auto: the complex modes of the contact states would cost as much as the series"};
   return {true, "auto: complex modes can follow the whole scene"};
 }

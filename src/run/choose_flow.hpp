@@ -27,6 +27,9 @@ struct ModalKind {
   std::string objection;  ///< empty: they can
 };
 [[nodiscard]] ModalKind modal_kind(const Model& model);
+/// Complex modes, once they are known, are cheaper than the series: unknowns enough, and no rigid contact, whose hits
+/// excite the whole mesh.
+[[nodiscard]] bool damped_modes_gain(const Model& model);
 
 /// Errors: SceneError where run.flow = "modal" and the scene has what modes cannot follow.
 [[nodiscard]] FlowChoice choose_flow(const Model& model, const RunSpec& run);

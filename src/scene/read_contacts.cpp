@@ -1,7 +1,10 @@
 // [[contacts]]: what each law needs, and what has no meaning for it.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/history/history_internal.hpp"
 #include "base/number.hpp"
@@ -15,34 +18,50 @@ namespace signorini {
 
 namespace {
 
-/// Keys of the other friction law are refused.
+/// Friction that goes from one coefficient to another: its keys, all of them required, and those of other laws, refused.
+struct VaryingFriction {
+  std::array<const char*, 3> keys;  // static_, kinetic, and the constant of the exponential
+  std::optional<double> Friction::*constant;
+  const char* required;
+  std::span<const char* const> others;
+  const char* apart;  // why others are refused
+
+  [[nodiscard]] bool is_meant(const Table& table) const {
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return table.has(key); });
+  }
+  void read(Table& table, Friction& friction) const {
+    for (const char* key : others)
+      if (table.has(key)) table.fail(key, apart);
+    for (const char* key : keys) table.require(key, required);
+    friction.static_ = table.number(keys[0]);
+    friction.kinetic = table.number(keys[1]);
+    friction.*constant = table.number(keys[2]);
+  }
+};
+
+constexpr std::array others_of_rising = {"static", "kinetic", "stribeck_velocity"};
+constexpr std::array others_of_force = {"static", "kinetic", "stribeck_velocity", "slow", "fast", "velocity"};
+
+constexpr VaryingFriction rising = {
+    {"slow", "fast", "velocity"},
+    &Friction::velocity,
+    " (required for friction that rises with the slip rate)",
+    others_of_rising,
+    "cannot be combined with slow, fast or velocity: use static, kinetic and stribeck_velocity "
+    "(friction falls with the slip rate), or slow, fast and velocity (friction rises)"};
+constexpr VaryingFriction by_force = {
+    {"light", "heavy", "force"},
+    &Friction::force,
+    " (required for friction that depends on the normal force)",
+    others_of_force,
+    "cannot be combined with light, heavy or force: friction depends on the slip rate or on the "
+    "normal force, not on both"};
+
 void read_rising_friction(Table& table, Friction& friction) {
-  for (const char* key : {"static", "kinetic", "stribeck_velocity"})
-    if (table.has(key))
-      table.fail(key,
-                 "cannot be combined with slow, fast or velocity: use static, kinetic and stribeck_velocity "
-                 "(friction falls with the slip rate), or slow, fast and velocity (friction rises)");
-  for (const char* key : {"slow", "fast", "velocity"})
-    table.require(key, " (required for friction that rises with the slip rate)");
-  friction.static_ = table.number("slow");
-  friction.kinetic = table.number("fast");
-  friction.velocity = table.number("velocity");
+  rising.read(table, friction);
   if (friction.kinetic < friction.static_)
     table.fail("fast", fmt::format("found the number {}, expected at least the slow coefficient {}",
                                    shortest(friction.kinetic), shortest(friction.static_)));
-}
-
-void read_friction_by_force(Table& table, Friction& friction) {
-  for (const char* key : {"static", "kinetic", "stribeck_velocity", "slow", "fast", "velocity"})
-    if (table.has(key))
-      table.fail(key,
-                 "cannot be combined with light, heavy or force: friction depends on the slip rate or on the "
-                 "normal force, not on both");
-  for (const char* key : {"light", "heavy", "force"})
-    table.require(key, " (required for friction that depends on the normal force)");
-  friction.static_ = table.number("light");
-  friction.kinetic = table.number("heavy");
-  friction.force = table.number("force");
 }
 
 void read_falling_friction(Table& table, Friction& friction) {
@@ -63,11 +82,9 @@ Friction read_friction(Table& contact) {
   const toml::node* node = contact.raw("friction");
   if (node && node->is_table()) {
     Table table = contact.child("friction");
-    const bool rises = table.has("slow") || table.has("fast") || table.has("velocity");
-    const bool by_force = table.has("light") || table.has("heavy") || table.has("force");
-    by_force ? read_friction_by_force(table, friction)
-    : rises  ? read_rising_friction(table, friction)
-             : read_falling_friction(table, friction);
+    by_force.is_meant(table) ? by_force.read(table, friction)
+    : rising.is_meant(table) ? read_rising_friction(table, friction)
+                             : read_falling_friction(table, friction);
     table.finish();
   } else {
     const std::string expected = describe_type(*find_key("contacts[]", "friction"));
@@ -76,16 +93,15 @@ Friction read_friction(Table& contact) {
     friction = {value, value};
   }
   Record record;
-  const bool rises = friction.rises(), by_force = friction.by_force();
-  record.set(by_force ? "light" : rises ? "slow" : "static", toml_number(friction.static_));
-  record.set(by_force ? "heavy" : rises ? "fast" : "kinetic", toml_number(friction.kinetic));
+  const VaryingFriction* law = friction.by_force() ? &by_force : friction.rises() ? &rising : nullptr;
+  record.set(law ? law->keys[0] : "static", toml_number(friction.static_));
+  record.set(law ? law->keys[1] : "kinetic", toml_number(friction.kinetic));
   for (const FrictionConstant& constant : friction_constants)
     if (const auto& value = friction.*constant.value)
       record.set(std::string(constant.key), toml_number(*value));
   contact.record("friction", record.inline_table());
   // The same at all rates, or at all forces: a number.
-  if (rises && friction.kinetic == friction.static_) friction.velocity.reset();
-  if (by_force && friction.kinetic == friction.static_) friction.force.reset();
+  if (law && friction.kinetic == friction.static_) (friction.*law->constant).reset();
   return friction;
 }
 

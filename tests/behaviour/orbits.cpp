@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "behaviour/one_mass.hpp"
+#include "behaviour/orbit_runs.hpp"
 #include "behaviour/rates.hpp"
 
 using namespace signorini;
@@ -287,32 +288,8 @@ TEST_CASE("eight masses between a stop and a Jenkins element: Phi in modes again
   CAPTURE(orbit.reason);
   REQUIRE(orbit.found);
   REQUIRE(orbit.sequence.size() >= 4);
-  const SavedState start = orbit_scene(reader_of_text(scene), orbit).initial.saved.value();
-  std::vector<std::size_t> shears;  // of contacts that stick at the section: states that a run begins with
-  for (std::size_t c = 0; c < start.shears.size(); ++c)
-    if (start.shears[c].second != 0.0 && start.slips[c].second == 0) shears.push_back(c);
-  const std::size_t size = 16 + shears.size();
-  REQUIRE(orbit.multipliers.size() == size);
-  const double h = 1e-6;
-  Eigen::MatrixXd phi(size, size);
-  for (std::size_t j = 0; j < size; ++j) {
-    Eigen::VectorXd ends[2];
-    for (int side = 0; side < 2; ++side) {
-      Scene moved = orbit_scene(reader_of_text(scene), orbit);
-      SavedState& saved = *moved.initial.saved;
-      const double step = side == 0 ? -h : h;
-      if (j >= 16) saved.shears[shears[j - 16]].second += step;
-      const std::string name = fmt::format("d{}.{}", j % 8, j < 8 ? "u" : "v");
-      for (auto& [of, value] : saved.motions)
-        if (j < 16 && of == name) value += step;
-      const Result run = simulate(moved);
-      ends[side].resize(static_cast<Eigen::Index>(size));
-      ends[side].head(16) << run.rows.back().u, run.rows.back().v;
-      for (std::size_t c = 0; c < shears.size(); ++c)
-        ends[side][static_cast<Eigen::Index>(16 + c)] = run.rows.back().contacts[shears[c]].T;
-    }
-    phi.col(static_cast<Eigen::Index>(j)) = (ends[1] - ends[0]) / (2.0 * h);
-  }
+  const Eigen::MatrixXd phi = monodromy_by_runs(scene, orbit, 8, 1e-6);
+  REQUIRE(orbit.multipliers.size() == static_cast<std::size_t>(phi.rows()));
   std::complex<double> sum = 0.0, squares = 0.0;
   for (const auto& mu : orbit.multipliers) {
     sum += mu;

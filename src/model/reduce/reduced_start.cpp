@@ -116,7 +116,7 @@ class ReducedStart {
   [[nodiscard]] double limit_of(std::size_t k) const {
     const Contact& c = model_.contacts[k];
     if (!rubs(k)) return 0.0;
-    return static_friction(c) * (c.has_gap() ? std::abs(normal_force(k)) : model_.statics.reactions[k]);
+    return sticking_limit(c, c.has_gap() ? normal_force(k) : -model_.statics.reactions[k]);
   }
   Model& model_;
   std::vector<double> shares_;  // |T| over its limit where the start was found

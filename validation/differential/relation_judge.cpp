@@ -303,14 +303,25 @@ bool is_explained(Class verdict) {
 
 namespace {
 
-/// By an engine without steps, where it takes the scene; else with a hundredth of the tolerance.
+/// With this part of all tolerances, but for that of velocities where it says which rebounds come to rest.
+Scene with_tolerances(Scene scene, double part) {
+  RunSpec& run = scene.run;
+  run.rtol = std::max(1e-14, part * run.rtol);
+  const bool says_rest = std::any_of(scene.contacts.begin(), scene.contacts.end(), [](const ContactSpec& c) {
+    return c.law == Law::rigid && !c.capture_velocity;
+  });
+  if (run.atol.displacement) *run.atol.displacement *= part;
+  if (run.atol.force) *run.atol.force *= part;
+  if (run.atol.velocity && !says_rest) *run.atol.velocity *= part;
+  return scene;
+}
+
+/// By an engine without steps, where it takes the scene; else with a hundredth of the tolerances.
 Scene better(Scene scene) {
   const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
                                    [](const ContactSpec& c) { return c.friction.varies() || c.bowl; });
-  if (linear)
-    scene.run.engine = Engine::exact;
-  else
-    scene.run.rtol = std::max(1e-14, 0.01 * scene.run.rtol);
+  if (!linear) return with_tolerances(std::move(scene), 0.01);
+  scene.run.engine = Engine::exact;
   return scene;
 }
 
@@ -324,7 +335,7 @@ std::vector<Scene> copies_of(const Scene& scene, std::size_t count) {
   }
   copies.push_back(better(scene));
   for (const double part : {0.7, 0.5, 0.85, 0.6, 0.95, 0.4, 0.75, 0.3})
-    if (copies.size() < count) copies.emplace_back(scene).run.rtol *= part;
+    if (copies.size() < count) copies.push_back(with_tolerances(scene, part));
   return copies;
 }
 
@@ -368,9 +379,7 @@ struct RelationJudge::Members {
       return *spread;
     }
     // One distance to a better run may be small by chance: other steps are another sample of the error.
-    Scene other_steps_of = scene;
-    other_steps_of.run.rtol *= 0.7;
-    spread = spread_by({better(scene), other_steps_of}, of_steps);
+    spread = spread_by({better(scene), with_tolerances(scene, 0.7)}, of_steps);
     return *spread;
   }
 

@@ -139,34 +139,34 @@ TEST_CASE("a sliding block of Q4: to the rigid block like 1/sqrt(E) at a jump, f
   for (const bool pulse : {false, true}) {
     CAPTURE(pulse);
     double before = 0.0;
-    for (const double E : {1e8, 4e8, 1.6e9}) {
+    for (const double E : {2.5e7, 1e8, 4e8}) {
       CAPTURE(E);
       const Stack stack{.degrees = 33.7, .E = E, .pulse = pulse};
       const double off = slips(stack)[0] / stack.slip() - 1.0;
       CHECK(off > 0.0);
       if (before > 0.0 && !pulse) CHECK(before / off == doctest::Approx(2.0).epsilon(0.05));
       if (before > 0.0 && pulse) CHECK(before / off >= 2.0);
-      if (E == 1.6e9) CHECK(off <= 5e-4);
+      if (E == 4e8) CHECK(off <= 1e-3);
       before = off;
     }
   }
 }
 
 TEST_CASE("a block slides alike on a ground that is turned") {
-  const double flat = slips({.pulse = false})[0];
-  CHECK(slips({.degrees = -61.0, .pulse = false})[0] == doctest::Approx(flat).epsilon(1e-9));
+  const double flat = slips({.E = 2.5e7, .pulse = false})[0];
+  CHECK(slips({.degrees = -61.0, .E = 2.5e7, .pulse = false})[0] == doctest::Approx(flat).epsilon(1e-9));
 }
 
 TEST_CASE("a stack slides where friction is least: as far as a rigid block there, nowhere else") {
   for (const auto& [below, above] : {std::pair{0.3, std::vector{0.1}}, std::pair{0.1, std::vector{0.3}}}) {
-    const Stack stack{.degrees = -21.0, .E = 4e8, .below = below, .above = above};
+    const Stack stack{.degrees = -21.0, .below = below, .above = above};
     const std::vector<double> all = slips(stack);
     for (std::size_t i = 0; i < all.size(); ++i) {
       CAPTURE(i);
       const bool slides = (i == 0 ? below : above[i - 1]) == stack.least();
       const double off = all[i] / stack.slip() - (slides ? 1.0 : 0.0);
       // Where it does not slide, the ends of the seam creep by elastic strains of f rho g h/G, 1e-7 m and less.
-      CHECK(std::abs(off) <= (slides ? 2e-3 : 1e-4));
+      CHECK(std::abs(off) <= (slides ? 8e-3 : 4e-4));
     }
   }
 }

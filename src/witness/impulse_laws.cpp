@@ -30,8 +30,11 @@ const RecordedEvent* Finder::event_of(std::size_t k) const {
 /// M (v+ - v-) is a sum along n and t, to the backward error of the solves that made v+.
 void Finder::momentum() {
   const Vector &before = *record_.before.v, &after = *record_.after.v;
+  bool any = !record_.impulses.empty() || (record_.captures.size() > 0 && !record_.captures.isZero(0.0));
+  for (int i = 0; i < model_.size() && !any; ++i) any = before[i] != after[i] && bench_.has_mass(i);
+  if (!any) return;
+  any = false;
   Vector impulse = Vector::Zero(model_.size()), size = impulse;
-  bool any = false;
   const auto push = [&](const Combination& form, double value) {
     if (value == 0.0) return;
     any = true;

@@ -217,14 +217,15 @@ void take_out_rounding(const SavedState& saved, Model& model) {
         for (const auto& term : c.tangent.terms) model.v0[term.first] = 0.0;
 }
 
-/// Displacements of a static start below the rounding of the scene's own are what its solve has left of zero. They would
-/// tell when a contact closes that just touches.
+/// A static start that bends nothing has displacements of rounding alone, below that of the scene's. They would tell when
+/// a contact closes that just touches.
 void take_out_rounding_of_statics(Model& model) {
   for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
     const double scale = turns ? model.scales.rotation : model.scales.displacement;
-    if (std::abs(model.u0[i]) <= rounding::of_few * scale) model.u0[i] = 0.0;
+    if (std::abs(model.u0[i]) > rounding::of_few * scale) return;
   }
+  model.u0.setZero();
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.

@@ -77,6 +77,10 @@ class BranchNewton {
   [[nodiscard]] Vector other_direction(Corrected at, const Vector& t) const;
   /// Of such coordinates, of length 1.
   [[nodiscard]] Vector in_norm(const Vector& raw) const;
+  /// How far v leads along t, as corrections keep it: of t itself 1.
+  [[nodiscard]] static double along(const Vector& v, const Vector& t) {
+    return holds(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
+  }
   /// From a point before to this one; nothing where the state at the section has other unknowns, or both are one.
   [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
   /// The noise of the map (shooting.hpp) is what the next corrections can reach.

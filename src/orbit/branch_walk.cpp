@@ -9,6 +9,7 @@
 #include "orbit/family_middle.hpp"
 #include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
+#include "orbit/sequence_search.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
@@ -158,20 +159,26 @@ std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& 
   const std::string sequence = sequence_of(here.pass);
   if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
   Located point{0.0, "sequence", {}, {}};
-  double other = 1.0;
-  bool seen = true;  // another sequence at `other`, not a failure
+  bool seen = true;  // another sequence at the end of the interval, not a failure
+  const auto stretches = [&](const Corrected& c) {
+    return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
+  };
   const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
-  while ((other - point.part) * ds > enough) {
-    const double middle = 0.5 * (point.part + other);
+  SequenceSearch search(stretches(here), stretches(next), enough / ds);
+  Vector way = ds * t;  // a step in x, along what was found last
+  while (!search.done()) {
+    const double x = search.next();
     const Corrected& from = point.at.done ? point.at : here;
-    Corrected c =
-        newton_.correct(newton_.moved(from.state, from.pass, (middle - point.part) * ds * t), t, from.by_s);
-    if (!c.done || sequence_of(c.pass) != sequence) {
+    Corrected c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t, from.by_s);
+    const bool same = c.done && sequence_of(c.pass) == sequence;
+    search.see(x, same, c.done ? stretches(c) : std::vector<double>());
+    if (!same) {
       seen = c.done;
-      other = middle;
       continue;
     }
-    point.part = middle;
+    const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
+    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike) way = ds / part * *secant;
+    point.part = x;
     point.at = std::move(c);
   }
   if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;

@@ -7,9 +7,10 @@
 namespace signorini {
 namespace {
 
-constexpr double balanced = 1e-5;         // two margins, in amplitudes of T. Chosen.
-constexpr double along_family = 1e-5;     // step of differences, in the norm; chosen
-constexpr double singular_family = 1e-6;  // a direction that moves no margin. Chosen.
+constexpr double balanced = 1e-5;      // two margins, in amplitudes of T. Chosen.
+constexpr double along_family = 1e-5;  // step of differences, in the norm; chosen
+constexpr double singular_family =
+    1e-6;  // a direction that moves no margin, in amplitudes of T a unit. Chosen.
 constexpr int most_centrings = 3;
 
 std::vector<std::size_t> never_slip(const Model& model, const OrbitPass& pass) {
@@ -56,7 +57,9 @@ std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton&
     if (d.cwiseAbs().maxCoeff() <= balanced * at.pass.T_amplitude) break;
     const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions);
     if (D.size() == 0) break;
-    const Vector part = shortest_solution(D, -d, singular_family);
+    // Where all else slips the structure moves with the anchor, and no force changes.
+    const Vector part = shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
+    if (!(part.norm() > 0.0)) break;
     Corrected next = newton.correct(newton.moved(at.state, at.pass, directions * part),
                                     newton.upwards(at.pass, 1.0), at.by_s);
     if (!next.done || !(imbalances(contacts, next.pass).norm() < 0.5 * d.norm())) break;

@@ -182,6 +182,7 @@ class Follower final : public MotionObserver {
       : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), memory_(kept) {}
 
   ModalMemory* memory() override { return &memory_; }
+  bool asks_peaks() override { return false; }  // extremes of outputs are sought for themselves
 
   void begin(const ObservedInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);

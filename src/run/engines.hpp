@@ -29,6 +29,7 @@ struct EngineParts {
   const Tolerance& tolerance;
   int max_order;
   ModalMemory* memory = nullptr;  ///< of `exact` in modes, of earlier runs; null: none
+  bool peaks = true;              ///< somebody asks for the turning points of contacts
 };
 
 /// An engine that does not take the scene: why, without what to use instead.

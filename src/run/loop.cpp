@@ -29,8 +29,9 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       systems_(model, structure_),
       tolerance_(tolerance_of(model, spec)),
       decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity()),
-      engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
-                           observer_ ? observer_->memory() : nullptr})),
+      engine_(
+          engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
+                       observer_ ? observer_->memory() : nullptr, !observer_ || observer_->asks_peaks()})),
       truth_(meddler_ ? std::make_unique<Model>(model) : nullptr),
       witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
                recorder),

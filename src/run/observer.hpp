@@ -42,6 +42,8 @@ class MotionObserver {
   virtual void instant(const ObservedInstant& instant) = 0;
   /// What engine `exact` in modes keeps for the next run; null: nothing.
   virtual ModalMemory* memory() { return nullptr; }
+  /// Whether anybody asks for the greatest N, T, gap and ut inside of steps. `exact` in modes looks for them only then.
+  virtual bool asks_peaks() { return true; }
   /// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.
   virtual double moves(const Step& /*step*/) { return 0.0; }
   /// The run ends here, between events.

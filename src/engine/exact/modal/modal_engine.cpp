@@ -22,14 +22,15 @@ constexpr int most_corrections = 4;      // of the time of a fall; one is enough
 }  // namespace
 
 ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         ModalMemory* memory)
+                         ModalMemory* memory, bool peaks)
     : model_(model),
       structure_(structure),
       kept_(memory != nullptr ? memory->of(model, t_end) : nullptr),
       own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
       basis_(kept_ ? kept_->basis : *own_basis_),
       taylor_(model, structure, systems, t_end),
-      turning_(model.contacts.size()) {
+      turning_(model.contacts.size()),
+      peaks_(peaks) {
   if (!basis_.failure().empty()) return;
   if (proportional_refusal(model).empty()) {
     flow_ = std::make_unique<ProportionalFlow>(model, basis_, t_end);
@@ -156,7 +157,7 @@ Step ModalEngine::advance() {
     parts_.push_back({t_, end - t_, now_});
     ModalPoint next;
     flow_->advance(now_, last ? remaining : passage.length, next);
-    flow_->find_turns(now_, t_, passage.length, parts_.size() == 1, turning_, last_turns_);
+    if (peaks_) flow_->find_turns(now_, t_, passage.length, parts_.size() == 1, turning_, last_turns_);
     now_ = std::move(next);
     t_ = end;
     if (passage.fired) {

@@ -17,9 +17,9 @@ namespace signorini {
 class ModalEngine final : public Stepper {
  public:
   /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
-  /// memory: of earlier runs, or null.
+  /// memory: of earlier runs, or null. peaks: turning points of contacts are looked for.
   ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              ModalMemory* memory = nullptr);
+              ModalMemory* memory = nullptr, bool peaks = true);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -92,6 +92,7 @@ class ModalEngine final : public Stepper {
   std::unique_ptr<ModalFlow> flow_;  // null without open modes
   ExactEngine taylor_;
   TurningPoints turning_;
+  bool peaks_;
   bool modal_ = false;
   long fallbacks_ = 0, steps_ = 0, proofs_ = 0, restarts_ = 0;
   Segment segment_;

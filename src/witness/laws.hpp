@@ -123,6 +123,7 @@ class Finder {
   void balance();
 
  private:
+  [[nodiscard]] bool is_struck() const;
   void add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave);
   /// Velocities along n and t of a contact where an impact began and where it ended.
   struct Strike {

@@ -479,15 +479,16 @@ void Decider::finish(Course& course) const {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);
-        const MotionJet* base =
-            course.so_far.empty() ? nullptr : rested(guard, c, course.so_far[c], course.instant);
+        const MotionJet* base = course.so_far.empty() ? nullptr
+                                                      : rested(model_.contacts[c], c, course.mode[c], guard,
+                                                               course.so_far[c], course.instant);
         const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
         start.at_zero =
             known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
         start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
         start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
         // What the decision took for zero is rounding to an engine, too.
-        if (start.at_zero && start.leading < 0)
+        if (start.at_zero && (start.leading < 0 || base != nullptr))
           start.noise = std::max(start.noise, std::abs(guard.form.value(now)));
         d.undecided = d.undecided || rests_at_limit(course, c, start);
       }

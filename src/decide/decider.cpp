@@ -70,7 +70,7 @@ std::vector<Fired> resting(const Decision& decision) {
   std::vector<Fired> result;
   for (std::size_t i = 0; i < decision.guards.size(); ++i) {
     const GuardStart& guard = decision.guards[i];
-    const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+    const bool limit = is_friction_limit(guard.kind);
     if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
   }
   return result;
@@ -240,7 +240,7 @@ std::vector<Block> Decider::react(Course& course) const {
       course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
     if (found.sliders) jointly[block_of_[c]] = true;
-    const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    const bool slips = is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
       // Its slip rate has come to zero, to its rounding: it is zero, whatever its next state is.
@@ -448,7 +448,7 @@ Refusal Decider::go(const Forcing& before, Course& course) {
 
 /// Does it stick at its limit from this instant on, and no derivative says for how long?
 bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard) {
-  const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+  const bool limit = is_friction_limit(guard.kind);
   const bool asked =
       course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
   return limit && asked && guard.at_zero && guard.leading < 0 &&
@@ -503,7 +503,7 @@ void Decider::note_left(const Course& course, Decision& d) const {
   const Instant& now = course.instant;
   if (now.jump || now.start || !d.released.empty()) return;
   for (const Fired& f : now.fired) {
-    const bool limit = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    const bool limit = is_friction_limit(f.guard);
     if (limit && !now.mode[f.contact].is_open() && d.mode[f.contact].is_open() && d.jumped[f.contact] &&
         carries_massless(model_, model_.contacts[f.contact]))
       d.released.push_back(f.contact);

@@ -49,7 +49,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
   // Friction limit and compression vanish together in a vertical lift-off: one separation.
-  if (soonest->guard == Guard::slip_plus || soonest->guard == Guard::slip_minus) {
+  if (is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation.form, jet, instant) &&
         separation.form.rate(jet.motion[1]) < 0.0) {

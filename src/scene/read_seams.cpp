@@ -42,7 +42,10 @@ void read_springs_of(Table& table, SeamLaw& law) {
   if (table.has("layer")) return read_layer(table, law);
   table.require("normal_stiffness", " (required for law = \"compliant\" without layer)");
   law.normal_stiffness = table.number("normal_stiffness");
-  if (!law.contact.friction.any()) return;
+  if (!law.contact.friction.any()) {
+    static_cast<void>(table.optional_number("tangential_stiffness"));  // without friction nothing loads it
+    return;
+  }
   table.require("tangential_stiffness", " (required for law = \"compliant\" with friction, without layer)");
   law.tangential_stiffness = table.number("tangential_stiffness");
   if (law.contact.friction.stribeck_velocity)

@@ -209,4 +209,16 @@ TEST_CASE("an interference reaches as far as the slave's body: no farther, and n
   }
 }
 
+TEST_CASE("of two edges behind the slave's the nearer one counts, in any order") {
+  for (const bool nearer_first : {false, true}) {
+    Line line;
+    line.add_side({0.0, 1.0, 3.0}, true, false);
+    line.add_side({-0.5, 3.5}, false, false, nearer_first ? 0.1 : 0.3);
+    line.add_side({-0.5, 3.5}, false, false, nearer_first ? 0.3 : 0.1);
+    const MortarSeam seam = line.seam();
+    REQUIRE(seam.nodes.size() == 3);
+    for (const MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-0.1).epsilon(1e-14));
+  }
+}
+
 TEST_SUITE_END();

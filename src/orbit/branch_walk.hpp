@@ -5,7 +5,8 @@
 //
 // Of a family of orbits the walk follows the one in its middle (family_middle.hpp).
 //
-// Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
+// Where no step is short enough, as where a guard grazes, the branch is sought around a corner (branch_special.cpp); else the orbit
+// a little further on by a transient.
 // Where another branch begins the walk keeps a junction:
 //
 //   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
@@ -59,6 +60,7 @@ class BranchWalk {
   [[nodiscard]] Corrected step(const Corrected& here, const Vector& t, double ds, bool last) const;
   [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
   [[nodiscard]] bool restart(Corrected& here, double sign);
+  [[nodiscard]] std::optional<std::string> beyond(const Corrected& here, const Vector& t, Corrected& next);
   [[nodiscard]] bool returns(const Corrected& here);
   bool centre(Corrected& here, const Vector& t);
   void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
@@ -71,13 +73,19 @@ class BranchWalk {
     std::string kind;
     Corrected at;
     Vector t;
+    /// Of a change of the sequence, where yet another one follows within the step: the farthest place found before that.
+    std::optional<Corrected> behind = {};
+    double behind_part = 1.0;
   };
   [[nodiscard]] std::vector<Located> located(const Corrected& here, const Corrected& next, const Vector& t,
                                              double ds) const;
+  [[nodiscard]] std::optional<BranchPlace> cross(const Corrected& here, Corrected& next, const Vector& t,
+                                                 double& length);
   [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
                                                const Corrected& next, const Vector& t, double ds) const;
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
                                                        const Vector& t, double ds) const;
+  [[nodiscard]] std::optional<Corrected> around_corner(const Corrected& here, const Vector& t) const;
   void keep_mark(const Corrected& here, const Vector& t);
   void offer_mark();
   void keep_junction(const Located& point);
@@ -102,6 +110,7 @@ class BranchWalk {
   bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one
+  bool folds_ = false;    // the parameter turns between the last two points, and no fold was located
   bool turning_ = false;  // the tangent is not the way of the branch (direction())
   bool doubled_ = false;  // it began at a flip
   double half_section_ = 0.0;

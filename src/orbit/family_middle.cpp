@@ -48,9 +48,9 @@ Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const C
 std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton& newton,
                                        const Corrected& here, const Vector& t) {
   const std::vector<std::size_t> contacts = never_slip(map.model(), here.pass);
-  const Eigen::MatrixXd directions = newton.families(here);
-  if (contacts.empty() || directions.cols() == 0) return std::nullopt;
   Corrected at = here;
+  const Eigen::MatrixXd directions = newton.families(at);
+  if (contacts.empty() || directions.cols() == 0) return std::nullopt;
   bool moved = false;
   for (int i = 0; i < most_centrings; ++i) {
     const Vector d = imbalances(contacts, at.pass);

@@ -25,7 +25,6 @@ struct OrbitPass {
   /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
-  Vector parameter_rates;     ///< of the end by the parameter, where there is one
   std::string reason;         ///< why they are not known
   std::vector<OutputExtremes> response;
   /// Least over the rows of f_s |N| - T and of f_s |N| + T, one a contact, in scales of the model.
@@ -41,8 +40,7 @@ struct OrbitLeg {
   const OrbitState& start;
   double duration;
   bool tangents = true;
-  bool outputs = false;                        ///< their extremes
-  const ModelDerivative* parameter = nullptr;  ///< of the model, the state aside
+  bool outputs = false;  ///< their extremes
 };
 
 class PeriodMap {

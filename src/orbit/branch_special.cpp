@@ -1,4 +1,4 @@
-// What lies between two points of a branch: zeros of test functions, changes of the sequence of events, corners.
+// What lies between two points of a branch: zeros of test functions, changes of the sequence of events.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,7 @@ constexpr double alike_ways = 0.9;       // cosine of two directions. Chosen.
 constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
 // In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
 constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
-constexpr double parts_apart = 1e3;      // of that: two places show the way from one to the other. Chosen.
-constexpr double longest_corner = 10.0;  // of a step round a corner, from its begin to the orbit. Chosen.
+constexpr double parts_apart = 1e3;  // of that: two places show the way from one to the other. Chosen.
 
 /// An event at the section may count twice, or not at all.
 bool event_at_section(const Corrected& at) {
@@ -138,32 +137,6 @@ void BranchWalk::keep_junction(const Located& point) {
   const Vector other = newton_.other_direction(point.at, point.t);
   keep(map_, other);
   keep(map_, -other);
-}
-
-/// Where a branch turns round by more than a right angle, no step leads on: at a graze both parts may lie on one side. The
-/// direction of the part behind is that of a state just beyond the change, to one side or the other.
-std::optional<Corrected> BranchWalk::around_corner(const Corrected& here, const Vector& t) const {
-  const std::string sequence = sequence_of(here.pass);
-  for (const double beyond : {1e-6, 1e-5, 1e-4}) {
-    Corrected probe;
-    probe.state = newton_.moved(here.state, here.pass, beyond * t);
-    probe.pass = map_.pass(probe.state);
-    const bool known =
-        probe.pass.done() && probe.pass.end_rates.size() > 0 && sequence_of(probe.pass) != sequence;
-    if (!known || newton_.size(probe.pass) != t.size()) continue;
-    const Vector way = newton_.examine(probe, t);
-    for (const double ds : {1e-3, 1e-4, 1e-5, 1e-6})
-      for (const double side : {-1.0, 1.0}) {
-        Corrected next =
-            newton_.correct(newton_.moved(here.state, here.pass, side * ds * way), side * way, probe.by_s);
-        if (!next.done || sequence_of(next.pass) == sequence) continue;
-        const auto gone = newton_.difference({here.pass.begin, here.state.duration, here.state.s}, next);
-        if (!gone || gone->norm() > longest_corner * ds) continue;
-        newton_.examine(next, side * way);
-        return next;
-      }
-  }
-  return std::nullopt;
 }
 
 }  // namespace signorini

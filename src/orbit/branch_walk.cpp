@@ -50,18 +50,6 @@ bool BranchWalk::restart(Corrected& here, double sign) {
   return transient.done() && close(orbit_state(transient.end));
 }
 
-/// Where no step is short enough: the orbit around a corner, or a little further on. Says which; nothing: none is found.
-std::optional<std::string> BranchWalk::beyond(const Corrected& here, const Vector& t, Corrected& next) {
-  if (std::optional<Corrected> behind = around_corner(here, t)) {
-    next = std::move(*behind);
-    folds_ = true;
-    return "";
-  }
-  next = here;
-  return restart(next, t[t.size() - 1] < 0.0 ? -1.0 : 1.0) ? std::optional<std::string>("restart")
-                                                           : std::nullopt;
-}
-
 /// To the middle of the family that the orbit is one of.
 bool BranchWalk::centre(Corrected& here, const Vector& t) {
   std::optional<Corrected> middle = family_middle(map_, newton_, here, t);
@@ -250,14 +238,13 @@ void BranchWalk::walk(Corrected here, Vector t) {
       ds = 0.5 * length;
       if (ds >= shortest_step) continue;
       const std::string why = next.reason;
-      const auto found = beyond(here, t, next);
-      if (!found) {
+      next = here;
+      special = "restart";
+      if (!restart(next, along < 0.0 ? -1.0 : 1.0)) {
         end_ = fmt::format("at {} = {:.9g} no step is short enough, and no orbit is found beyond: {}",
                            options_.path, value(here), why);
         return;
       }
-      special = *found;
-      if (special.empty()) place = BranchPlace{here.pass.begin, here.state.duration, here.state.s};
       ds = 0.25 * options_.step;
     }
     cut_anew(next, place);

@@ -5,8 +5,7 @@
 //
 // Of a family of orbits the walk follows the one in its middle (family_middle.hpp).
 //
-// Where no step is short enough, as where a guard grazes, the branch is sought around a corner (branch_special.cpp); else the orbit
-// a little further on by a transient.
+// Where no step is short enough, as where a guard grazes, the orbit a little further on is looked for by a transient.
 // Where another branch begins the walk keeps a junction:
 //
 //   flip            (Phi + I) v = 0: the orbit of twice the period leaves along v
@@ -60,7 +59,6 @@ class BranchWalk {
   [[nodiscard]] Corrected step(const Corrected& here, const Vector& t, double ds, bool last) const;
   [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
   [[nodiscard]] bool restart(Corrected& here, double sign);
-  [[nodiscard]] std::optional<std::string> beyond(const Corrected& here, const Vector& t, Corrected& next);
   [[nodiscard]] bool returns(const Corrected& here);
   bool centre(Corrected& here, const Vector& t);
   void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
@@ -85,7 +83,6 @@ class BranchWalk {
                                                const Corrected& next, const Vector& t, double ds) const;
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
                                                        const Vector& t, double ds) const;
-  [[nodiscard]] std::optional<Corrected> around_corner(const Corrected& here, const Vector& t) const;
   void keep_mark(const Corrected& here, const Vector& t);
   void offer_mark();
   void keep_junction(const Located& point);

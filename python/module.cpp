@@ -25,6 +25,7 @@
 
 #include "base/version.hpp"
 #include "result/run_directory.hpp"
+#include "result/run_tables.hpp"
 #include "result/summary.hpp"
 #include "scene/schema.hpp"
 #include "signorini/certify.hpp"
@@ -178,6 +179,10 @@ py::dict contact_tables(const Model& model, const std::vector<Result::Row>& rows
     table["slip"] = of(&ContactSample::slip);
     table["N"] = of(&ContactSample::N);
     table["T"] = of(&ContactSample::T);
+    table["ratio"] = column(rows, [&](const auto& row) {
+      return friction_ratio(model.contacts[k], row.contacts[k])
+          .value_or(std::numeric_limits<double>::quiet_NaN());
+    });
     tables[model.contacts[k].name.c_str()] = table;
   }
   return tables;

@@ -281,7 +281,7 @@ std::string reduction_lines(const Model& model) {
   text += fmt::format("         {} without mass", count(r.massless_shapes, "static shape", "static shapes"));
   if (r.massive_shapes > 0)
     text += fmt::format(", {} with mass up to {} {}", r.massive_shapes, number(r.highest_massive), per_time);
-  text += fmt::format("; oscillations after jumps of loads are left out, with an amplitude of {} {}\\n",
+  text += fmt::format("; oscillations after jumps of loads are left out, with an amplitude of {} {}\n",
                       number(r.ringing), model.units.length);
   const std::string give = unit(model.units.length + "/" + model.units.force);
   Table table({"static compliance", "all modes" + give, "left out" + give, "share"},
@@ -335,9 +335,9 @@ std::string cost_lines(const Scene& scene, const Model& model, const CheckReport
            measured;
   return text +
          fmt::format(
-             "      estimate: {:.0f} steps per period of the highest frequency, thus {} steps, {},\\n      "
+             "      estimate: {:.0f} steps per period of the highest frequency, thus {} steps, {},\n      "
              "and about 30 steps more for each event; this estimate is too high if the highest modes are not "
-             "excited\\n",
+             "excited\n",
              effort.steps_per_period, rough(effort.steps), time) +
          exact + measured;
 }

@@ -48,6 +48,10 @@ enum class Guard : unsigned char {
   own_3
 };
 [[nodiscard]] const char* to_string(Guard guard);
+/// The limit of friction, on either side.
+[[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
+  return guard == Guard::slip_plus || guard == Guard::slip_minus;
+}
 /// "compliant", "slider": as in a scene file.
 [[nodiscard]] const char* to_string(Law law);
 /// The same of a contact: "rigid" where its springs are borrowed, the name of a law of its own where that has one.

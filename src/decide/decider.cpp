@@ -70,7 +70,7 @@ std::vector<Fired> resting(const Decision& decision) {
   std::vector<Fired> result;
   for (std::size_t i = 0; i < decision.guards.size(); ++i) {
     const GuardStart& guard = decision.guards[i];
-    const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+    const bool limit = is_friction_limit(guard.kind);
     if (limit && guard.at_zero && guard.leading < 0) result.push_back({contact_of_guard(i), guard.kind});
   }
   return result;
@@ -240,7 +240,7 @@ std::vector<Block> Decider::react(Course& course) const {
       course.decision.crossings[c] = crossing(f.form, course.jets[c]);
     course.decision.visited[c] = true;
     if (found.sliders) jointly[block_of_[c]] = true;
-    const bool slips = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    const bool slips = is_friction_limit(f.guard);
     const bool joins = contact.sticks_rigidly() && (found.sliders || systems_.may_share(c));
     if (!contact.takes_impulses() && !joins) {
       // Its slip rate has come to zero, to its rounding: it is zero, whatever its next state is.
@@ -448,7 +448,7 @@ Refusal Decider::go(const Forcing& before, Course& course) {
 
 /// Does it stick at its limit from this instant on, and no derivative says for how long?
 bool Decider::rests_at_limit(const Course& course, std::size_t c, const GuardStart& guard) {
-  const bool limit = guard.kind == Guard::slip_plus || guard.kind == Guard::slip_minus;
+  const bool limit = is_friction_limit(guard.kind);
   const bool asked =
       course.instant.start || course.instant.jump || course.decision.visited[c] || course.found.decided[c];
   return limit && asked && guard.at_zero && guard.leading < 0 &&
@@ -479,15 +479,16 @@ void Decider::finish(Course& course) const {
       GuardStart start{guard.kind, guard.form};
       if (guard.kind != Guard::none) {
         const Known known = course.found.known[c].of(guard.kind);
-        const MotionJet* base =
-            course.so_far.empty() ? nullptr : rested(guard, c, course.so_far[c], course.instant);
+        const MotionJet* base = course.so_far.empty() ? nullptr
+                                                      : rested(model_.contacts[c], c, course.mode[c], guard,
+                                                               course.so_far[c], course.instant);
         const Sign sign = sign_of_guard(guard.form, jet, course.instant, known, base);
         start.at_zero =
             known.zeros > 0 || (base ? sign.order > 0 : starts_at_zero(guard.form, jet, course.instant));
         start.noise = course.instant.blur * guard.form.magnitude(jet.noise[0]);
         start.leading = sign.order < static_cast<int>(jet.motion.size()) ? sign.order : -1;
         // What the decision took for zero is rounding to an engine, too.
-        if (start.at_zero && start.leading < 0)
+        if (start.at_zero && (start.leading < 0 || base != nullptr))
           start.noise = std::max(start.noise, std::abs(guard.form.value(now)));
         d.undecided = d.undecided || rests_at_limit(course, c, start);
       }
@@ -502,7 +503,7 @@ void Decider::note_left(const Course& course, Decision& d) const {
   const Instant& now = course.instant;
   if (now.jump || now.start || !d.released.empty()) return;
   for (const Fired& f : now.fired) {
-    const bool limit = f.guard == Guard::slip_plus || f.guard == Guard::slip_minus;
+    const bool limit = is_friction_limit(f.guard);
     if (limit && !now.mode[f.contact].is_open() && d.mode[f.contact].is_open() && d.jumped[f.contact] &&
         carries_massless(model_, model_.contacts[f.contact]))
       d.released.push_back(f.contact);

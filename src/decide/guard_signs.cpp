@@ -36,7 +36,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
     Known guard_known = known.of(guard.kind);
     if (fell && guard.form.value(jet.motion[0]) > 0.0)
       guard_known.zeros = std::max<std::size_t>(1, guard_known.zeros);
-    const MotionJet* base = so_far ? rested(guard, c, *so_far, instant) : nullptr;
+    const MotionJet* base = so_far ? rested(contact, c, state, guard, *so_far, instant) : nullptr;
     Sign sign = sign_of_guard(guard.form, jet, instant, guard_known, base);
     if (fell && !instant.jump && sign.sign > 0 && sign.order == 1) {
       guard_known.zeros = std::max<std::size_t>(2, guard_known.zeros);
@@ -49,7 +49,7 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
   }
   if (!soonest || soonest->sign.order == 0) return soonest;
   // Friction limit and compression vanish together in a vertical lift-off: one separation.
-  if (soonest->guard == Guard::slip_plus || soonest->guard == Guard::slip_minus) {
+  if (is_friction_limit(soonest->guard)) {
     const GuardForm& separation = all[0];
     if (separation.kind == Guard::separation && starts_at_zero(separation.form, jet, instant) &&
         separation.form.rate(jet.motion[1]) < 0.0) {
@@ -62,10 +62,18 @@ std::optional<Failure> failure_of(const Contact& contact, std::size_t c, const M
 
 }  // namespace
 
-const MotionJet* rested(const GuardForm& guard, std::size_t contact, const MotionJet& so_far,
-                        const Instant& instant) {
-  const bool is_zero = guard.form.value(so_far.motion[0]) <= zero_of(guard.form, so_far, instant, 0);
-  return is_zero && instant.has_rested(contact, guard.kind) ? &so_far : nullptr;
+const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
+                        const GuardForm& guard, const MotionJet& so_far, const Instant& instant) {
+  const auto rests = [&](const GuardForm& limit) {
+    const bool is_zero = limit.form.value(so_far.motion[0]) <= zero_of(limit.form, so_far, instant, 0);
+    return is_zero && instant.has_rested(c, limit.kind);
+  };
+  bool any = rests(guard);
+  if (guard.kind == Guard::sliding && !contact.own && contact.tangential_stiffness)
+    for (const GuardForm& limit : guards(contact, ContactState{State::stick, state.anchor}))
+      any = any || (limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus) &&
+                    rests(limit));
+  return any ? &so_far : nullptr;
 }
 
 Sign sign_after(const Form& form, const MotionJet& jet, const Instant& instant, std::size_t first,

@@ -64,8 +64,10 @@ struct Sign {
   double excess = 0.0;  // that derivative's magnitude over what counts as zero
 };
 
-/// so_far, the motion of the contact up to the instant, where the guard has rested and has not risen since; else null.
-[[nodiscard]] const MotionJet* rested(const GuardForm& guard, std::size_t contact, const MotionJet& so_far,
+/// so_far, the motion of the contact up to the instant, where the guard has rested and has not risen since; else null. Of
+/// the slip rate of a state that slips, p' = -(fs |N| - T)' / kt: where the limit has rested that it left.
+[[nodiscard]] const MotionJet* rested(const Contact& contact, std::size_t c, const ContactState& state,
+                                      const GuardForm& guard, const MotionJet& so_far,
                                       const Instant& instant);
 /// Sign of the first derivative of the form, from `first` on, that is not zero to working precision.
 /// base: a motion in which the form is zero, whatever rounding has left of it; what counts is the difference.

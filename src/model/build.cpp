@@ -188,8 +188,9 @@ void add_results(const Scene& scene, const DofMap& map, const std::optional<Borr
 /// A saved state at rest has velocities of rounding alone. Displacements are known to rounding, and within the period of
 /// the fastest mode that makes
 ///     |v| <= of_many omega_max max |u|,   translations and rotations each.
-/// They would tell which way a contact at its limit slips.
-void take_out_rounding(Model& model) {
+/// They would tell which way a contact at its limit slips. Beside bodies that move the same holds of a contact that was left
+/// without slip: what it sticks to rests where all velocities along its tangent are as small.
+void take_out_rounding(const SavedState& saved, Model& model) {
   double u[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
   for (int i = 0; i < model.size(); ++i) {
     const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
@@ -197,7 +198,34 @@ void take_out_rounding(Model& model) {
     v[turns] = std::max(v[turns], std::abs(model.v0[i]));
   }
   const double rate = rounding::of_many * model.omega_max;
-  if (v[0] <= rate * u[0] && v[1] <= rate * u[1]) model.v0.setZero();
+  if (v[0] <= rate * u[0] && v[1] <= rate * u[1]) {
+    model.v0.setZero();
+    return;
+  }
+  const auto rests = [&](const std::pair<int, double>& term) {
+    const bool turns = model.dofs[static_cast<std::size_t>(term.first)].rotation;
+    return std::abs(model.v0[term.first]) <= rate * u[turns];
+  };
+  const auto touches = [&](const Contact& c) {
+    return c.is_pressed() ||
+           c.gap_at(model.u0) <= rounding::of_many * (std::abs(c.gap) + c.normal.magnitude(model.u0));
+  };
+  for (const auto& [name, sign] : saved.slips)
+    for (const Contact& c : model.contacts)
+      if (sign == 0 && c.name == name && c.sticks_rigidly() && touches(c) &&
+          std::all_of(c.tangent.terms.begin(), c.tangent.terms.end(), rests))
+        for (const auto& term : c.tangent.terms) model.v0[term.first] = 0.0;
+}
+
+/// A static start that bends nothing has displacements of rounding alone, below that of the scene's. They would tell when
+/// a contact closes that just touches.
+void take_out_rounding_of_statics(Model& model) {
+  for (Eigen::Index i = 0; i < model.u0.size(); ++i) {
+    const bool turns = model.dofs[static_cast<std::size_t>(i)].rotation;
+    const double scale = turns ? model.scales.rotation : model.scales.displacement;
+    if (std::abs(model.u0[i]) > rounding::of_few * scale) return;
+  }
+  model.u0.setZero();
 }
 
 /// In the units of the scene that is given, each of which is so many of those in which numbers are shown.
@@ -236,12 +264,13 @@ Model assembled(const Scene& scene, const Factors& unit, bool doubted = true) {
   set_damping(scene, assembly.dampers, model);
   add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = highest_frequency(model);
-  if (scene.initial.saved) take_out_rounding(model);
+  if (scene.initial.saved) take_out_rounding(*scene.initial.saved, model);
   model.scales = find_scales(model, map, closed, scene.run.t_end);
   if (const SavedState* before = same_run(scene); before && before->scales) {
     const auto& s = *before->scales;
     model.scales = {s[0], s[1], s[2], s[3], s[4]};
   }
+  if (model.static_start) take_out_rounding_of_statics(model);
   check_rigid_contacts(scene, model);
   if (doubted)
     for (std::string& doubt : doubts(scene, map, model)) model.warnings.push_back(std::move(doubt));

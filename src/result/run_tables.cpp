@@ -9,13 +9,6 @@ namespace {
 
 double at(const Vector& u, int dof) { return dof < 0 ? 0.0 : u[dof]; }  // below zero: held by a support
 
-/// |T| / |N|; nothing where it has no meaning.
-std::optional<double> friction_ratio(const ContactRow& row) {
-  const ContactSample& s = row.sample;
-  if (!row.contact.has_friction() || is_open(s.state) || s.N == 0.0) return std::nullopt;
-  return std::abs(s.T) / std::abs(s.N);
-}
-
 /// A member of an event: the contact as its name.
 struct EventCell {
   CsvBlock& block;
@@ -29,6 +22,11 @@ struct EventCell {
 };
 
 }  // namespace
+
+std::optional<double> friction_ratio(const Contact& contact, const ContactSample& s) {
+  if (!contact.has_friction() || is_open(s.state) || s.N == 0.0) return std::nullopt;
+  return std::abs(s.T) / std::abs(s.N);
+}
 
 CsvTable<Event> event_table(const Model& model) {
   CsvTable<Event> table;
@@ -54,7 +52,7 @@ const CsvTable<ContactRow>& contact_table() {
       {"slip", [](const R& r) { return r.sample.slip; }},
       {"N", [](const R& r) { return r.sample.N; }},
       {"T", [](const R& r) { return r.sample.T; }},
-      {"ratio", friction_ratio},
+      {"ratio", [](const R& r) { return friction_ratio(r.contact, r.sample); }},
   };
   return table;
 }

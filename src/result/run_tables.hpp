@@ -12,6 +12,7 @@
 // Writers and pictures take columns from here, by name. A model is kept by reference.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "result/table.hpp"
@@ -27,6 +28,8 @@ struct ContactRow {
   const Contact& contact;
   const ContactSample& sample;
 };
+/// |T| / |N|; nothing without friction, where the contact is open or N is zero.
+[[nodiscard]] std::optional<double> friction_ratio(const Contact& contact, const ContactSample& sample);
 /// contacts.csv and motion.csv.
 [[nodiscard]] const CsvTable<ContactRow>& contact_table();
 

@@ -79,12 +79,14 @@ void RunWitness::instant(const Instant& now) {
   InstantRecord record;
   record.t = now.t;
   record.resolution = now.resolution;
-  record.before = motion_.side(*now.forcing_before, now.t, now.dependence);
+  record.before = std::move(before_);  // their memory is used again
+  record.after = std::move(after_);
+  motion_.fill(*now.forcing_before, now.t, now.dependence, record.before);
   record.before.u = &now.before->u;
   record.before.v = &now.before->v;
   record.before.forces = &now.before->forces;
   record.before.mode = now.mode_before;
-  record.after = motion_.side(*now.forcing_after, now.t, now.dependence);
+  motion_.fill(*now.forcing_after, now.t, now.dependence, record.after);
   const Vector forces = d.jet.forces.col(0), a = d.jet.a();
   record.after.u = &d.u;
   record.after.v = &d.v;
@@ -115,10 +117,14 @@ void RunWitness::instant(const Instant& now) {
   record.dependence = now.dependence;
   if (holds_) held_forces_ = std::max(held_forces_, witness_.held_forces(record.after));
   for (std::size_t k = 0; k < passed_.size(); ++k)
-    passed_[k].place = std::max(passed_[k].place, see(model_.contacts[k], k, record.before).place);
+    passed_[k].surface = std::max(passed_[k].surface, std::abs(record.before.driven[k].s));
+  for (const std::size_t turns : {0U, 1U})
+    reached_[turns] = std::max(reached_[turns], record.before.u_reach[turns]);
   if (recorder_.wants_instants()) recorder_.instant(row_of(record));
   keep(witness_.instant(record));
   motion_.leave(*now.forcing_after, now.t);
+  before_ = std::move(record.before);
+  after_ = std::move(record.after);
 }
 
 void RunWitness::between(double t, const Forcing& forcing, const Mode& mode, const Point& point,
@@ -173,14 +179,30 @@ void RunWitness::passes(std::size_t k, double t, const Forcing& forcing, const P
   p.most.tangential = std::max(p.most.tangential, std::abs(ut - p.ut0));
 }
 
+/// The size of the terms of a contact's g and ut, where each displacement is the farthest of its kind.
+double RunWitness::place_of(std::size_t k) const {
+  const Contact& c = model_.contacts[k];
+  const auto size = [&](const Combination& form) {
+    double of_form = 0.0, of_u = reached_[0] * reached_[0];
+    for (const auto& [dof, factor] : form.terms) {
+      const double reach = reached_[model_.dofs[static_cast<std::size_t>(dof)].rotation];
+      of_form += factor * factor;
+      of_u += reach * reach;
+    }
+    return std::sqrt(of_form * of_u);
+  };
+  return size(c.normal) + size(c.tangent) + std::abs(c.gap) + passed_[k].surface;
+}
+
 void RunWitness::peaks(double t, const std::vector<Peak>& told) {
   for (std::size_t k = 0; k < passed_.size() && k < told.size(); ++k) {
     const Contact& c = model_.contacts[k];
     const PassedPeak& p = passed_[k];
     // Of the same sums, but each at its own points. What is held moves by the rounding of the scene's displacements.
     const WitnessLimits& tol = engine_.limits;
-    const double length = rounding::of_elimination * (p.place + model_.scales.displacement) +
-                          of_tolerance * (tol.rtol * p.place + tol.displacement);
+    const double place = place_of(k);
+    const double length = rounding::of_elimination * (place + model_.scales.displacement) +
+                          of_tolerance * (tol.rtol * place + tol.displacement);
     const double force = (c.normal_stiffness + c.tangential_stiffness.value_or(0.0)) * length +
                          (rounding::of_elimination + of_tolerance * tol.rtol) * (p.most.N + p.most.T) +
                          (c.has_spring() ? 0.0 : rounding::of_elimination * held_forces_) +

@@ -15,7 +15,7 @@ inline constexpr std::size_t most_violations = 100;  // of a run, that are kept;
 
 /// Where a contact was at the start, and the farthest that it was seen from there.
 struct PassedPeak {
-  double g0 = 0.0, ut0 = 0.0, place = 0.0;  // place: Sight
+  double g0 = 0.0, ut0 = 0.0, surface = 0.0;  // surface: the farthest place of its own surface
   Peak most;
 };
 
@@ -54,16 +54,18 @@ class RunWitness {
  private:
   void start_peaks(const Instant& now);
   void keep(std::vector<Violation> found);
+  [[nodiscard]] double place_of(std::size_t k) const;
 
   const Model& model_;
   Recorder& recorder_;
   const WitnessedEngine engine_;
   Witness witness_;
   WitnessedMotion motion_;
-  WitnessedSide point_;  // between instants
+  WitnessedSide point_, before_, after_;  // between instants, and of one
   std::vector<PassedPeak> passed_;
-  bool holds_ = false;        // some contact has no spring: its forces hold accelerations
-  double held_forces_ = 0.0;  // greatest Witness::held_forces, where one holds
+  std::array<double, 2> reached_ = {0.0, 0.0};  // the greatest WitnessedSide::u_reach
+  bool holds_ = false;                          // some contact has no spring: its forces hold accelerations
+  double held_forces_ = 0.0;                    // greatest Witness::held_forces, where one holds
   Testimony testimony_;
   std::string grave_;
 };

@@ -83,11 +83,15 @@ WitnessedMotion::WitnessedMotion(const Model& model, const WitnessedEngine& engi
       massless_(
           std::any_of(model.dofs.begin(), model.dofs.end(), [](const Dof& dof) { return dof.massless; })),
       step_(engine.limits.step),
-      jerk_(model.contacts.size(), 0.0) {}
+      jerk_(model.contacts.size(), 0.0) {
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)
+    if (!model.contacts[k].surface_motion.is_constant() || !model.contacts[k].normal_force.is_constant())
+      driven_.push_back(k);
+}
 
 void WitnessedMotion::leave(const Forcing& forcing, double t) {
   if (!(step_ > 0.0)) return;
-  for (std::size_t k = 0; k < jerk_.size(); ++k) jerk_[k] = std::abs(forcing.surface(k, t, 3));
+  for (const std::size_t k : driven_) jerk_[k] = std::abs(forcing.surface(k, t, 3));
 }
 
 WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dependence) const {
@@ -96,24 +100,32 @@ WitnessedSide WitnessedMotion::side(const Forcing& forcing, double t, double dep
   return side;
 }
 
+Driven WitnessedMotion::driven_at(std::size_t k, const Forcing& forcing, double t) const {
+  Driven d;
+  d.s = forcing.surface(k, t, 0);
+  d.ds = forcing.surface(k, t, 1);
+  d.dds = forcing.surface(k, t, 2);
+  d.q = forcing.pressing(k, t, 0);
+  d.dq = forcing.pressing(k, t, 1);
+  d.ddq = forcing.pressing(k, t, 2);
+  if (step_ > 0.0)
+    d.drift = step_ * step_ / 12.0 *
+              (jerk_[k] + std::abs(forcing.surface(k, t, 3)) + step_ * std::abs(forcing.surface(k, t, 4)));
+  return d;
+}
+
 void WitnessedMotion::fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const {
   for (std::size_t turns : {0U, 1U}) {
     side.u_reach[turns] = std::max(u_reach_[turns], dependence * of_round_trip * u_modal_[turns]);
     side.v_reach[turns] = std::max(v_reach_[turns], dependence * of_round_trip * v_modal_[turns]);
   }
-  side.driven.resize(model_.contacts.size());
-  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
-    side.driven[k] = {forcing.surface(k, t, 0),
-                      forcing.surface(k, t, 1),
-                      forcing.surface(k, t, 2),
-                      forcing.pressing(k, t, 0),
-                      forcing.pressing(k, t, 1),
-                      forcing.pressing(k, t, 2),
-                      k < speeds_.size() ? speeds_[k] : 0.0,
-                      step_ > 0.0 ? step_ * step_ / 12.0 *
-                                        (jerk_[k] + std::abs(forcing.surface(k, t, 3)) +
-                                         step_ * std::abs(forcing.surface(k, t, 4)))
-                                  : 0.0};
+  side.speeds = speeds_.empty() ? nullptr : speeds_.data();
+  if (side.driven.size() == model_.contacts.size()) {
+    for (const std::size_t k : driven_) side.driven[k] = driven_at(k, forcing, t);
+  } else {
+    side.driven.clear();
+    for (std::size_t k = 0; k < model_.contacts.size(); ++k) side.driven.push_back(driven_at(k, forcing, t));
+  }
   if (!massless_) return;
   side.loads.resize(3);
   for (int order = 0; order < 3; ++order) {

@@ -47,16 +47,20 @@ class WitnessedMotion {
                                                        double dependence) const;
   /// dependence: Stepper::dependence() of the motion up to t.
   [[nodiscard]] WitnessedSide side(const Forcing& forcing, double t, double dependence) const;
-  /// The same into one that is there, whose memory is used again.
+  /// The same into one that is there, whose memory is used again: one of this motion, whose contacts that nothing drives
+  /// stay as they are; or one without `driven`.
   void fill(const Forcing& forcing, double t, double dependence, WitnessedSide& side) const;
   /// Of an instant, with the forcing after it.
   void leave(const Forcing& forcing, double t);
 
  private:
+  [[nodiscard]] Driven driven_at(std::size_t k, const Forcing& forcing, double t) const;
+
   const Model& model_;
   bool sums_over_modes_, massless_;
-  double step_;               // WitnessLimits::step
-  std::vector<double> jerk_;  // |s'''| of each surface just after the last instant
+  double step_;                      // WitnessLimits::step
+  std::vector<std::size_t> driven_;  // contacts whose surface or compression may change
+  std::vector<double> jerk_;         // |s'''| of each surface just after the last instant
   std::array<double, 2> u_reach_ = {0.0, 0.0}, v_reach_ = {0.0, 0.0};  // WitnessedSide
   double energy_ = 0.0;                                                // greatest Witness::twice_energy
   std::vector<double> lightness_, speeds_;  // of each contact; times the root of energy_

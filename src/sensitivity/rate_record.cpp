@@ -145,18 +145,20 @@ void RateRecord::add_energies(const TangentSample& s, std::size_t p, std::vector
 void RateRecord::see(std::size_t c, std::size_t which, double t, Seen seen) {
   Peak& peak = peaks_[c][which];
   if (!(std::abs(seen.value) > peak.size)) return;
-  peak = {std::abs(seen.value), seen.value, t, std::move(seen.rates), std::move(seen.t_rates)};
+  peak = {std::abs(seen.value), seen.value, t, seen.turn, std::move(seen.rates), std::move(seen.t_rates)};
 }
 
-/// At a turn the rate is zero, so a peak's value moves as the quantity does at fixed time.
+/// At a turn the rate is zero, so a peak's value moves as the quantity does at fixed time. A turn that lies at an instant is
+/// a kink: its rates are the instant's.
 void RateRecord::see_turn(const TangentSample& s, std::size_t c) {
+  if (std::abs(s.t - instant_) <= resolution_) return;
   const Contact& contact = model_.contacts[c];
   const Vector first = s.point.u - model_.u0;
   const auto n = static_cast<Eigen::Index>(normal_slot(c));
   const auto [values, unused, bends] = watched(contact, c, model_.u0, s.point, s.force_bends);
   for (std::size_t which = 0; which < values.size(); ++which) {
     if (!(std::abs(values[which]) > peaks_[c][which].size)) continue;
-    Seen seen{values[which], {}, {}};
+    Seen seen{values[which], true, {}, {}};
     for (std::size_t p = 0; p < derivatives_.size(); ++p) {
       const SeriesPoint& w = s.tangents[p];
       double rate = nothing, bent = nothing;
@@ -184,9 +186,11 @@ void RateRecord::see_instant(const InstantMotion& motion, const std::vector<Tang
                              std::size_t c) {
   const Contact& contact = model_.contacts[c];
   const double t = motion.instant.t;
+  for (Peak& peak : peaks_[c])
+    if (peak.turn && std::abs(peak.t - t) <= motion.instant.resolution) peak = {};  // seen again below
   const auto offer = [&](std::size_t which, double value, auto&& rate_of) {
     if (!(std::abs(value) > peaks_[c][which].size)) return;
-    Seen seen{value, {}, {}};
+    Seen seen{value, false, {}, {}};
     for (std::size_t p = 0; p < states.size(); ++p) {
       seen.rates.push_back(rate_of(p));
       seen.t_rates.push_back(states[p].rates[c].t);
@@ -214,6 +218,8 @@ void RateRecord::see_instant(const InstantMotion& motion, const std::vector<Tang
 
 void RateRecord::instant(const InstantMotion& motion, const std::vector<TangentState>& states) {
   states_ = &states;
+  instant_ = motion.instant.t;
+  resolution_ = motion.instant.resolution;
   for (std::size_t c = 0; c < model_.contacts.size(); ++c) see_instant(motion, states, c);
   if (landings_) landings_->instant(motion, states);
 }

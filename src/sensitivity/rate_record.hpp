@@ -4,6 +4,8 @@
 //   rest:        what is left at the last output time
 #pragma once
 
+#include <limits>
+
 #include "run/physical.hpp"
 #include "sensitivity/landing_rates.hpp"
 
@@ -38,10 +40,12 @@ class RateRecord final : public TangentListener, public Recorder {
   /// Of one contact.
   struct Peak {
     double size = 0.0, value = 0.0, t = 0.0;
+    bool turn = false;  // not at an instant
     std::vector<double> rates, t_rates;
   };
   struct Seen {
     double value = 0.0;
+    bool turn = false;
     std::vector<double> rates, t_rates;
   };
   void add_row(const TangentSample& sample);
@@ -57,7 +61,8 @@ class RateRecord final : public TangentListener, public Recorder {
   const std::vector<ModelDerivative>& derivatives_;
   Recorder* recorder_;
   Sensitivities& result_;
-  const std::vector<TangentState>* states_ = nullptr;  // of the last instant
+  const std::vector<TangentState>* states_ = nullptr;                             // of the last instant
+  double instant_ = -std::numeric_limits<double>::infinity(), resolution_ = 0.0;  // the last one
   std::vector<std::array<Peak, 4>> peaks_;
   std::optional<LandingRecord> landings_;  // with losses
 };

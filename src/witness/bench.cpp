@@ -18,13 +18,48 @@ struct Bench::Factor {
 Bench::Bench(const Model& model_, const WitnessLimits& limits_)
     : model(model_),
       limits(limits_),
+      turns_(Vector::Zero(model_.size())),
+      springs_(springs_of(model_)),
       factor_(std::make_unique<Factor>()),
       responses_(model_.contacts.size()) {
   for (int i = 0; i < model.size(); ++i) {
     massive_.push_back(!model.dofs[static_cast<std::size_t>(i)].massless);
     if (massive_.back()) factor_->dofs.push_back(i);
+    if (model.dofs[static_cast<std::size_t>(i)].rotation) turns_[i] = 1.0;
   }
   note_massless();
+}
+
+/// The upper triangle of K with the springs of contacts, what is off the diagonal twice: u^T K u is a sum over it.
+SparseMatrix Bench::springs_of(const Model& model) {
+  std::vector<Eigen::Triplet<double>> terms;
+  const auto add = [&](int i, int j, double value) {
+    if (i <= j && value != 0.0) terms.emplace_back(i, j, i < j ? 2.0 * value : value);
+  };
+  for (int j = 0; j < model.stiffness.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(model.stiffness, j); it; ++it)
+      add(static_cast<int>(it.row()), j, it.value());
+  const auto add_spring = [&](const Combination& form, double k) {
+    for (const auto& [i, factor] : form.terms)
+      for (const auto& [j, other] : form.terms) add(i, j, k * factor * other);
+  };
+  for (const Contact& c : model.contacts) {
+    add_spring(c.normal, c.normal_stiffness);
+    add_spring(c.body_tangent(), c.tangential_stiffness.value_or(0.0));
+  }
+  SparseMatrix springs(model.size(), model.size());
+  springs.setFromTriplets(terms.begin(), terms.end());
+  return springs;
+}
+
+double Bench::twice_energy(const Vector& u) const {
+  double twice = 0.0;
+  for (int j = 0; j < springs_.outerSize(); ++j) {
+    double force = 0.0;
+    for (SparseMatrix::InnerIterator it(springs_, j); it; ++it) force += it.value() * u[it.row()];
+    twice += force * u[j];
+  }
+  return std::max(0.0, twice);
 }
 
 void Bench::note_massless() {
@@ -68,6 +103,12 @@ Vector Bench::per_mass(const Vector& x) const {
   Vector result = Vector::Zero(model.size());
   for (std::size_t i = 0; i < f.dofs.size(); ++i) result[f.dofs[i]] = part[static_cast<Eigen::Index>(i)];
   return result;
+}
+
+std::array<double, 2> Bench::greatest(const Vector& x) const {
+  if (x.size() == 0) return {0.0, 0.0};
+  return {(x.array().abs() * (1.0 - turns_.array())).maxCoeff(),
+          (x.array().abs() * turns_.array()).maxCoeff()};
 }
 
 const std::array<double, 2>& Bench::lightness() const {

@@ -41,22 +41,26 @@ struct ClosedRows {
 void Finder::continuity() {
   const WitnessLimits& tol = bench_.limits;
   // Sizes of u, and of v within what the time is known to, of translations and of rotations.
-  double size[2] = {record_.before.u_reach[0] + model_.scales.displacement,
-                    record_.before.u_reach[1] + model_.scales.rotation};
-  double moved[2] = {0.0, 0.0}, clock = record_.resolution;
+  const std::array<double, 2> of_u = bench_.greatest(*record_.before.u),
+                              of_v = bench_.greatest(*record_.before.v);
+  const std::array<double, 2> off_by = bench_.greatest(*record_.after.u - *record_.before.u);
+  double clock = record_.resolution;
   for (const RecordedEvent& event : record_.events) clock = std::max(clock, event.t_uncertainty);
-  const auto turns = [&](int i) { return model_.dofs[static_cast<std::size_t>(i)].rotation; };
+  std::array<double, 2> limits{};
+  for (const bool turn : {false, true}) {
+    const double size =
+        std::max(of_u[turn],
+                 record_.before.u_reach[turn] + (turn ? model_.scales.rotation : model_.scales.displacement));
+    limits[turn] = 2.0 * rounding::of_elimination * size + of_uncertainty * clock * of_v[turn] +
+                   of_tolerance * (tol.rtol * size + (turn ? tol.rotation : tol.displacement));
+  }
   std::optional<Vector> closed;
   const bool massless_jump = lets_massless_jump();
-  for (int i = 0; i < model_.size(); ++i) {
-    size[turns(i)] = std::max(size[turns(i)], std::abs((*record_.before.u)[i]));
-    moved[turns(i)] = std::max(moved[turns(i)], clock * std::abs((*record_.before.v)[i]));
-  }
-  for (int i = 0; i < model_.size(); ++i) {
+  const bool any = !(off_by[0] <= limits[0] && off_by[1] <= limits[1]);
+  for (int i = 0; any && i < model_.size(); ++i) {
     if (!bench_.has_mass(i) && massless_jump) continue;
-    const bool turn = turns(i);
-    double limit = 2.0 * rounding::of_elimination * size[turn] + of_uncertainty * moved[turn] +
-                   of_tolerance * (tol.rtol * size[turn] + (turn ? tol.rotation : tol.displacement));
+    const bool turn = model_.dofs[static_cast<std::size_t>(i)].rotation;
+    double limit = limits[turn];
     const double off = std::abs((*record_.after.u)[i] - (*record_.before.u)[i]);
     if (off <= limit) continue;
     if (!closed) closed = closing();
@@ -166,12 +170,21 @@ void Finder::slide_at_once(std::size_t k) {
     add(static_cast<int>(k), "continuity of friction", back, limit, seen::force, false);
 }
 
+/// T is the same on both sides though its terms be no larger than itself, and points the way that it slides.
+bool Finder::shear_stays(std::size_t k) const {
+  const auto at = static_cast<Eigen::Index>(2 * k + 1);
+  const double before = (*record_.before.forces)[at], after = (*record_.after.forces)[at];
+  return std::abs(after - before) <= rounding::of_elimination * std::abs(before) &&
+         sign_of_slip((*record_.after.mode)[k].state) * before >= 0.0;
+}
+
 /// T of a spring stays; it drops from the static limit to the kinetic one where the contact lets go.
 void Finder::friction_continuity(std::size_t k) {
   const Contact& c = model_.contacts[k];
   const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
   if (!c.tangential_stiffness || is_open(old.state) || is_open(now.state) || c.friction.varies()) return;
-  if (moves_at_once(k) && lets_massless_jump()) return slide_at_once(k);
+  if (lets_massless_jump() && moves_at_once(k)) return slide_at_once(k);
+  if (shear_stays(k)) return;
   const Sight b = see(c, k, record_.before), a = see(c, k, record_.after);
   const bool by_force = c.friction.by_force();
   const double fs = by_force ? friction_at(c, 0.0, a.N) : c.friction.static_;

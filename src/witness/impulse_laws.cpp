@@ -27,14 +27,23 @@ const RecordedEvent* Finder::event_of(std::size_t k) const {
   return found == record_.events.end() ? nullptr : &*found;
 }
 
+/// Something pushes, or a velocity of what has mass differs.
+bool Finder::is_struck() const {
+  if (!record_.impulses.empty()) return true;
+  if (record_.captures.size() > 0 && !record_.captures.isZero(0.0)) return true;
+  const Vector &before = *record_.before.v, &after = *record_.after.v;
+  for (int i = 0; i < model_.size(); ++i)
+    if (before[i] != after[i] && bench_.has_mass(i)) return true;
+  return false;
+}
+
 /// M (v+ - v-) is a sum along n and t, to the backward error of the solves that made v+.
 void Finder::momentum() {
+  if (!is_struck()) return;
   const Vector &before = *record_.before.v, &after = *record_.after.v;
   Vector impulse = Vector::Zero(model_.size()), size = impulse;
-  bool any = false;
   const auto push = [&](const Combination& form, double value) {
     if (value == 0.0) return;
-    any = true;
     form.add_to(impulse, value);
     for (const auto& [dof, factor] : form.terms) size[dof] += std::abs(factor * value);
   };
@@ -52,11 +61,9 @@ void Finder::momentum() {
   for (int i = 0; i < model_.size(); ++i) {
     if (!bench_.has_mass(i)) continue;
     jump[i] = after[i] - before[i];
-    any = any || jump[i] != 0.0;
     double& greatest = model_.dofs[static_cast<std::size_t>(i)].rotation ? rotation : translation;
     greatest = std::max({greatest, std::abs(before[i]), std::abs(after[i])});
   }
-  if (!any) return;
   for (int i = 0; i < model_.size(); ++i)
     if (bench_.has_mass(i))
       speed[i] = model_.dofs[static_cast<std::size_t>(i)].rotation ? rotation : translation;

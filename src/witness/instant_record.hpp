@@ -18,7 +18,6 @@ namespace signorini {
 struct Driven {
   double s = 0.0, ds = 0.0, dds = 0.0;  ///< place, velocity, acceleration of the surface
   double q = 0.0, dq = 0.0, ddq = 0.0;  ///< normal_force and its rates
-  double speed = 0.0;  ///< the greatest that energies of the run's displacements could make of its velocities
   /// By how much steps of given length h leave the velocity of what sticks rigidly beside that of the surface: the
   /// trapezoidal rule's error of its acceleration since the last instant, h^2/12 (|s'''| there + |s'''| here) + h^3/12 |s''''|.
   double drift = 0.0;
@@ -37,6 +36,8 @@ struct WitnessedSide {
   /// known relative to these. 0: those of this side.
   std::array<double, 2> u_reach = {0.0, 0.0}, v_reach = {0.0, 0.0};
   std::array<double, 2> a_reach = {0.0, 0.0};  ///< of sums over modes, of this side's accelerations
+  /// One a contact: the greatest that energies of the run's displacements could make of its velocities. Null: not known.
+  const double* speeds = nullptr;
 };
 
 /// What a contact takes of one impact, on the body along n and t. Unit: force * time. Impacts of one instant come one

@@ -53,6 +53,10 @@ class Bench {
   /// The greatest sum of the terms of M a + C v + K u and of contact forces: what forces that hold accelerations are differences of.
   [[nodiscard]] double balance(const WitnessedSide& side) const;
   [[nodiscard]] bool has_mass(int dof) const { return massive_[static_cast<std::size_t>(dof)]; }
+  /// The greatest |x_i| of translations and of rotations.
+  [[nodiscard]] std::array<double, 2> greatest(const Vector& x) const;
+  /// u^T K u, springs of contacts in K.
+  [[nodiscard]] double twice_energy(const Vector& u) const;
   /// Degrees of freedom without mass, contacts that act on one, and rows of K and C as columns; empty: all have mass.
   [[nodiscard]] const std::vector<int>& massless() const { return massless_; }
   [[nodiscard]] const std::vector<std::size_t>& on_massless() const { return on_massless_; }
@@ -75,8 +79,11 @@ class Bench {
  private:
   struct Factor;
   void note_massless();
+  [[nodiscard]] static SparseMatrix springs_of(const Model& model);
 
   std::vector<bool> massive_;
+  Vector turns_;  // 1 of rotations, else 0
+  SparseMatrix springs_;
   std::vector<int> massless_;
   std::vector<std::size_t> on_massless_;
   SparseMatrix stiffness_by_rows_, damping_by_rows_;
@@ -116,6 +123,7 @@ class Finder {
   void balance();
 
  private:
+  [[nodiscard]] bool is_struck() const;
   void add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave);
   /// Velocities along n and t of a contact where an impact began and where it ended.
   struct Strike {
@@ -130,6 +138,7 @@ class Finder {
   void old_rows(std::size_t k);
   void necessity(std::size_t k);
   void guard_of(const RecordedEvent& event);
+  [[nodiscard]] bool shear_stays(std::size_t k) const;
   void friction_continuity(std::size_t k);
   [[nodiscard]] Vector closing() const;
   [[nodiscard]] double unsure_without_mass(int dof) const;

@@ -46,7 +46,7 @@ double size_of_normal(const Contact& c, const Sight& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }
 
-Sight glance(const Contact& c, std::size_t k, const WitnessedSide& side) {
+Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
   const auto at = static_cast<Eigen::Index>(2 * k);
   const Driven& d = side.driven[k];
   Sight m;
@@ -63,17 +63,11 @@ Sight glance(const Contact& c, std::size_t k, const WitnessedSide& side) {
   m.q = d.q;
   m.dq = d.dq;
   m.ddq = d.ddq;
-  return m;
-}
-
-Sight see(const Contact& c, std::size_t k, const WitnessedSide& side) {
-  const Driven& d = side.driven[k];
-  Sight m = glance(c, k, side);
   m.place = size_on(c.normal, *side.u, side.u_reach[0]) + size_on(c.tangent, *side.u, side.u_reach[0]) +
             std::abs(c.gap) + std::abs(d.s);
   m.speed = size_on(c.normal, *side.v, side.v_reach[0]) + size_on(c.tangent, *side.v, side.v_reach[0]) +
             std::abs(d.ds);
-  m.speed = std::max(m.speed, d.speed);
+  if (side.speeds != nullptr) m.speed = std::max(m.speed, side.speeds[k]);
   if (side.a != nullptr)
     m.push = size_on(c.normal, *side.a, side.a_reach[0]) + size_on(c.tangent, *side.a, side.a_reach[0]) +
              std::abs(d.dds);

@@ -34,8 +34,6 @@ struct SeenGuards {
 };
 
 [[nodiscard]] Sight see(const Contact& contact, std::size_t k, const WitnessedSide& side);
-/// Without sizes: where no guard is negative nobody asks how far below zero it may be.
-[[nodiscard]] Sight glance(const Contact& contact, std::size_t k, const WitnessedSide& side);
 /// +1, -1 while slipping, else 0; open; sticking.
 [[nodiscard]] int sign_of_slip(State state);
 /// |T|/|N| while it slips at this rate under this N.

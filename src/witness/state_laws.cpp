@@ -5,6 +5,7 @@
 #include "base/rounding.hpp"
 #include "witness/laws.hpp"
 #include "witness/massless_rates.hpp"
+#include "witness/plain_sight.hpp"
 
 namespace signorini {
 namespace {
@@ -95,9 +96,12 @@ double Finder::zero_of(const SeenGuard& guard, const Contact& c) const {
 
 void Finder::states() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
-    if (model_.contacts[k].own) continue;
-    state_of(k);
-    if (!record_.start && record_.located) old_rows(k);
+    const Contact& c = model_.contacts[k];
+    if (c.own) continue;
+    const double rest = c.capture_velocity.value_or(bench_.limits.capture_velocity);
+    const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
+    if (!guards_stand(c, k, now, record_.after) || !rows_stand(c, k, now, record_.after, rest)) state_of(k);
+    if (!record_.start && record_.located && !rows_stand(c, k, old, record_.before, rest)) old_rows(k);
   }
 }
 
@@ -264,6 +268,7 @@ void Finder::transitions() {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     const RecordedEvent* event = event_of(k);
+    if (old.state == now.state && event == nullptr) continue;
     const auto plain = [](State s) { return s == State::inside ? State::open : s; };
     if (plain(old.state) != plain(now.state) && !record_.start &&
         (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))

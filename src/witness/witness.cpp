@@ -6,6 +6,7 @@
 #include "base/rounding.hpp"
 #include "witness/laws.hpp"
 #include "witness/massless_rates.hpp"
+#include "witness/plain_sight.hpp"
 
 namespace signorini {
 
@@ -64,15 +65,7 @@ std::array<double, 2> Witness::modal_size(const Vector& x) const {
   return modal_size(std::sqrt(std::max(0.0, x.dot(parts_->bench.model.mass * x))));
 }
 
-double Witness::twice_energy(const Vector& u) const {
-  const Model& model = parts_->bench.model;
-  double twice = std::max(0.0, u.dot(model.stiffness * u));
-  for (const Contact& c : model.contacts) {
-    const double g = c.normal.dot(u), ut = c.body_tangent().dot(u);
-    twice += c.normal_stiffness * g * g + c.tangential_stiffness.value_or(0.0) * ut * ut;
-  }
-  return twice;
-}
+double Witness::twice_energy(const Vector& u) const { return parts_->bench.twice_energy(u); }
 
 double Witness::lightness(std::size_t k) const {
   const OwnResponse* own = parts_->bench.own_response(k);
@@ -109,11 +102,7 @@ std::vector<Violation> Witness::between(double t, const WitnessedSide& now) cons
   std::vector<Violation> found;
   const Model& model = parts_->bench.model;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Sight seen_quickly = glance(model.contacts[k], k, now);
-    const SeenGuards guards =
-        guards_of(model.contacts[k], (*now.mode)[k], seen_quickly, parts_->bench.limits);
-    if (std::all_of(guards.begin(), guards.end(), [](const SeenGuard& guard) { return guard.value >= 0.0; }))
-      continue;
+    if (guards_stand(model.contacts[k], k, (*now.mode)[k], now)) continue;
     const Sight m = see(model.contacts[k], k, now);
     const std::size_t before = found.size();
     contact(t, k, (*now.mode)[k], m, now.a != nullptr, 0.0, found);

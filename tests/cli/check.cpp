@@ -38,6 +38,7 @@ TEST_CASE("cli check: every model can be run, as text and as JSON, and nothing i
     CAPTURE(model.string());
     const Ending text = shell.run({"check", model.string()});
     CHECK(text.code == 0);
+    CHECK_FALSE(contains(text.out, "\\n"));
     CHECK(text.err.empty());
     CHECK(contains(text.out, "lowest frequencies:"));
     CHECK(contains(text.out, "cost: "));

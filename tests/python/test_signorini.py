@@ -44,6 +44,7 @@ class Run(unittest.TestCase):
         sliding = plate["state"] == "slip+"
         np.testing.assert_allclose(plate["T"][sliding], 3.0)
         np.testing.assert_allclose(plate["N"], -10.0)
+        np.testing.assert_allclose(plate["ratio"], np.abs(plate["T"]) / 10.0)
         self.assertEqual((result.units["block.ux"], result.units["block.vx"], result.units["t"]), ("m", "m/s", "s"))
         self.assertAlmostEqual(result.energy["friction"][-1], 3.0 * 0.75, places=6)
         self.assertEqual(len(result.history["t"]), 201)

@@ -40,7 +40,8 @@ struct Related {
   std::map<std::string, std::string> twins = {};      ///< contacts that share what one contact takes
   std::map<std::string, double> output_factors = {};  ///< of the first scene's value, of the other's
   std::map<std::string, double> extreme_signs = {};   ///< of extremes beside a column of magnitudes
-  std::vector<OutputExtremes> extremes_before = {};   ///< of what happened before `from`
+  std::vector<OutputExtremes> extremes_before = {};   ///< of what happened before `from`; of the
+                                                      ///< rest before `later`, which the first one has not
 };
 
 struct RelationKind {

@@ -303,6 +303,15 @@ bool is_explained(Class verdict) {
 
 namespace {
 
+/// All that `ida` is asked for: where absolute tolerances decide its steps, another rtol alone takes the same ones.
+Scene tightened(Scene scene, double part) {
+  scene.run.rtol *= part;
+  for (std::optional<double>* atol :
+       {&scene.run.atol.displacement, &scene.run.atol.velocity, &scene.run.atol.force})
+    if (*atol) **atol *= part;
+  return scene;
+}
+
 /// By an engine without steps, where it takes the scene; else with a hundredth of the tolerance.
 Scene better(Scene scene) {
   const bool linear = std::none_of(scene.contacts.begin(), scene.contacts.end(),
@@ -310,7 +319,7 @@ Scene better(Scene scene) {
   if (linear)
     scene.run.engine = Engine::exact;
   else
-    scene.run.rtol = std::max(1e-14, 0.01 * scene.run.rtol);
+    scene = tightened(std::move(scene), std::max(0.01, 1e-14 / scene.run.rtol));
   return scene;
 }
 
@@ -324,7 +333,7 @@ std::vector<Scene> copies_of(const Scene& scene, std::size_t count) {
   }
   copies.push_back(better(scene));
   for (const double part : {0.7, 0.5, 0.85, 0.6, 0.95, 0.4, 0.75, 0.3})
-    if (copies.size() < count) copies.emplace_back(scene).run.rtol *= part;
+    if (copies.size() < count) copies.push_back(tightened(scene, part));
   return copies;
 }
 
@@ -368,9 +377,7 @@ struct RelationJudge::Members {
       return *spread;
     }
     // One distance to a better run may be small by chance: other steps are another sample of the error.
-    Scene other_steps_of = scene;
-    other_steps_of.run.rtol *= 0.7;
-    spread = spread_by({better(scene), other_steps_of}, of_steps);
+    spread = spread_by({better(scene), tightened(scene, 0.7)}, of_steps);
     return *spread;
   }
 
@@ -522,8 +529,13 @@ void RelationJudge::Members::figures(const Related& related, const SeenRun& othe
     if (run.columns[j].sums && related.from > 0.0) continue;
     const double written = as_written != nullptr ? as_written->extremes[i] + as_written->rows.back()[j] : 0.0;
     const double allowed = allowances.extremes[i] + allowances.rows.back()[j] + written + 10.0 * floor[j];
-    look("extreme", run.outputs[i] + " maximum", run.extremes[i].maximum, other.extremes[i].maximum, allowed);
-    look("extreme", run.outputs[i] + " minimum", run.extremes[i].minimum, other.extremes[i].minimum, allowed);
+    double maximum = run.extremes[i].maximum, minimum = run.extremes[i].minimum;
+    if (related.from == 0.0 && i < related.extremes_before.size()) {
+      maximum = std::max(maximum, related.extremes_before[i].maximum);
+      minimum = std::min(minimum, related.extremes_before[i].minimum);
+    }
+    look("extreme", run.outputs[i] + " maximum", maximum, other.extremes[i].maximum, allowed);
+    look("extreme", run.outputs[i] + " minimum", minimum, other.extremes[i].minimum, allowed);
   }
   // At t = 0 a load that jumps has taken away what stood there; later its instant has both sides.
   if (related.from > 0.0 || related.jumps_at_start || !with_peaks) return;
@@ -629,13 +641,13 @@ Likeness RelationJudge::compare(const Related& related) const {
 }
 
 Likeness RelationJudge::compare(const Related& related, SeenRun other) const {
-  const bool told = m_->run.shared || other.shared;
+  const bool told = m_->run.shared || other.shared, open_there = other.open_start;
   Likeness result = compared(related, std::move(other));
   const bool one_side =
       result.verdict == Class::refused_one_side || result.verdict == Class::stopped_one_side;
   const bool by_start = m_->shared_motion && (one_side || m_->scene.initial.is_frictional);
   const bool by_run = m_->shared_motion && told && result.of == "sequence";
-  if (!is_explained(result.verdict) && (m_->open_start || by_start || by_run))
+  if (!is_explained(result.verdict) && (m_->open_start || (one_side && open_there) || by_start || by_run))
     result.verdict = Class::undetermined;
   return result;
 }

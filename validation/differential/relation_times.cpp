@@ -54,9 +54,12 @@ bool waits(const HistorySpec& spec, Drives of) {
 
 /// Parts without mass follow a load that jumps at once. At t = 0 energies are counted from what has come of that; where
 /// the same happens later, it is the work of the load.
-bool jumps_at_start(const HistorySpec& spec) {
+bool jumps_at_start(const HistorySpec& spec, Drives of) {
   const History history = make_history(spec, "history");
-  return history.piece_before(0.0).value(0.0) != history.piece(0.0).value(0.0);
+  const Piece &before = history.piece_before(0.0), &after = history.piece(0.0);
+  // What sticks to a surface follows its acceleration.
+  const bool rate = of == Drives::surface && before.value(0.0, 1) != after.value(0.0, 1);
+  return rate || before.value(0.0) != after.value(0.0);
 }
 
 /// A run in a directory, removed with the object.
@@ -105,7 +108,7 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
   bool jump = false;
   each_history(copy, [&](HistorySpec& history, Drives of) {
     all_wait = all_wait && waits(history, of);
-    jump = jump || jumps_at_start(history);
+    jump = jump || jumps_at_start(history, of);
   });
   if (!all_wait) return std::nullopt;
   Random draw(seed);
@@ -116,6 +119,12 @@ std::optional<Related> related_shifted(const Scene& scene, std::uint64_t seed) {
   result.jumps_at_start = jump;
   result.scene.run.t_end += later;
   shift_histories(result.scene, later);
+  // What stands until then is part of its extremes; at t = 0 what jumps takes it away before anything is seen.
+  Scene waiting = result.scene;
+  waiting.run.certify = Certify::no;
+  waiting.run.output_times.reset();
+  waiting.run.t_end = waiting.run.output_dt.emplace(0.5 * later);
+  result.extremes_before = simulate(build_model(waiting), waiting.run).report.response;
   return result;
 }
 

@@ -28,6 +28,7 @@ struct SeenColumn {
 struct SeenRun {
   Track::End end = Track::End::done;
   std::string reason, said;         ///< as of Track
+  bool open_start = false;          ///< its start says what the data leave open
   bool shared = false;              ///< it says that friction forces on one motion are not unique
   double t = 0.0;                   ///< reached
   double until = 0.0;               ///< certain until then; not certified: t

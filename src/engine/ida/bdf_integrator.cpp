@@ -26,6 +26,15 @@ constexpr double surface_step = 0.25;  // rad of a surface's oscillation a step:
 // longer is ten times sharper (case 04a, measured).
 constexpr double first_step_part = 0.4, first_step_part_of_flights = 0.03;
 
+// Chosen of 0.1 to 0.4: the least error over eight tolerances where a motion grows and where it is damped
+// (docs/decisions/ida-rehearses.md). Steps differ by a tenth.
+constexpr double rehearsed_part = 0.2;
+// Of what is left of the segment: whoever watches the steps sees more than its end where polynomials are the motion.
+constexpr double longest_rehearsed = 0.0625;
+constexpr double least_rehearsed =
+    1e3 * std::numeric_limits<double>::epsilon();  // of the time; IDA's own is 100
+constexpr double no_error_test = 1e-15;            // of the weights, while IDA rehearses
+
 constexpr double sharp_newton = 1e-3;  // of the tolerance; IDA's default is a third
 
 void check(int flag, const char* what) {
@@ -43,6 +52,14 @@ std::string with_times_in(std::string text, double unit) {
     text.replace(at + 4, static_cast<std::size_t>(end - begin), fmt::format("{:.9g}", time * unit));
   }
   return text;
+}
+
+bool in_closed_form(const Model& model) {
+  return std::all_of(model.loads.begin(), model.loads.end(),
+                     [](const Load& l) { return l.history.has_closed_form(); }) &&
+         std::all_of(model.contacts.begin(), model.contacts.end(), [](const Contact& c) {
+           return c.normal_force.has_closed_form() && c.surface_motion.has_closed_form();
+         });
 }
 
 }  // namespace
@@ -76,9 +93,10 @@ struct BdfIntegrator::Memory {
                     [](const Contact& c) { return friction_varies(c) || c.bowl; }))
       IDASetNonlinConvCoef(ida, sharp_newton);
     IDASetNoInactiveRootWarn(ida);
-    if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                    [](const Contact& c) { return c.takes_impulses(); }))
-      start_part = first_step_part_of_flights;
+    const bool is_hit = std::any_of(model.contacts.begin(), model.contacts.end(),
+                                    [](const Contact& c) { return c.takes_impulses(); });
+    if (is_hit) start_part = first_step_part_of_flights;
+    rehearses = in_closed_form(model) && !is_hit;
     directions.assign(problem.slots(), -1);
     found.assign(problem.slots(), 0);
   }
@@ -106,10 +124,15 @@ struct BdfIntegrator::Memory {
     double h = m->first;
     if (IDAGetNumSteps(m->ida, &steps) == IDA_SUCCESS && steps > 0) IDAGetLastStep(m->ida, &h);
     m->problem.weights(NV_DATA_S(y), h > 0.0 ? 1.0 / h : 0.0, NV_DATA_S(w));
+    if (m->rehearsing) N_VScale(no_error_test, w, w);
     return 0;
   }
   static int roots(realtype t, N_Vector y, N_Vector yp, realtype* g, void* self) {
     auto* m = static_cast<Memory*>(self);
+    if (m->rehearsing) {
+      std::fill(g, g + m->problem.slots(), 1.0);
+      return 0;
+    }
     ++m->guard_evaluations;
     m->problem.guards(t, NV_DATA_S(y), NV_DATA_S(yp), g);
     return 0;
@@ -125,24 +148,63 @@ struct BdfIntegrator::Memory {
     static_cast<Memory*>(self)->message = text;
   }
 
-  /// (Re)starts IDA at the segment's beginning with the given first step.
-  void begin(double h0) {
+  /// (Re)starts IDA with the given first step at the segment's beginning, or `steps` such steps before it: these are
+  /// rehearsed.
+  void begin(double h0, int steps = 0) {
     const Jet& jet = segment.decision->jet;
-    problem.fill(jet, 0, NV_DATA_S(y));
-    problem.fill(jet, 1, NV_DATA_S(yp));
-    check(IDAReInit(ida, jet.t, y, yp), "IDAReInit");
+    const double before = steps * h0;
+    problem.along(jet, -before, 0, NV_DATA_S(y));
+    problem.along(jet, -before, 1, NV_DATA_S(yp));
+    check(IDAReInit(ida, jet.t - before, y, yp), "IDAReInit");
     IDASetInitStep(ida, h0);
     first = h0;
     IDASetStopTime(ida, segment.end);
     // Surfaces move in the guards alone, so the error test does not see them; their polynomials must.
     const double shaking = segment.forcing->surface_omega();
-    IDASetMaxStep(ida, shaking > 0.0 ? surface_step / shaking : 0.0);
+    const double longest = shaking > 0.0 ? surface_step / shaking : 0.0;
+    IDASetMaxStep(ida, steps > 0 ? h0 : longest);
     // A fresh root problem: IDA would keep guards switched off that were zero in the last segment.
     IDARootInit(ida, 0, nullptr);
     IDARootInit(ida, static_cast<int>(problem.slots()), &Memory::roots);
     if (!directions.empty()) IDASetRootDirection(ida, directions.data());
     t_previous = jet.t;
     reported_end = jet.t;
+    if (steps > 0) rehearse(steps);
+    IDASetMaxStep(ida, longest);
+  }
+
+  /// IDA's steps up to the segment's beginning. No test of theirs can fail, and they are far above the resolution of time.
+  void rehearse(int steps) {
+    rehearsing = true;
+    newton->rehearse(&segment.decision->jet);
+    double t = 0.0;
+    for (int i = 0; i < steps; ++i)
+      check(IDASolve(ida, segment.end + std::abs(segment.end), &t, y, yp, IDA_ONE_STEP), "IDASolve");
+    newton->rehearse(nullptr);
+    rehearsing = false;
+  }
+
+  /// Functions of the user have no past that a step could be rehearsed in, and steps near the resolution of time none that
+  /// could be told from the beginning. Hits of rigid contacts come in sequences that shrink: their flights need shorter
+  /// steps than an error test asks for, at any order.
+  [[nodiscard]] Rehearsal past() {
+    if (rehearses)
+      if (const Rehearsal r = rehearsal(); r.length > least_rehearsed * std::abs(segment.decision->jet.t))
+        return r;
+    return {0, first_step()};
+  }
+  [[nodiscard]] Rehearsal rehearsal() {
+    const Jet& jet = segment.decision->jet;
+    problem.fill(jet, 0, NV_DATA_S(y));
+    problem.weights(NV_DATA_S(y), 0.0, NV_DATA_S(work));
+    const double shaking = segment.forcing->surface_omega();
+    double h = longest_rehearsed * (segment.end - jet.t);
+    if (shaking > 0.0) h = std::min(h, surface_step / shaking);
+    constexpr std::size_t order = Rehearsal::order + 1;
+    problem.fill(jet, order, NV_DATA_S(yp));
+    if (const double norm = N_VWrmsNorm(yp, work); norm > 0.0)
+      h = std::min(h, rehearsed_part * std::pow(order / norm, 1.0 / order));
+    return {Rehearsal::order, h};
   }
 
   /// The order-one start errs by h^2 y''/2 + h^3 y'''/6 ...; the step that keeps the first of these in
@@ -224,6 +286,7 @@ struct BdfIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
   std::unique_ptr<StepNewton> newton;
+  bool rehearses = true;
   double start_part = first_step_part;
   double first = 0.0;  // step of the segment
   std::vector<int> directions;
@@ -233,6 +296,7 @@ struct BdfIntegrator::Memory {
   double t_previous = 0.0;    // beginning of the last accepted step
   double reported_end = 0.0;  // end of the last step that was returned
   double held_time = 0.0;     // time of what y and yp hold
+  bool rehearsing = false;    // its solutions are the series', and no test is failed
   bool rooted = false;        // the last step that was returned ended at a root
   std::vector<int> found;
   long guard_evaluations = 0;
@@ -248,14 +312,16 @@ BdfIntegrator::~BdfIntegrator() = default;
 
 void BdfIntegrator::count() { m_->add_counters(counters_); }
 
-void BdfIntegrator::start(const Segment& segment, const Watch& watch) {
+Rehearsal BdfIntegrator::start(const Segment& segment, const Watch& watch) {
   count();  // IDA forgets at a restart
   m_->segment = segment;
   m_->problem.start(segment, watch);
-  m_->begin(m_->first_step());
+  const Rehearsal past = m_->past();
+  m_->begin(past.length, past.steps);
   m_->counted = Counters{};
   m_->rooted = false;
   ++counters_.restarts;
+  return past;
 }
 
 BdfStep BdfIntegrator::advance() {

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "engine/falls/watch.hpp"
+#include "engine/ida/rehearsal.hpp"
 #include "engine/stepper.hpp"
 #include "engine/tolerance.hpp"
 
@@ -37,8 +38,8 @@ class BdfIntegrator {
   BdfIntegrator(const BdfIntegrator&) = delete;
   BdfIntegrator& operator=(const BdfIntegrator&) = delete;
 
-  /// watch: which guards are armed; it must outlive the segment.
-  void start(const Segment& segment, const Watch& watch);
+  /// watch: which guards are armed; it must outlive the segment. Returns the past that IDA was given.
+  Rehearsal start(const Segment& segment, const Watch& watch);
   [[nodiscard]] BdfStep advance();
   void evaluate(double t, Point& point);
   [[nodiscard]] double residual();

@@ -107,9 +107,22 @@ void IdaEngine::start(const Segment& segment) {
   grazes_.start(decision.guards, levels);
   turns_.start(decision);
   watch_.start(decision.guards, std::move(levels));
-  bdf_.start(segment, watch_);
+  remember(bdf_.start(segment, watch_));
+}
+
+/// The past that IDA was given, and the beginning, for the polynomials of the first steps.
+void IdaEngine::remember(const Rehearsal& past) {
+  const Decision& decision = *segment_.decision;
+  const double t = decision.jet.t;
+  for (int i = past.steps; i > 0; --i) {
+    const double x = -i * past.length;
+    on_polynomials(
+        decision.jet, x,
+        [&](Eigen::Index dof) { return model_.dofs[static_cast<std::size_t>(dof)].massless; }, point_);
+    fill(t + x, point_, i == past.steps ? history_.restart(t + x) : history_.push(t + x, past.length));
+  }
   const Point point{decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
-  fill(decision.jet.t, point, history_.restart(decision.jet.t));
+  fill(t, point, past.steps > 0 ? history_.push(t, past.length) : history_.restart(t));
 }
 
 void IdaEngine::evaluate(double t, Point& point) {
@@ -200,14 +213,27 @@ std::optional<IdaEngine::Located> IdaEngine::first_event(const BdfStep& step, do
     return true;
   });
   if (candidates.empty()) return std::nullopt;
-  std::optional<Located> first;
-  for (const Located& c : candidates) {
-    const double time =
-        locate(bdf_, consistent_, segment_, model_, c.slot, step.begin, step.end, c.time, resolution);
-    if (!first || time < first->time) first = Located{c.slot, time};
-  }
+  for (Located& c : candidates)
+    c.time = locate(bdf_, consistent_, segment_, model_, c.slot, step.begin, step.end, c.time, resolution);
   if (step.kind != BdfStep::Kind::root) ++counters.rolled_back;
+  const Located first = *std::min_element(candidates.begin(), candidates.end(),
+                                          [](const Located& a, const Located& b) { return a.time < b.time; });
+  for (const Located& c : candidates)
+    if (opens_instead(first, c, (first.time - step.begin) / h, h)) return c;
   return first;
+}
+
+/// A limit of friction vanishes with the compression, so that whatever the steps have left in the friction force of a
+/// contact that sticks exceeds the limit before the contact opens. Where the limit's own error covers the time between the
+/// two, the contact opens from stick: that it slips before is no more than this error.
+bool IdaEngine::opens_instead(const Located& slip, const Located& opening, double x, double h) const {
+  const std::size_t contact = contact_of_guard(slip.slot);
+  const std::vector<GuardStart>& guards = segment_.decision->guards;
+  if (contact != contact_of_guard(opening.slot) || guards[opening.slot].kind != Guard::separation ||
+      !is_friction_limit(guards[slip.slot].kind))
+    return false;
+  const double rate = -history_.polynomial(slip.slot).derivative().value(x) / h;
+  return (opening.time - slip.time) * rate <= tolerance(guards[slip.slot].form, ContactMotion{}, tolerance_);
 }
 
 /// A guard that started at zero comes back to zero where the motion keeps its energy (a contact that sticks

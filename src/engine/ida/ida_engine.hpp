@@ -49,8 +49,10 @@ class IdaEngine final : public Stepper {
   };
   [[nodiscard]] bool follows_at_once() const;
   void fill(double t, const Point& point, double* out);
+  void remember(const Rehearsal& past);
   [[nodiscard]] double lowest_flight(const Contact& contact, const Vector& u) const;
   [[nodiscard]] std::optional<Located> first_event(const BdfStep& step, double resolution);
+  [[nodiscard]] bool opens_instead(const Located& slip, const Located& opening, double x, double h) const;
   [[nodiscard]] bool only_touches(std::size_t slot, double x) const;
   [[nodiscard]] double allowance(std::size_t slot) const;
 

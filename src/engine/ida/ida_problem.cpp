@@ -7,6 +7,7 @@
 #include "base/wide_lanes.hpp"
 #include "contact/bowl.hpp"
 #include "contact/friction.hpp"
+#include "engine/ida/rehearsal.hpp"
 #include "motion/equilibrium.hpp"
 
 namespace signorini {
@@ -304,6 +305,21 @@ void IdaProblem::fill(const Jet& jet, std::size_t order, double* y) const {
   for (std::size_t k = 0; k < model_.contacts.size(); ++k)
     for (int side = 0; side < 2; ++side)
       y[layout_.force(k) + side] = jet.forces(static_cast<Eigen::Index>(normal_slot(k)) + side, o);
+}
+
+void IdaProblem::along(const Jet& jet, double x, int derivative, double* y) const {
+  const Eigen::Index p = derivative;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(layout_.dofs); ++i) {
+    const auto row = jet.u.row(static_cast<Eigen::Index>(i));
+    const int v = layout_.velocity[i];
+    const Eigen::Index last = last_derivative(jet, v < 0);
+    y[i] = on_polynomial(row, last, p, x);
+    if (v >= 0) y[v] = on_polynomial(row, last, p + 1, x);
+  }
+  for (std::size_t k = 0; k < model_.contacts.size(); ++k)
+    for (int side = 0; side < 2; ++side)
+      y[layout_.force(k) + side] =
+          on_polynomial(jet.forces.row(static_cast<Eigen::Index>(normal_slot(k)) + side), Jet::orders, p, x);
 }
 
 double IdaProblem::imbalance(double t, const double* y, const double* yp) const {

@@ -31,6 +31,8 @@ class IdaProblem {
   void weights(const double* y, double rate, double* w) const;
   /// Scaled guards, one a slot; masked ones are +1.
   void guards(double t, const double* y, const double* yp, double* g) const;
+  /// y (derivative = 0) or y' (1) on the jet's polynomials, x after its instant.
+  void along(const Jet& jet, double x, int derivative, double* y) const;
   /// y^(order) from a jet.
   void fill(const Jet& jet, std::size_t order, double* y) const;
   void read(const double* y, const double* yp, Point& point) const;

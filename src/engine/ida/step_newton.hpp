@@ -8,6 +8,9 @@
 // SUNDIALS (sunnonlinsol_newton.c). Where friction rises with a slip rate J is made anew with every iteration, too, and
 // IDA's test, which takes corrections that do not shrink for divergence, is asked from where one is within the tolerance: on
 // the way there they are one scale of slip rates each.
+//
+// While it rehearses, e is that of the polynomials of a jet: IDA then takes steps before the beginning of a segment, without
+// a solve, and has a history of a higher order where it begins (bdf_integrator.hpp).
 #pragma once
 
 #include <sundials/sundials_nonlinearsolver.h>
@@ -26,11 +29,19 @@ class StepNewton {
 
   /// For IDASetNonlinearSolver; owned here, freed after the integrator.
   [[nodiscard]] SUNNonlinearSolver solver() const { return solver_; }
+  /// From now on the solutions are those of the jet's polynomials, whatever the equations say; null: of the equations
+  /// again, with J made anew. The jet has to outlive that.
+  void rehearse(const Jet* jet) {
+    if (jet == nullptr) stale_ = true;
+    jet_ = jet;
+  }
   /// Evaluations of F so far.
   [[nodiscard]] long residuals() const { return residuals_; }
 
  private:
   int solve(N_Vector e, N_Vector weights, double tolerance, bool setup, void* memory);
+  /// e of the jet's polynomials.
+  int answer(N_Vector e);
   /// From e = 0. setup: J first.
   int iterate(N_Vector e, N_Vector weights, double tolerance, bool setup, bool doubtful, void* memory);
 
@@ -44,6 +55,8 @@ class StepNewton {
   int most_iterations_ = 4, iteration_ = 0;
   long iterations_ = 0, failures_ = 0;  // of the last solve
   long residuals_ = 0;
+  const Jet* jet_ = nullptr;
+  bool stale_ = false;  // J is of another segment, or of none
 };
 
 }  // namespace signorini

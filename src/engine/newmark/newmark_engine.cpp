@@ -162,12 +162,13 @@ double NewmarkEngine::zero_of(std::size_t slot) const {
   return is_soft(slot) ? rounding_of_guard * watched_[slot].level : 0.0;
 }
 
-double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi) {
-  double last = g_lo;  // a singular matrix on the way must not reach the root finder
+double NewmarkEngine::fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
+                                   double floor) {
+  double last = g_lo - floor;  // a singular matrix on the way must not reach the root finder
   const auto value = [&](double h) {
-    if (h == lo) return g_lo;
-    if (h == hi) return g_hi;
-    const double g = value_after(slot, h);
+    if (h == lo) return g_lo - floor;
+    if (h == hi) return g_hi - floor;
+    const double g = value_after(slot, h) - floor;
     if (std::abs(g) <= zero_of(slot)) return 0.0;
     return last = std::isfinite(g) ? g : last;
   };
@@ -246,6 +247,12 @@ NewmarkEngine::Candidate NewmarkEngine::earliest(double h, bool located, std::si
   return first;
 }
 
+/// The same guard brought the states to be decided at the beginning of this step, and was left as it was.
+bool NewmarkEngine::has_sunk(std::size_t slot) const {
+  return sunk_ && sunk_->slot == slot && sunk_->guard == segment_.decision->guards[slot].kind &&
+         std::abs(t0_ - sunk_->t) <= resolution_at(t0_, 0.0);
+}
+
 bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
   const std::size_t slot = candidate.slot;
   Watched& w = watched_[slot];
@@ -269,21 +276,24 @@ bool NewmarkEngine::locate(const Candidate& candidate, double& h) {
       return true;
     }
     case Candidate::Kind::sink: {
-      // It began at zero, rose, and fell again within the step.
+      // It began at zero, rose, and fell again within the step. Decided again where it never rose, it rises by less than
+      // its rounding: then it falls where it leaves that.
+      const double floor = has_sunk(slot) ? -2.0 * rounding_of_guard * w.level : 0.0;
       double hi = h, g_hi = g1;
       for (int i = 0; i < most_halvings; ++i) {
         const double lo = 0.5 * hi;
         if (!(lo > resolution_at(t0_, 0.0))) break;
         const double g = value_after(slot, lo);
         if (!std::isfinite(g)) break;
-        if (g > 0.0) {
-          h = interpolates(slot) ? hi : fall_between(slot, lo, g, hi, g_hi);
+        if (g > floor) {
+          h = interpolates(slot) ? hi : fall_between(slot, lo, g, hi, g_hi, floor);
           return true;
         }
         hi = lo;
         g_hi = g;
       }
       h = hi;  // it never rose: the states are decided again
+      sunk_ = Sunk{t0_ + h, slot, segment_.decision->guards[slot].kind};
       return true;
     }
   }

@@ -72,10 +72,12 @@ class NewmarkEngine final : public Stepper {
   [[nodiscard]] Candidate earliest(double h, bool located, std::size_t slot) const;
   [[nodiscard]] bool is_soft(std::size_t slot) const;
   [[nodiscard]] double zero_of(std::size_t slot) const;
-  [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi);
+  [[nodiscard]] double fall_between(std::size_t slot, double lo, double g_lo, double hi, double g_hi,
+                                    double floor = 0.0);
   [[nodiscard]] double fall_near(std::size_t slot, double h);
   [[nodiscard]] bool interpolates(std::size_t slot) const;
   [[nodiscard]] double linear_fall(std::size_t slot, double hi);
+  [[nodiscard]] bool has_sunk(std::size_t slot) const;
   /// Narrows the step to the candidate. False: it is none.
   [[nodiscard]] bool locate(const Candidate& candidate, double& h);
   [[nodiscard]] bool end_after(double h);
@@ -105,7 +107,14 @@ class NewmarkEngine final : public Stepper {
   double counted_from_ = 0.0;        // these end at counted_from_ + k counted_length_, without drift
   double counted_length_ = 0.0;
   long counted_ = 0;
-  bool second_ = false;  // doubling: the second step of a pair
+  /// A guard that began at zero and never rose within a step.
+  struct Sunk {
+    double t = 0.0;
+    std::size_t slot = 0;
+    Guard guard = Guard::none;
+  };
+  std::optional<Sunk> sunk_;  // the last one
+  bool second_ = false;       // doubling: the second step of a pair
 };
 
 }  // namespace signorini

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "behaviour/one_mass.hpp"
 #include "unit/engine/stretch.hpp"
 
 namespace signorini::tests::ida_engines {
@@ -87,6 +88,42 @@ TEST_CASE(
   const double error = stretch.tolerance.rtol * 3.0 + stretch.tolerance.displacement;
   CHECK(stretch.engine->guard_error(gap, m, 0) >= error);
   CHECK(stretch.engine->guard_error(gap, m, 0) < 1e3 * error);
+}
+
+TEST_CASE("a friction force within its own error opens from stick; one beyond it slips first") {
+  // A mass lands on a damped spring at 2 m/s, with a slip rate v beside it; turned by an odd angle. It sticks:
+  // T = kt v / w sin(w t), w = sqrt(kt / m), and opens at t = 0.022 s, where N falls at 7.6e4 N/s. So the limit is
+  // reached |T| / (0.3 N') = 4.7e-3 |v| s/(m/s) before.
+  const auto lands = [](double slip_rate, const char* engine) {
+    const double c = std::cos(0.6435), s = std::sin(0.6435), t = slip_rate;
+    return run_text(
+        matrix_scene(
+            fmt::format(
+                "t_end = 0.05\noutput_dt = 0.05\ninitial = {{ u = [{}, {}], v = [{:.17g}, {:.17g}] }}",
+                0.02 * c, 0.02 * s, -2.0 * c + t * s, -2.0 * s - t * c),
+            "mass = [[2.0, 0.0], [0.0, 2.0]]\nstiffness = [[0.0, 0.0], [0.0, 0.0]]",
+            fmt::format("law = \"compliant\"\nnormal = {{ d0 = {0:.17g}, d1 = {1:.17g} }}\ntangent = {{ d0 = "
+                        "{1:.17g}, d1 = {2:.17g} }}\nnormal_stiffness = 4e4\ntangential_stiffness = 3e4\n"
+                        "normal_damping = 10.0\nfriction = 0.3",
+                        c, s, -c)),
+        engine, "1e-9");
+  };
+  for (const double slip_rate : {1e-9, -1e-9, 1e-4, -1e-4}) {
+    CAPTURE(slip_rate);
+    const bool told = std::abs(slip_rate) > 1e-6;
+    const Result truth = lands(slip_rate, "exact"), run = lands(slip_rate, "ida");
+    REQUIRE(truth.events.size() == 3);
+    REQUIRE(run.events.size() == (told ? 3 : 2));
+    const double early = truth.events[2].t - truth.events[1].t;
+    CHECK(early == doctest::Approx(4.7e-3 * std::abs(slip_rate)).epsilon(0.02));
+    const Event& last = run.events.back();
+    CHECK(last.to == State::open);
+    CHECK(last.from == (!told ? State::stick : slip_rate > 0.0 ? State::slip_plus : State::slip_minus));
+    CHECK(std::abs(last.t - truth.events[2].t) < 1e-8);
+    if (told) CHECK(std::abs(run.events[1].t - truth.events[1].t) < 1e-8);
+    if (!told) CHECK(early < *last.t_uncertainty);
+    CHECK(run.report.witness.violated == 0);
+  }
 }
 
 TEST_SUITE_END();

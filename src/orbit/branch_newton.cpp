@@ -22,7 +22,8 @@ constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is 
 constexpr double least_left = 1e-6;     // of a direction that is no family's. Chosen.
 constexpr double held_from = 0.7;       // |t_s|: from there on the parameter is held by corrections. Chosen.
 constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
-constexpr double singular = 1e-9;       // as in shooting.cpp
+// As in shooting.cpp; the finer one where a correction left most of the residual.
+constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
     5.0;  // in which the state may change as far as the parameter in its range
 // Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
@@ -114,6 +115,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
       return c;
     }
     const bool stale = c.iterations > 0 && c.residual > slow * before;
+    const double least = c.iterations > 0 && c.residual > 0.5 * before ? finer_singular : singular;
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
     if (!held && (slope.size() != section.size() || stale)) slope = by_parameter(c.state, c.pass);
@@ -124,7 +126,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     if (map_.conservative()) b[J.rows() - 1] = energy_missing(c) / map_.range();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
-    Vector dy = shortest_solution(A, b, singular);
+    Vector dy = shortest_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // to rounding it is
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";

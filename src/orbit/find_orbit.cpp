@@ -179,6 +179,7 @@ std::string Search::repeated(const OrbitState& state) const {
     if (!pass.done()) return {};
     now = orbit_state(pass.end);
     if (!first) first = pass;
+    if (k == 1 && orbit_residual(map_->model(), pass) <= comes_back) return {};  // it is nearly an orbit
     const OrbitSection section(map_->model(), first->begin);
     const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
     if (k > 1 && residual_of(section, *first, gap) <= comes_back)

@@ -174,7 +174,7 @@ OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs)
 }
 
 OrbitPass BranchMap::margins(const BranchState& state) const {
-  return at(state.s)->pass({state.state, state.duration, false, false, rows_of_margins});
+  return at(state.s)->pass({state.state, state.duration, false, false, places_of_margins});
 }
 
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {

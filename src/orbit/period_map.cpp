@@ -239,7 +239,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   if (!leg.outputs) model.outputs.clear();
   RunSpec run = run_;
   run.t_end = leg.duration;
-  run.output_dt = leg.duration / leg.rows;
+  run.output_dt = leg.duration / leg.places;
   RunSpec bare = run;  // tangents want no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);

@@ -35,9 +35,8 @@ struct OrbitPass {
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
 };
 
-/// Rows of a pass, of which amplitudes and margins are made; chosen. Margins that decide have more: a parabola through three of
-/// them is wrong by 1e-7 of the swing.
-inline constexpr int rows_a_period = 24, rows_of_margins = 192;
+/// Places of a pass whose margins decide; chosen: a parabola through three of them is wrong by 1e-7 of the swing.
+inline constexpr int places_of_margins = 192;
 
 /// What one pass is asked for.
 struct OrbitLeg {
@@ -45,7 +44,7 @@ struct OrbitLeg {
   double duration;
   bool tangents = true;
   bool outputs = false;  ///< their extremes
-  int rows = rows_a_period;
+  int places = 24;       ///< of which amplitudes are made; chosen: for scales of the residual
 };
 
 class PeriodMap {

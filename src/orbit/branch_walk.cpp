@@ -7,7 +7,6 @@
 
 #include "model/rescale.hpp"
 #include "orbit/family_middle.hpp"
-#include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/sequence_search.hpp"
 #include "orbit/shooting.hpp"
@@ -206,8 +205,8 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
       map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
   const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
   newton_.hear_noise(here.pass, next);
-  set_multipliers(here.multipliers, here.monodromy, known ? monodromy(model, next) : Eigen::MatrixXd(),
-                  here.ones, orbit_state_error(map_.at(here.state.s)->run()), orbit);
+  set_multipliers(here.multipliers, known ? monodromy(model, next) : Eigen::MatrixXd(), here.ones, here.error,
+                  map_.keeps_energy(), orbit);
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;

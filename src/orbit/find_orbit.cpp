@@ -244,7 +244,8 @@ void Search::stability() {
     --families;
   }
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
-  set_multipliers(all, phi, again, orbit_.families.size() + of_time, closed_, orbit_);
+  set_multipliers(all, again, orbit_.families.size() + of_time, error_of(phi, pass.rates_error, closed_),
+                  options_.energy.has_value(), orbit_);
 }
 
 /// The run from the orbit's time 0.

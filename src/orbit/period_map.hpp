@@ -26,6 +26,7 @@ struct OrbitPass {
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
   Vector parameter_rates;     ///< of the end by the parameter, where there is one
+  double rates_error = 0.0;   ///< of end_rates, over their greatest entry: rounding and what series leave out
   std::string reason;         ///< why they are not known
   std::vector<OutputExtremes> response;
   /// Least over the rows of f_s |N| - T and of f_s |N| + T, one a contact, in scales of the model.

@@ -162,8 +162,8 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
       const double size = size_of(u_.col(checked)) * power;
       if (!std::isfinite(size)) return false;
       (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
-      // Coefficient k is the result of k/2 solves: of about four half-units of rounding each.
-      rounded += static_cast<double>(checked + 1) * size;
+      // Coefficient k is the result of k/2 solves: of about eight half-units of rounding each.
+      rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
     last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
     if (last <= left_out * std::max(first, greatest) + nothing_) break;

@@ -254,7 +254,7 @@ TEST_CASE("cli orbit: a branch is resumed with its own scene only") {
     CHECK(ending.err.find(key) != std::string::npos);
     CHECK(shell.read("b/branch.csv") == rows);
   };
-  refused(resume({"--set", "contacts.pad.friction=0.9"}), "contacts.pad.friction (1.0, here 0.9)");
+  refused(resume({"--set", "contacts.pad.friction=0.9"}), "contacts.pad.friction.kinetic (1.0, here 0.9)");
   refused(resume({"--set", "run.engine=ida"}), "run.engine");
   refused(resume({"--times", "2"}), "--times (1, here 2)");
   shell.write("s.toml",
@@ -263,7 +263,7 @@ TEST_CASE("cli orbit: a branch is resumed with its own scene only") {
   refused(resume({}), "loads.2");
   shell.write("s.toml", rubbed(load));
   shell.write("load.csv", "0,0\n1,1.01\n3,-1\n4,0\n");
-  refused(resume({}), "loads.1.history.file");
+  refused(resume({}), "loads.1.history.values");
   shell.write("load.csv", wave);
   shell.write("s.toml", "# its own scene again\n" + rubbed(load));
   const Ending own = resume({"--step", "0.1"});

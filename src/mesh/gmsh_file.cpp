@@ -306,7 +306,10 @@ class BodyBuilder {
     const SharedEdge* edge = nullptr;
     if (raw.type->dimension == 1) {
       const auto found = edges_.find(std::minmax(nodes[0], nodes[1]));
-      if (found == edges_.end()) return;
+      if (found == edges_.end()) {
+        check_is_edge(raw);
+        return;
+      }
       edge = &found->second;
     }
     for (const long tag : raw.physical) {
@@ -319,6 +322,26 @@ class BodyBuilder {
       for (const int n : edge ? edge->nodes : nodes)
         if (in_group_.insert({name, n}).second) g.nodes.push_back(n);
     }
+  }
+
+  /// Of an element of the file; else the boundary would miss what its line is meant for.
+  void check_is_edge(const RawElement& line) const {
+    for (const RawElement& raw : content_.elements) {
+      if (!raw.type->shape) continue;
+      const PlaneMesh::Element element{*raw.type->shape, raw.nodes, raw.number, raw.place};
+      for (std::size_t i = 0; i < corner_count(element.shape); ++i)
+        if (const std::vector<int> ends = edge_nodes(element, i);
+            std::minmax(ends[0], ends[1]) == std::minmax(line.nodes[0], line.nodes[1]))
+          return;
+    }
+    const auto number = [&](std::size_t i) {
+      return content_.nodes[static_cast<std::size_t>(line.nodes[i])].number;
+    };
+    throw SceneError(
+        line.place, key_,
+        fmt::format("line {} from node {} to node {} is no edge of an element: expected lines of "
+                    "the mesh's own edges",
+                    line.number, number(0), number(1)));
   }
 
   /// A curve in the inside of a body is a set of nodes: it has the body on both sides.

@@ -3,6 +3,7 @@
 #include <Eigen/LU>  // inverses of small matrices
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -198,8 +199,22 @@ class MortarSums {
   std::map<int, NodeSums> sums_;
 };
 
+/// How far behind a point of a slave edge its body ends: at the nearest edge that looks the other way. Infinite: nothing is
+/// known there.
+double depth_of(const Point2& point, const EdgeCurve& slave, const Curves& outline) {
+  const double along = point.dot(slave.chord);
+  double depth = std::numeric_limits<double>::infinity();
+  for (const EdgeCurve& edge : outline) {
+    if (!(edge.outward().dot(slave.outward()) < 0.0)) continue;
+    if (edge.at[1].dot(slave.chord) > along || edge.at[0].dot(slave.chord) < along) continue;
+    const double behind = (point - edge.x(edge.s_at(slave.chord, along))).dot(slave.outward());
+    if (behind > 0.0) depth = std::min(depth, behind);
+  }
+  return depth;
+}
+
 /// Parts of a slave edge with the nearest master edge in front of each.
-std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master) {
+std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master, const Curves& outline) {
   std::vector<const EdgeCurve*> facing;
   std::vector<double> breaks{-1.0, 1.0};
   const double from = slave.at[0].dot(slave.chord), to = slave.at[1].dot(slave.chord);
@@ -219,13 +234,17 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master) {
     const Point2 middle = slave.x(0.5 * (breaks[i] + breaks[i + 1]));
     const double along = middle.dot(slave.chord);
     const EdgeCurve* nearest = nullptr;
-    double least = 0.0;
+    double least = 0.0, depth = 0.0;
     for (const EdgeCurve* m : facing) {
       if (m->at[1].dot(slave.chord) > along || m->at[0].dot(slave.chord) < along) continue;
-      const double away = std::abs((m->x(m->s_at(slave.chord, along)) - middle).dot(slave.outward()));
-      if (nearest && away >= least) continue;
+      const double ahead = (m->x(m->s_at(slave.chord, along)) - middle).dot(slave.outward());
+      if (nearest && std::abs(ahead) >= least) continue;
+      if (ahead < 0.0) {
+        if (depth == 0.0) depth = depth_of(middle, slave, outline);
+        if (-ahead >= depth * (1.0 - rounding::of_many)) continue;
+      }
       nearest = m;
-      least = away;
+      least = std::abs(ahead);
     }
     if (!nearest) continue;
     overlaps.push_back({breaks[i], breaks[i + 1], nearest});
@@ -238,10 +257,12 @@ std::vector<Overlap> overlaps_of(const EdgeCurve& slave, const Curves& master) {
 }  // namespace
 
 MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
-                          const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place) {
-  const Curves own = in_order(curves_of(slave, place)), other = curves_of(master, place);
+                          const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place,
+                          const std::vector<PlaneMesh::Edge>& outline) {
+  const Curves own = in_order(curves_of(slave, place)), other = curves_of(master, place),
+               body = curves_of(outline, place);
   MortarSums sums(own);
-  for (const EdgeCurve& edge : own) sums.add(edge, overlaps_of(edge, other));
+  for (const EdgeCurve& edge : own) sums.add(edge, overlaps_of(edge, other, body));
   return sums.seam(place);
 }
 

@@ -5,8 +5,10 @@
 //   g_k   = n_k . (u_k - sum_l w_kl u_l) + g0_k,   w_kl = M_kl / D_k,   g0_k the same of the places
 //   n_k   = - int N_k nu ds / |...|                                     nu: outward normal of the slave
 //
-// Points of the slave meet the master along the normal of the slave edge's chord; of several master edges the nearest. On a
-// straight seam a constant pressure, force N_k = p D_k, is transmitted exactly, however the meshes meet.
+// Points of the slave meet the master along the normal of the slave edge's chord; of several master edges the nearest. A
+// master behind the slave's edge is an interference as far as the slave's body reaches: what lies on its other side, and that
+// other side itself, do not face the edge. On a straight seam a constant pressure, force N_k = p D_k, is transmitted exactly,
+// however the meshes meet.
 // Source: Wohlmuth, SIAM J. Numer. Anal. 38 (2000) 989; Popp, Gee, Wall, Int. J. Numer. Meth. Eng. 79 (2009) 1354; covered
 // parts: Cichosz, Bischoff, Comput. Methods Appl. Mech. Eng. 200 (2011) 1317.
 #pragma once
@@ -38,8 +40,10 @@ struct MortarSeam {
   std::vector<int> corners;   ///< nodes at which the edges' normals differ by more than 45 degrees
 };
 
+/// outline: all edges of the slave's body, as far as they are known.
 [[nodiscard]] MortarSeam mortar_between(const std::vector<PlaneMesh::Edge>& slave,
-                                        const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place);
+                                        const std::vector<PlaneMesh::Edge>& master, const PlaceOf& place,
+                                        const std::vector<PlaneMesh::Edge>& outline = {});
 /// Against what lies where the slave is: all of it is covered, the gap is zero.
 [[nodiscard]] MortarSeam mortar_on_ground(const std::vector<PlaneMesh::Edge>& slave, const PlaceOf& place);
 /// Against a line through `point` with unit `normal`: g0_k = normal . (x_k - point).

@@ -248,6 +248,9 @@ void Search::stability() {
                   options_.energy.has_value(), orbit_);
 }
 
+/// A turn between two places is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.
+constexpr int places_told = 720;
+
 /// The run from the orbit's time 0.
 void Search::tell(const OrbitState& at_section, double section) {
   const Model base = orbit_.autonomous ? map_->model() : driven_from(first_, before_);
@@ -256,7 +259,9 @@ void Search::tell(const OrbitState& at_section, double section) {
   if (section > 0.0) start = orbit_state(map_->pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(driven_from(given_, orbit_.phase), rows);
-  const OrbitPass once = map.pass({start, shot_.duration, false});
+  OrbitLeg told{start, shot_.duration, false};
+  told.places = places_told;
+  const OrbitPass once = map.pass(told);
   orbit_.sequence = once.events;
   orbit_.cycle = once.cycle;
   orbit_.amplitude = once.u_amplitude * first_.scales.displacement * given_.machine.length;

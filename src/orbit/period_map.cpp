@@ -12,7 +12,6 @@ namespace signorini {
 namespace {
 
 constexpr int fewest_in_modes = 6;  // below, series are as fast. Chosen.
-constexpr int rows_a_period = 24;   // of which amplitudes are made; chosen
 
 /// The least value of a function that is seen at some times: that of a parabola where three of them have one.
 class Least {
@@ -248,7 +247,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   if (!leg.outputs) model.outputs.clear();
   RunSpec run = run_;
   run.t_end = leg.duration;
-  run.output_dt = leg.duration / rows_a_period;
+  run.output_dt = leg.duration / leg.places;
   RunSpec bare = run;  // tangents want no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);

@@ -44,6 +44,7 @@ struct OrbitLeg {
   bool tangents = true;
   bool outputs = false;                        ///< their extremes
   const ModelDerivative* parameter = nullptr;  ///< of the model, the state aside
+  int places = 24;  ///< of which amplitudes are made; chosen: for scales of the residual
 };
 
 class PeriodMap {

@@ -114,9 +114,25 @@ double residual_of(const OrbitSection& section, const OrbitPass& pass, const Vec
   return worst;
 }
 
+namespace {
+
+/// Of shears that are coordinates at the end, but not at the beginning: a contact slips there, and sticks when the period ends.
+double shears_left_out(const Model& model, const OrbitPass& pass) {
+  double worst = 0.0;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (!model.contacts[c].tangential_stiffness || pass.end.mode[c].state != State::stick) continue;
+    const auto T = static_cast<Eigen::Index>(2 * c + 1);
+    worst = std::max(worst, std::abs(pass.end.forces[T] - pass.begin.forces[T]));
+  }
+  return over(worst / model.scales.force, pass.T_amplitude);
+}
+
+}  // namespace
+
 double orbit_residual(const Model& model, const OrbitPass& pass) {
   const OrbitSection section(model, pass.begin);
-  return residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin));
+  return std::max(residual_of(section, pass, section.coordinates(pass.end) - section.coordinates(pass.begin)),
+                  shears_left_out(model, pass));
 }
 
 namespace {

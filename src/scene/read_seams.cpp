@@ -7,6 +7,7 @@
 #include "base/listed.hpp"
 #include "base/number.hpp"
 #include "mesh/mortar.hpp"
+#include "mesh/shared_edges.hpp"
 #include "scene/contact_tables.hpp"
 
 namespace signorini {
@@ -41,7 +42,10 @@ void read_springs_of(Table& table, SeamLaw& law) {
   if (table.has("layer")) return read_layer(table, law);
   table.require("normal_stiffness", " (required for law = \"compliant\" without layer)");
   law.normal_stiffness = table.number("normal_stiffness");
-  if (!law.contact.friction.any()) return;
+  if (!law.contact.friction.any()) {
+    static_cast<void>(table.optional_number("tangential_stiffness"));  // without friction nothing loads it
+    return;
+  }
   table.require("tangential_stiffness", " (required for law = \"compliant\" with friction, without layer)");
   law.tangential_stiffness = table.number("tangential_stiffness");
   if (law.contact.friction.stribeck_velocity)
@@ -102,6 +106,17 @@ Boundary find_side(const Table& table, std::string_view key, const std::string& 
                               there.empty() ? "none" : listed(there, 8)));
 }
 
+/// Edges of the slave's body, or of its surface.
+std::vector<PlaneMesh::Edge> outline_of(const Boundary& side, const Scene& scene) {
+  if (!side.body) return *side.edges;
+  SharedEdges all;
+  add_edges(scene.bodies[*side.body].mesh.elements, all);
+  std::vector<PlaneMesh::Edge> outline;
+  for (auto& [ends, edge] : all)
+    if (edge.elements == 1) outline.push_back({std::move(edge.nodes)});
+  return outline;
+}
+
 PlanePoint place_in(const Scene& scene, int n) {
   const auto i = static_cast<std::size_t>(n);
   if (scene.matrices) return {scene.surface_nodes[i].x, scene.surface_nodes[i].y};
@@ -153,7 +168,7 @@ MortarSeam read_mortar(Table& table, const Boundary& slave, const Scene& scene) 
     const Boundary other = find_side(table, "master", master, scene);
     if (other.edges == slave.edges)
       table.fail("master", "found the slave boundary itself, expected another one");
-    seam = mortar_between(*slave.edges, *other.edges, place);
+    seam = mortar_between(*slave.edges, *other.edges, place, outline_of(slave, scene));
   }
   if (!seam.negative.empty())
     table.fail(

@@ -99,12 +99,7 @@ class Balance {
     const Model& model = bench_.model;
     const Vector none = Vector::Zero(model.size()), &a = side_.a != nullptr ? *side_.a : none;
     const Vector &x = order_ == 0 ? *side_.u : order_ == 1 ? *side_.v : a, &dx = order_ == 0 ? *side_.v : a;
-    const std::array<double, 2> nothing = {0.0, 0.0};
-    const Vector of_x = reach_of(model, x,
-                                 order_ == 0   ? side_.u_reach
-                                 : order_ == 1 ? side_.v_reach
-                                               : nothing);
-    const Vector of_dx = reach_of(model, dx, order_ == 0 ? side_.v_reach : nothing);
+    const Vector of_x = reach_of(model, x, reached(order_)), of_dx = reach_of(model, dx, reached(order_ + 1));
     for (const int i : bench_.massless()) {
       sum_[i] = side_.loads[static_cast<std::size_t>(order_)][i];
       size_[i] = std::abs(sum_[i]);
@@ -117,6 +112,17 @@ class Balance {
       known_[static_cast<std::size_t>(i)] = order_ == 0 || (order_ == 1 && side_.a != nullptr);
       for (; damper; ++damper) take(i, damper.value(), dx[damper.row()], of_dx[damper.row()]);
     }
+  }
+  /// What places (order 0), velocities and accelerations have reached. Roundings of places make velocities as great as w
+  /// times them, and accelerations as great as w^2, w: the highest frequency. At rest that is all there is.
+  [[nodiscard]] std::array<double, 2> reached(int order) const {
+    if (order == 0) return side_.u_reach;
+    std::array<double, 2> reach = side_.u_reach;
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+      reach[i] *= rounding::eps * std::pow(bench_.model.omega_max, order);
+      if (order == 1) reach[i] = std::max(reach[i], side_.v_reach[i]);
+    }
+    return reach;
   }
   void take(int i, double factor, double x, double reach) {
     sum_[i] -= factor * x;

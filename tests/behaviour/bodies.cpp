@@ -248,7 +248,13 @@ plane = "stress"
   };
   refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known:");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.right\"\nlaw = \"rigid\"\n",
-          "found a gap of -1 m at the start, expected a gap >= 0");
+          "it faces no part of the slave boundary");
+  refused(
+      "[[bodies]]\nname = \"c\"\nrectangle = { from = [0.9, 0.0], size = [1.0, 1.0] }\nelements = [1, 1]\nE "
+      "= 1.0\n"
+      "nu = 0.0\ndensity = 1.0\nplane = \"stress\"\n"
+      "[[seams]]\nname = \"s\"\nslave = \"b.right\"\nmaster = \"c.left\"\nlaw = \"rigid\"\n",
+      "found a gap of -0.1 m at the start, expected a gap >= 0");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.bottom\"\nlaw = \"rigid\"\n",
           "it faces no part of the slave boundary");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"ground\"\nlaw = \"compliant\"\n",

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -124,6 +125,58 @@ TEST_CASE("random bodies: no landing is swallowed, no energy lost") {
   CHECK(tally.bars == 8);
   CHECK(tally.hits > 100);
   CHECK(tally.exit_code() == 0);
+}
+
+TEST_CASE(
+    "a slider reaches its limit while a mass beside it makes its last bounces: ida knows the flights up to "
+    "there") {
+  // The slider sticks within 1e-8 of its limit as the mass comes to rest at the stop. It reached the limit before a flight
+  // that was lower than the steps of ida see was over; the mass then fell through the stop, and bounced forever.
+  for (const double degrees : {0.0, -38.0}) {
+    CAPTURE(degrees);
+    const double a = degrees * std::numbers::pi / 180.0, c = std::cos(a), s = std::sin(a);
+    const std::string along = fmt::format("[{:.17g}, {:.17g}]", c, s);
+    const std::string text = fmt::format(R"(schema = 1
+units = {{ force = "N", mass = "kg", length = "m", time = "s" }}
+run = {{ t_end = 13.0, engine = "exact", rtol = 1e-10 }}
+nodes = {{ A = [0.0, 0.0], B = {0} }}
+masses = [{{ node = "A", mass = 1.2191735681825078 }}, {{ node = "B", mass = 1.9558194702035978 }}]
+springs = [
+  {{ node = "A", direction = {0}, stiffness = 3.196795403293946, damping = 0.021030887161741542 }},
+  {{ node = "A", against = "B", direction = {0}, stiffness = 1.3810418086767273, damping = 0.1880899519144558 }},
+  {{ node = "B", direction = {0}, stiffness = 2.242663341242831, damping = 0.18795051049876224 }},
+  {{ node = "A", direction = {1}, stiffness = 3.0 }},
+  {{ node = "B", direction = {1}, stiffness = 5.0 }},
+]
+loads = [{{ node = "A", direction = {0}, amplitude = 1.9029208691263053, history = {{ type = "harmonic", omega = 0.84, phase = 0.26295718782699895 }} }}]
+[[contacts]]
+name = "c0"
+node = "A"
+law = "slider"
+tangent = {0}
+normal_force = 1.1078427526148562
+friction = 0.18592753087614378
+tangential_stiffness = 19.812026949045826
+[[contacts]]
+name = "c1"
+node = "A"
+law = "rigid"
+normal = {0}
+gap = 0.3035215396722907
+restitution = 0.42123524928218664
+)",
+                                         along, fmt::format("[{:.17g}, {:.17g}]", -s, c));
+    const Result exact = simulate(parse_scene(text, "last bounces")),
+                 ida = simulate(parse_scene(text, "last bounces", {{"run.engine", "ida"}}));
+    CHECK(exact.events.size() > 40);
+    REQUIRE(ida.events.size() == exact.events.size());
+    for (std::size_t i = 0; i < ida.events.size(); ++i) {
+      CHECK(ida.events[i].contact == exact.events[i].contact);
+      CHECK(ida.events[i].to == exact.events[i].to);
+      CHECK(std::abs(ida.events[i].t - exact.events[i].t) < 1e-7);
+    }
+    CHECK(ida.report.witness.violated == 0);
+  }
 }
 
 TEST_SUITE_END();

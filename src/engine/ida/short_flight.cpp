@@ -35,13 +35,13 @@ std::optional<Step> ShortFlight::take(const Segment& segment,
   series_->start(segment);
   Step step = series_->advance();
   if (step.kind != Step::Kind::event) return std::nullopt;
-  for (const Fired& fired : step.fired) {
-    const std::size_t slot = guard_slot(fired.contact, 0);
-    if (!leaves(slot)) return std::nullopt;
-    const Contact& contact = model_.contacts[fired.contact];
+  // What ends the step may be another guard: a flight that is low up to there has to be known as well as one that ends there.
+  for (std::size_t slot = 0; slot < decision.guards.size(); ++slot) {
+    if (!leaves(slot)) continue;
+    const Contact& contact = model_.contacts[contact_of_guard(slot)];
     const double lowest = level(contact);
     Point point;
-    for (int i = 1; i < looks; ++i) {
+    for (int i = 1; i <= looks; ++i) {
       series_->evaluate(step.begin + (step.end - step.begin) * i / looks, point);
       if (contact.gap_at(point.u) > lowest) return std::nullopt;
     }

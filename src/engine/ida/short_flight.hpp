@@ -18,8 +18,8 @@ class ShortFlight {
  public:
   ShortFlight(const Model& model, const Structure& structure, ModeSystems& systems, double t_end);
 
-  /// The step to the hit, if the segment begins with such a flight. level: gap of a contact from which on the
-  /// integrator sees it by itself.
+  /// The step to the hit, or to another event before it, if the segment begins with such a flight. level: gap of a contact
+  /// from which on the integrator sees it by itself.
   [[nodiscard]] std::optional<Step> take(const Segment& segment,
                                          const std::function<double(const Contact&)>& level);
   /// The motion and the works on the step that was taken.

@@ -212,6 +212,8 @@ TEST_CASE("bad meshes are refused with file and line") {
   check_refused(changed(old_file, "2.2 0 8", "3.0 0 8"), "m.msh:2: bodies.b.mesh: found version 3");
   check_refused(changed(new_file, "1 1 0\n0 1 0", "1 1 0.5\n0 1 0"), "found z = 0.5 of node 12");
   check_refused(changed(new_file, "1 1 0\n0 1 0", "1 x 0\n0 1 0"), "found \"x\", expected y, a number");
+  check_refused(changed(new_file, "2 11 10\n3 11 14", "2 11 13\n3 11 14"),
+                "m.msh:40: bodies.b.mesh: line 2 from node 11 to node 13 is no edge of an element");
   check_refused(new_file, "no physical surface is named \"wood\"; known: other steel, steel", {"wood"});
   check_refused("MeshFormat", "m.msh:1: bodies.b.mesh: found \"MeshFormat\", expected a section");
   check_refused(std::string(old_file).substr(0, 300), "found the end of the file");

@@ -188,4 +188,25 @@ TEST_CASE("on the ground and on a line") {
   CHECK(mortar_on_line(line.slave, {5.0, 2.0}, {0.0, -1.0}, place).nodes.empty());  // it faces away
 }
 
+TEST_CASE("an interference reaches as far as the slave's body: no farther, and not to its other side") {
+  // The slave's body lies between 0 and 0.5; the master's edge 0.3, 0.5, 0.7 into it, or before it.
+  for (const double off : {-0.2, 0.0, 0.3, 0.5, 0.7}) {
+    CAPTURE(off);
+    Line line;
+    line.add_side({0.0, 1.0, 3.0}, true, false);
+    std::vector<PlaneMesh::Edge> outline = line.slave;
+    line.add_side({-0.5, 3.5}, false, false, 0.5);  // its back
+    outline.insert(outline.end(), line.master.begin(), line.master.end());
+    if (off != 0.5) {
+      line.master.clear();
+      line.add_side({0.4, 2.8}, false, false, off);
+    }
+    const MortarSeam seam = mortar_between(
+        line.slave, line.master, [&](int n) { return line.at[static_cast<std::size_t>(n)]; }, outline);
+    REQUIRE(seam.nodes.size() == (off < 0.5 ? 3 : 0));
+    for (const MortarNode& node : seam.nodes) CHECK(node.gap == doctest::Approx(-off).epsilon(1e-14));
+    if (off != 0.5) CHECK(line.seam().nodes.size() == 3);  // of what body it is, nobody has said
+  }
+}
+
 TEST_SUITE_END();

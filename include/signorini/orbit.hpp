@@ -123,7 +123,8 @@ struct BranchPoint {
   long events = 0;  ///< in one period
   int branch = 1;   ///< 1: of the first orbit; else that of Branch::sides
   /// A point that was located: "fold" (the parameter turns), "flip", "neimark-sacker", "branch point", "sequence" (the last one
-  /// with its sequence). Else what lies between the point before and this one: "stability" (gained or lost), "sequence",
+  /// with its sequence). Else what lies between the point before and this one: "fold" (the parameter turns at a corner of the
+  /// branch, where the sequence changes), "stability" (gained or lost), "sequence",
   /// "restart" (the branch before could not be followed on); "switched": the first point beside the branch that it leaves;
   /// several with "+"
   std::string special;

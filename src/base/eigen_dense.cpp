@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace signorini {
@@ -106,6 +107,24 @@ std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a, const Eig
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
   if (!lu.isInvertible()) return std::nullopt;
   return lu.solve(b);
+}
+
+/// Inverse iteration, x <- A^-1 A^-T x. A may be singular: a diagonal of rounding keeps its factors regular.
+Eigen::MatrixXd least_stretched(const Eigen::MatrixXd& a, Eigen::Index count) {
+  constexpr int rounds = 4;
+  const Eigen::Index n = a.rows();
+  const double tiny =
+      std::numeric_limits<double>::epsilon() * (a.size() > 0 ? a.cwiseAbs().maxCoeff() : 0.0) +
+      std::numeric_limits<double>::min();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a + tiny * Eigen::MatrixXd::Identity(n, n));
+  Eigen::MatrixXd x(n, count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) x(i, j) = std::cos(static_cast<double>(i * (2 * j + 1) + j));
+  for (int k = 0; k < rounds; ++k) {
+    x = orthonormal(lu.transpose().solve(x));
+    x = orthonormal(lu.solve(x));
+  }
+  return x;
 }
 
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a) {

@@ -51,6 +51,9 @@ struct EigenPairs {
 [[nodiscard]] std::optional<Eigen::VectorXd> solve_regular(const Eigen::MatrixXd& a,
                                                            const Eigen::VectorXd& b);
 
+/// Right singular vectors of the least `count` singular values, n x count, orthonormal. Those must be well below the others.
+[[nodiscard]] Eigen::MatrixXd least_stretched(const Eigen::MatrixXd& a, Eigen::Index count);
+
 /// Descending; A: n x m.
 [[nodiscard]] Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 

@@ -106,6 +106,7 @@ std::string text_of(const Scene& scene, const Model& model, const Orbit& orbit, 
       orbit.period, model.units.time, orbit.autonomous ? " (of the motion itself)" : "", orbit.residual,
       orbit.amplitude, model.units.length, orbit.steps.size() - 1);
   text += stability_line(orbit);
+  if (!orbit.multipliers.empty() && !orbit.reason.empty()) text += orbit.reason + "\n";
   for (const std::string& family : orbit.families) text += "one of a family of orbits: " + family + "\n";
   text += cycle_line(model, orbit);
   return text + "results: " + path.string() + "/ (orbit.json, and a run of one period)\n";

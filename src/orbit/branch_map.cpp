@@ -173,6 +173,10 @@ OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs)
   return at(state.s)->pass({state.state, state.duration, tangents, outputs});
 }
 
+OrbitPass BranchMap::margins(const BranchState& state) const {
+  return at(state.s)->pass({state.state, state.duration, false, false, places_of_margins});
+}
+
 Vector BranchMap::by_parameter(const BranchState& state, const OrbitPass& pass) const {
   const OrbitSection section(first_, pass.begin);
   if (conservative()) return Vector::Zero(section.basis().rows());

@@ -53,6 +53,8 @@ class BranchMap {
   /// surface of those that stick. A key may move all three.
   [[nodiscard]] OrbitState fitted(OrbitState state, const Mode& mode, double s) const;
   [[nodiscard]] OrbitPass pass(const BranchState& state, bool tangents = true, bool outputs = false) const;
+  /// Margins alone, from many rows.
+  [[nodiscard]] OrbitPass margins(const BranchState& state) const;
   /// dG/ds by a difference to one side, coordinates at the section, not yet times B^T. A matrix of Newton's method and a
   /// direction: neither needs more digits.
   [[nodiscard]] Vector by_parameter(const BranchState& state, const OrbitPass& pass) const;

@@ -23,7 +23,8 @@ constexpr double worth_damping = 1e-3;  // residual over amplitude: an orbit is 
 constexpr double least_left = 1e-6;     // of a direction that is no family's. Chosen.
 constexpr double held_from = 0.7;       // |t_s|: from there on the parameter is held by corrections. Chosen.
 constexpr double least_size = 1e-3;     // of a coordinate in the norm; chosen
-constexpr double singular = 1e-9;       // as in shooting.cpp
+// As in shooting.cpp; the finer one where a correction left most of the residual.
+constexpr double singular = 1e-9, finer_singular = 1e-12;
 constexpr double amplitudes_a_range =
     5.0;  // in which the state may change as far as the parameter in its range
 // Of dz/ds, beside the motion: above the noise of dG/ds. Chosen; who asks tries it.
@@ -115,6 +116,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
       return c;
     }
     const bool stale = c.iterations > 0 && c.residual > slow * before;
+    const double least = c.iterations > 0 && c.residual > 0.5 * before ? finer_singular : singular;
     before = c.residual;
     const OrbitSection section(map_.model(), c.pass.begin);
     if (!held && (slope.size() != section.size() || stale)) slope = by_parameter(c.state, c.pass);
@@ -125,7 +127,7 @@ Corrected BranchNewton::correct(BranchState guess, const Vector& direction, cons
     if (map_.conservative()) b[J.rows() - 1] = energy_missing(c) / map_.range();
     b.head(section.size()) = -sizes_.cwiseInverse().cwiseProduct(
         section.basis().transpose() * (section.coordinates(c.pass.end) - section.coordinates(c.pass.begin)));
-    Vector dy = shortest_solution(A, b, singular);
+    Vector dy = shortest_solution(A, b, least);
     if (held) dy[dy.size() - 1] = 0.0;  // to rounding it is
     if (!(dy.norm() < longest_correction)) {
       c.reason = "Newton's method leaves the branch";
@@ -161,31 +163,28 @@ Vector BranchNewton::tangent(Corrected& at, const Vector& before) const {
   return t.norm() > 0.0 ? Vector(t / t.norm()) : before;
 }
 
-Eigen::MatrixXd BranchNewton::families(const Corrected& at) const {
+const Eigen::MatrixXd& BranchNewton::families(Corrected& at) const {
   const Eigen::Index n = at.monodromy.rows(), all = size(at.pass);
   const Eigen::Index count = map_.autonomous() ? 0 : std::min(n, static_cast<Eigen::Index>(at.ones));
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(all, count);
-  if (count == 0) return directions;
+  if (at.family.rows() == all && at.family.cols() == count) return at.family;
+  at.family = Eigen::MatrixXd::Zero(all, count);
+  if (count == 0) return at.family;
   const Eigen::MatrixXd A = sizes_.cwiseInverse().asDiagonal() *
                             (at.monodromy - Eigen::MatrixXd::Identity(n, n)) * sizes_.asDiagonal();
-  directions.topRows(n) = symmetric_eigen(A.transpose() * A).vectors.leftCols(count);
-  return directions;
+  at.family.topRows(n) = least_stretched(A, count);
+  return at.family;
 }
 
-Vector BranchNewton::along_families(const Corrected& at, const Vector& t, const Vector& way) const {
-  const Eigen::MatrixXd directions = families(at);
-  if (directions.cols() == 0) return t;
-  const Vector part = directions * (directions.transpose() * way);
-  const Vector both = part + std::sqrt(std::max(0.0, 1.0 - part.squaredNorm())) * t;
-  return both / both.norm();
+BranchNewton::Way BranchNewton::split(Corrected& at, const Vector& way) const {
+  const Eigen::MatrixXd& directions = families(at);
+  const Vector part = directions * (directions.transpose() * way), rest = way - part;
+  if (!(rest.norm() > least_left)) return {way, Vector::Zero(way.size())};
+  return {rest / rest.norm(), part / std::max(rest.norm(), part.norm())};
 }
 
 /// Along a family Phi - I is zero, too: t is not to drift along it.
-Vector BranchNewton::without_families(const Corrected& at, const Vector& t) const {
-  const Eigen::MatrixXd directions = families(at);
-  if (directions.cols() == 0) return t;
-  const Vector rest = t - directions * (directions.transpose() * t);
-  return rest.norm() > least_left ? Vector(rest / rest.norm()) : t;
+Vector BranchNewton::without_families(Corrected& at, const Vector& t) const {
+  return families(at).cols() == 0 ? t : split(at, t).across;
 }
 
 Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<std::size_t> ones,
@@ -194,6 +193,7 @@ Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<
     at.monodromy = monodromy(map_.model(), at.pass);
     at.multipliers = multipliers_of(at.monodromy);
     at.error = error_of(at.monodromy, at.pass.rates_error, orbit_state_error(map_.at(at.state.s)->run()));
+    at.family = {};
   }
   const std::size_t of_time = map_.keeps_energy() ? 2 : map_.autonomous() ? 1 : 0;
   at.ones = ones.value_or(std::max(count_ones(at.multipliers), of_time));
@@ -246,7 +246,7 @@ Vector BranchNewton::in_norm(const Vector& raw) const {
   return t / t.norm();
 }
 
-std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Corrected& to) const {
+std::optional<Vector> BranchNewton::difference(const BranchPlace& from, const Corrected& to) const {
   const OrbitSection section(map_.model(), to.pass.begin), before(map_.model(), from.begin);
   if (before.size() != section.size() || before.basis().rows() != section.basis().rows()) return std::nullopt;
   Vector t(size(to.pass));
@@ -255,9 +255,14 @@ std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Correc
           .cwiseQuotient(sizes_);
   if (map_.autonomous()) t[section.size()] = (to.state.duration - from.duration) / to.state.duration;
   t[t.size() - 1] = to.state.s - from.s;
-  const double length = t.norm();
+  return t;
+}
+
+std::optional<Vector> BranchNewton::secant(const BranchPlace& from, const Corrected& to) const {
+  const std::optional<Vector> t = difference(from, to);
+  const double length = t ? t->norm() : 0.0;
   if (!(length > 0.0)) return std::nullopt;
-  return Vector(t / length);
+  return Vector(*t / length);
 }
 
 void BranchNewton::hear_noise(const OrbitPass& first, const OrbitPass& second) {

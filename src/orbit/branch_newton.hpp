@@ -37,7 +37,8 @@ struct Corrected {
   Eigen::MatrixXd monodromy;  ///< with multipliers and tests: of examine()
   Multipliers multipliers;
   double error = 0.0;    ///< error_of() the monodromy matrix
-  std::size_t ones = 0;  ///< multipliers that are 1 for reasons of their own
+  std::size_t ones = 0;    ///< multipliers that are 1 for reasons of their own
+  Eigen::MatrixXd family;  ///< of families(), once asked for
   TestValues tests;
 };
 
@@ -69,9 +70,13 @@ class BranchNewton {
   /// Whether corrections hold the parameter along this direction.
   [[nodiscard]] static bool holds(const Vector& t);
   /// Directions of families: so many columns as multipliers are 1 for reasons of their own, in y, of length 1.
-  [[nodiscard]] Eigen::MatrixXd families(const Corrected& at) const;
-  /// t, with that part of `way` that lies in families.
-  [[nodiscard]] Vector along_families(const Corrected& at, const Vector& t, const Vector& way) const;
+  [[nodiscard]] const Eigen::MatrixXd& families(Corrected& at) const;
+  /// A way along the branch: what leads along families no longer counts in the length of a step.
+  struct Way {
+    Vector across;  ///< without families, of length 1
+    Vector drift;   ///< along families, for each unit of that; at most 1
+  };
+  [[nodiscard]] Way split(Corrected& at, const Vector& way) const;
   /// Coordinates at the section, dT/T, s of the orbit of twice the period that leaves at a flip.
   [[nodiscard]] Vector flip_direction(const Corrected& at) const;
   /// The same of the branch that crosses the one along t at a branch point.
@@ -82,7 +87,9 @@ class BranchNewton {
   [[nodiscard]] static double along(const Vector& v, const Vector& t) {
     return holds(t) ? v[v.size() - 1] / t[t.size() - 1] : v.dot(t);
   }
-  /// From a point before to this one; nothing where the state at the section has other unknowns, or both are one.
+  /// From a point before to this one; nothing where the state at the section has other unknowns.
+  [[nodiscard]] std::optional<Vector> difference(const BranchPlace& from, const Corrected& to) const;
+  /// Of length 1; nothing where both points are one.
   [[nodiscard]] std::optional<Vector> secant(const BranchPlace& from, const Corrected& to) const;
   /// The noise of the map (shooting.hpp) is what the next corrections can reach.
   void hear_noise(const OrbitPass& first, const OrbitPass& second);
@@ -93,7 +100,7 @@ class BranchNewton {
   [[nodiscard]] std::optional<double> shift(const Corrected& at, const Vector& t) const;
 
  private:
-  [[nodiscard]] Vector without_families(const Corrected& at, const Vector& t) const;
+  [[nodiscard]] Vector without_families(Corrected& at, const Vector& t) const;
   [[nodiscard]] double energy_missing(const Corrected& c) const;
   void close_damped(Corrected& c, Eigen::Index unknowns) const;
   [[nodiscard]] Vector tangent(Corrected& at, const Vector& before) const;

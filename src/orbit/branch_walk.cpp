@@ -8,29 +8,18 @@
 #include "model/rescale.hpp"
 #include "orbit/family_middle.hpp"
 #include "orbit/recurrence.hpp"
-#include "orbit/sequence_search.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double shortest_step = 1e-7;   // in the norm
-constexpr int quick = 4;                 // corrections, after which the next step may be longer
-constexpr double shifted_to = 1e-3;      // residual over amplitude: what noise leaves of a shift. Chosen.
-constexpr double alike = 0.9;            // cosine of two directions. Chosen.
-constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
-constexpr double restart_step = 2e-3;    // of the range
-// In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
-constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
-
-/// An event at the section may count twice, or not at all.
-bool event_at_section(const Corrected& at) {
-  const double T = at.state.duration;
-  return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
-    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
-  });
-}
+constexpr double shortest_step = 1e-7;  // in the norm
+constexpr int quick = 4;                // corrections, after which the next step may be longer
+constexpr double longest_way = 10.0;  // of a step: a branch turns by less, or the point is elsewhere. Chosen.
+constexpr double shifted_to = 1e-3;   // residual over amplitude: what noise leaves of a shift. Chosen.
+constexpr double alike = 0.9;         // cosine of two directions. Chosen.
+constexpr double restart_step = 2e-3;  // of the range
 
 }  // namespace
 
@@ -103,11 +92,12 @@ Vector BranchWalk::direction(const std::optional<BranchPlace>& place, Corrected&
   const std::optional<Vector> secant =
       place && !map_.autonomous() ? newton_.secant(*place, here) : std::nullopt;
   if (!secant) return newton_.examine(here, before);
-  const Vector way = newton_.examine(here, *secant, {}, true);
-  if (turning_ && newton_.holds(way)) return way;
-  const Vector tangent = newton_.along_families(here, newton_.examine(here, way), way);
+  newton_.examine(here, *secant, {}, true);
+  const auto [way, drift] = newton_.split(here, *secant);
+  if (turning_ && newton_.holds(way)) return way + drift;
+  const Vector tangent = newton_.examine(here, *secant);
   turning_ = tangent.dot(way) < alike;
-  return turning_ ? way : tangent;
+  return (turning_ ? way : tangent) + drift;
 }
 
 /// It begins where it is least in alphabetical order: the section may move.
@@ -129,72 +119,6 @@ int BranchWalk::number_of_sequence(const OrbitPass& pass) {
   const auto number = static_cast<int>(found - branch_.sequences.begin()) + 1;
   if (found == branch_.sequences.end()) branch_.sequences.push_back(text);
   return number;
-}
-
-/// Where a test function is zero on the step from here to next.
-std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
-                                                       const Corrected& next, const Vector& t,
-                                                       double ds) const {
-  const double a = here.tests.*kind.value, b = next.tests.*kind.value;
-  if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
-  const bool turns = here.tests.fold * next.tests.fold < 0.0;
-  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // that is what a fold does
-  Located point{0.0, kind.name, {}, {}};
-  const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
-    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
-    if (!c.done) return std::nullopt;
-    point.t = newton_.examine(c, t, here.ones);
-    point.at = std::move(c);
-    return point.at.tests.*kind.value;
-  });
-  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
-  point.part = *part;
-  return point;
-}
-
-/// The last point with the sequence of here.
-std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
-                                                               const Vector& t, double ds) const {
-  const std::string sequence = sequence_of(here.pass);
-  if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
-  Located point{0.0, "sequence", {}, {}};
-  bool seen = true;  // another sequence at the end of the interval, not a failure
-  const auto stretches = [&](const Corrected& c) {
-    return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
-  };
-  const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
-  SequenceSearch search(stretches(here), stretches(next), enough / ds);
-  Vector way = ds * t;  // a step in x, along what was found last
-  while (!search.done()) {
-    const double x = search.next();
-    const Corrected& from = point.at.done ? point.at : here;
-    Corrected c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t, from.by_s);
-    const bool same = c.done && sequence_of(c.pass) == sequence;
-    search.see(x, same, c.done ? stretches(c) : std::vector<double>());
-    if (!same) {
-      seen = c.done;
-      continue;
-    }
-    const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
-    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike) way = ds / part * *secant;
-    point.part = x;
-    point.at = std::move(c);
-  }
-  if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
-  newton_.examine(point.at, t, here.ones);
-  return point;
-}
-
-std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, const Corrected& next,
-                                                     const Vector& t, double ds) const {
-  std::vector<Located> all;
-  const auto take = [&](std::optional<Located> point) {
-    if (point) all.push_back(std::move(*point));
-  };
-  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, ds));
-  take(end_of_sequence(here, next, t, ds));
-  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
-  return all;
 }
 
 /// False: nobody wants more.
@@ -226,6 +150,7 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
   std::vector<std::string> what;
   if (!special.empty()) what.push_back(special);
   point.branch = number_;
+  if (points_ > 0 && !point_is_located && folds_) what.emplace_back("fold");
   if (points_ > 0 && !located_ && !point_is_located) {
     const BranchPoint& last = branch_.points.back();
     if (last.stable != point.stable) what.emplace_back("stability");
@@ -254,12 +179,20 @@ bool BranchWalk::begin(Corrected& here) {
 
 /// To the next point, or to the end of the range where it is nearer.
 Corrected BranchWalk::step(const Corrected& here, const Vector& t, double ds, bool last) const {
-  if (!last) return newton_.correct(newton_.moved(here.state, here.pass, ds * t), t, here.by_s);
-  BranchState end = newton_.moved(here.state, here.pass, ds * t);
-  end.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
-  end.state = map_.fitted(std::move(end.state), here.pass.begin.mode, end.s);
-  if (!map_.autonomous()) end.duration = map_.period(end.s);
-  return newton_.correct(std::move(end), newton_.upwards(here.pass, 1.0), here.by_s);
+  BranchState to = newton_.moved(here.state, here.pass, ds * t);
+  if (last) {
+    to.s = t[t.size() - 1] > 0.0 ? 1.0 : 0.0;
+    to.state = map_.fitted(std::move(to.state), here.pass.begin.mode, to.s);
+    if (!map_.autonomous()) to.duration = map_.period(to.s);
+  }
+  Corrected next = newton_.correct(std::move(to), last ? newton_.upwards(here.pass, 1.0) : t, here.by_s);
+  const auto way = next.done ? newton_.difference({here.pass.begin, here.state.duration, here.state.s}, next)
+                             : std::nullopt;
+  if (way && way->norm() > longest_way * ds) {
+    next.done = false;
+    next.reason = "Newton's method ends at another part of the branch";
+  }
+  return next;
 }
 
 /// The orbit is the same for all values of the key, but shifted in time: at the end of the range, too.
@@ -288,18 +221,18 @@ void BranchWalk::walk(Corrected here, Vector t) {
                         : along < 0.0 ? here.state.s / -along
                                       : 2.0 * ds;
     const bool last = left <= ds;
-    const double length = std::min(ds, left);
+    double length = std::min(ds, left);
+    const double whole = length;
     Corrected next = step(here, t, length, last);
     branch_.interrupted = next.pass.interrupted;
     if (branch_.interrupted) return;
     std::string special;
+    std::optional<BranchPlace> place;
     if (next.done) {
       newton_.examine(next, t);
       if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
-      for (const Located& point : located(here, next, t, length)) {
-        if (!add(point.at, point.kind)) return;
-        keep_junction(point);
-      }
+      place = cross(here, next, t, length);
+      if (!place) return;
     } else {
       ds = 0.5 * length;
       if (ds >= shortest_step) continue;
@@ -313,20 +246,20 @@ void BranchWalk::walk(Corrected here, Vector t) {
       }
       ds = 0.25 * options_.step;
     }
-    std::optional<BranchPlace> place;
-    if (special.empty()) place = BranchPlace{here.pass.begin, here.state.duration, here.state.s};
     cut_anew(next, place);
     const Vector before =
         t.size() == newton_.size(next.pass) ? t : newton_.upwards(next.pass, along < 0.0 ? -1.0 : 1.0);
     here = std::move(next);
     t = before;
     newton_.measure(here.pass, &t);
+    here.family = {};  // it was in the norm before
     t = direction(place, here, t);
     if (centre(here, t)) t = direction(place, here, t);
     keep_mark(here, t);
+    folds_ = folds_ && special.empty() && along * t[t.size() - 1] < 0.0;
     if (!add(here, special)) return;
     offer_mark();
-    complete_ = last && special.empty();
+    complete_ = last && special.empty() && length == whole;
     if (complete_) {
       end_ = fmt::format("reached {} = {:.9g}", options_.path, value(here));
       return;
@@ -395,18 +328,6 @@ void BranchWalk::guarded(const std::function<void()>& walk) {
 
 void BranchWalk::follow() {
   guarded([&] { walk_from_start(); });
-}
-
-void BranchWalk::keep_junction(const Located& point) {
-  if (generation_ >= options_.switches) return;
-  const auto keep = [&](BranchMap map, const Vector& away) {
-    junctions_.push_back({std::move(map), point.at, away, point.kind, number_, generation_ + 1});
-  };
-  if (point.kind == "flip") keep(map_.doubled(), newton_.flip_direction(point.at));
-  if (point.kind != "branch point") return;
-  const Vector other = newton_.other_direction(point.at, point.t);
-  keep(map_, other);
-  keep(map_, -other);
 }
 
 /// The first point on the other branch, and its direction there.

@@ -71,9 +71,14 @@ class BranchWalk {
     std::string kind;
     Corrected at;
     Vector t;
+    /// Of a change of the sequence, where yet another one follows within the step: the farthest place found before that.
+    std::optional<Corrected> behind = {};
+    double behind_part = 1.0;
   };
   [[nodiscard]] std::vector<Located> located(const Corrected& here, const Corrected& next, const Vector& t,
                                              double ds) const;
+  [[nodiscard]] std::optional<BranchPlace> cross(const Corrected& here, Corrected& next, const Vector& t,
+                                                 double& length);
   [[nodiscard]] std::optional<Located> zero_of(const SpecialKind& kind, const Corrected& here,
                                                const Corrected& next, const Vector& t, double ds) const;
   [[nodiscard]] std::optional<Located> end_of_sequence(const Corrected& here, const Corrected& next,
@@ -102,6 +107,7 @@ class BranchWalk {
   bool towards_to_ = true;
   int points_ = 0;
   bool located_ = false;  // the last point is a located one
+  bool folds_ = false;    // the parameter turns between the last two points, and no fold was located
   bool turning_ = false;  // the tangent is not the way of the branch (direction())
   bool doubled_ = false;  // it began at a flip
   double half_section_ = 0.0;

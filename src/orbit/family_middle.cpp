@@ -1,5 +1,6 @@
 #include "orbit/family_middle.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/eigen_dense.hpp"
@@ -7,7 +8,8 @@
 namespace signorini {
 namespace {
 
-constexpr double balanced = 1e-5;      // two margins, in amplitudes of T. Chosen.
+// Two margins are equal: of the lesser one, and between those parts of the amplitude of T. Chosen.
+constexpr double balanced = 1e-3, finest = 1e-8, coarsest = 1e-5;
 constexpr double along_family = 1e-5;  // step of differences, in the norm; chosen
 constexpr double singular_family =
     1e-6;  // a direction that moves no margin, in amplitudes of T a unit. Chosen.
@@ -29,14 +31,21 @@ Vector imbalances(const std::vector<std::size_t>& contacts, const OrbitPass& pas
   return d;
 }
 
-/// Their derivatives along directions of the family; empty: not known.
+/// Whether they count as zero.
+bool is_balanced(const std::vector<std::size_t>& contacts, const OrbitPass& pass, const Vector& d) {
+  double least = pass.T_amplitude;
+  for (const std::size_t c : contacts) least = std::min({least, pass.margins[c][0], pass.margins[c][1]});
+  const double T = pass.T_amplitude;
+  return d.cwiseAbs().maxCoeff() <= std::clamp(balanced * least, finest * T, coarsest * T);
+}
+
+/// Their derivatives along directions of the family; empty: not known. here: those of the point.
 Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const Corrected& at,
-                       const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions) {
-  const Vector here = imbalances(contacts, at.pass);
+                       const std::vector<std::size_t>& contacts, const Eigen::MatrixXd& directions,
+                       const Vector& here) {
   Eigen::MatrixXd D(here.size(), directions.cols());
   for (Eigen::Index k = 0; k < directions.cols(); ++k) {
-    const OrbitPass beside =
-        map.pass(newton.moved(at.state, at.pass, along_family * directions.col(k)), false);
+    const OrbitPass beside = map.margins(newton.moved(at.state, at.pass, along_family * directions.col(k)));
     if (!beside.done()) return {};
     D.col(k) = (imbalances(contacts, beside) - here) / along_family;
   }
@@ -48,21 +57,24 @@ Eigen::MatrixXd slopes(const BranchMap& map, const BranchNewton& newton, const C
 std::optional<Corrected> family_middle(const BranchMap& map, const BranchNewton& newton,
                                        const Corrected& here, const Vector& t) {
   const std::vector<std::size_t> contacts = never_slip(map.model(), here.pass);
-  const Eigen::MatrixXd directions = newton.families(here);
-  if (contacts.empty() || directions.cols() == 0) return std::nullopt;
   Corrected at = here;
+  const Eigen::MatrixXd directions = newton.families(at);
+  if (contacts.empty() || directions.cols() == 0) return std::nullopt;
   bool moved = false;
-  for (int i = 0; i < most_centrings; ++i) {
-    const Vector d = imbalances(contacts, at.pass);
-    if (d.cwiseAbs().maxCoeff() <= balanced * at.pass.T_amplitude) break;
-    const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions);
+  OrbitPass fine = map.margins(at.state);
+  for (int i = 0; i < most_centrings && fine.done(); ++i) {
+    const Vector d = imbalances(contacts, fine);
+    if (is_balanced(contacts, fine, d)) break;
+    const Eigen::MatrixXd D = slopes(map, newton, at, contacts, directions, d);
     if (D.size() == 0) break;
     // Where all else slips the structure moves with the anchor, and no force changes.
     const Vector part = shortest_solution(D, -d, singular_family, at.pass.T_amplitude);
     if (!(part.norm() > 0.0)) break;
     Corrected next = newton.correct(newton.moved(at.state, at.pass, directions * part),
                                     newton.upwards(at.pass, 1.0), at.by_s);
-    if (!next.done || !(imbalances(contacts, next.pass).norm() < 0.5 * d.norm())) break;
+    if (!next.done) break;
+    fine = map.margins(next.state);
+    if (!fine.done() || !(imbalances(contacts, fine).norm() < 0.5 * d.norm())) break;
     newton.examine(next, t, here.ones, true);
     at = std::move(next);
     moved = true;

@@ -17,7 +17,10 @@
 namespace signorini {
 namespace {
 
-constexpr int most_transients = 3;  // each twice as long as the one before
+constexpr int most_transients = 3;   // each twice as long as the one before
+constexpr double beside = 1e-6;      // of the amplitude: members of a family beside the orbit. Chosen.
+constexpr int most_repeats = 6;      // periods after which a transient is asked whether it repeats itself
+constexpr double comes_back = 1e-3;  // of the amplitude; chosen
 // Parts of a period after which a motion of its own may have closed already; a search that begins with a guess finds any
 // multiple. Larger primes are not looked for. Chosen.
 constexpr int shorter_by[] = {2, 3, 5, 7};
@@ -43,6 +46,8 @@ class Search {
     return map;
   }
   void stability();
+  [[nodiscard]] std::string repeated(const OrbitState& state) const;
+  void see_edge(const Eigen::MatrixXd& phi);
   void tell(const OrbitState& at_section, double section);
   bool stop(std::string reason) {
     orbit_.reason = std::move(reason);
@@ -167,8 +172,28 @@ bool Search::forced() {
     map_->take_flow(std::move(flow));
     if (close(at_section, section, period_)) return true;
     if (shot_.interrupted) return false;
+    if (i + 1 == most_transients) orbit_.reason += repeated(at_section);
   }
   return false;
+}
+
+/// After how many periods the transient comes back to a state of its own, as behind a flip.
+std::string Search::repeated(const OrbitState& state) const {
+  OrbitState now = state;
+  std::optional<OrbitPass> first;
+  for (int k = 1; k <= most_repeats; ++k) {
+    const OrbitPass pass = map_->pass({now, period_, false});
+    if (!pass.done()) return {};
+    now = orbit_state(pass.end);
+    if (!first) first = pass;
+    if (k == 1 && orbit_residual(map_->model(), pass) <= comes_back) return {};  // it is nearly an orbit
+    const OrbitSection section(map_->model(), first->begin);
+    const Vector gap = section.coordinates(pass.end) - section.coordinates(first->begin);
+    if (k > 1 && residual_of(section, *first, gap) <= comes_back)
+      return fmt::format("; the transient repeats itself after {} of these periods: --times {}", k,
+                         k * options_.times);
+  }
+  return {};
 }
 
 bool Search::by_itself() {
@@ -246,6 +271,28 @@ void Search::stability() {
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
   set_multipliers(all, again, orbit_.families.size() + of_time, error_of(phi, pass.rates_error, closed_),
                   options_.energy.has_value(), orbit_);
+  if (!orbit_.families.empty()) see_edge(phi);
+}
+
+/// A member of a family beside this one in which a contact slips that never does here: Phi is that of the other side.
+void Search::see_edge(const Eigen::MatrixXd& phi) {
+  const OrbitPass& pass = shot_.pass;
+  const OrbitSection section(map_->model(), pass.begin);
+  const Eigen::MatrixXd A = phi - Eigen::MatrixXd::Identity(phi.rows(), phi.cols());
+  const Eigen::MatrixXd ways = symmetric_eigen(A.transpose() * A).vectors;
+  for (Eigen::Index k = 0; k < std::min(ways.cols(), static_cast<Eigen::Index>(orbit_.families.size())); ++k)
+    for (const double side : {-beside, beside}) {
+      const Vector way = ways.col(k) / residual_of(section, pass, section.basis() * ways.col(k));
+      const OrbitPass other =
+          map_->pass({section.moved(orbit_state(pass.begin), side * way), shot_.duration, false});
+      for (std::size_t c = 0; c < pass.held.size() && other.done(); ++c)
+        if (pass.held[c] && !other.held[c])
+          orbit_.reason = fmt::format(
+              "multipliers hold to one side of the orbit: contact '{}' comes to its limit, and slips in "
+              "orbits "
+              "beside this one",
+              map_->model().contacts[c].name);
+    }
 }
 
 /// A turn between two places is missed by (pi / places)^2 / 2 of the amplitude, a hit by pi / places of it.

@@ -119,12 +119,11 @@ ModelDerivative still(const Model& model) {
   return d;
 }
 
-/// The tangents of all columns of a section's basis, and of a parameter.
+/// The tangents of all columns of a section's basis.
 class Bundle {
  public:
   /// flow: null, or what the columns cross stretches by.
-  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, const ModelDerivative* parameter,
-         StateFlow* flow)
+  Bundle(const Model& model, const RunSpec& run, const OrbitPoint& begin, StateFlow* flow)
       : section_(model, begin) {
     for (Eigen::Index k = 0; k < section_.size(); ++k) {
       const OrbitState column = section_.unscaled(section_.basis().col(k));
@@ -134,15 +133,10 @@ class Bundle {
       for (std::size_t c = 0; c < d.contacts.size(); ++c) d.contacts[c].initial_shear = column.shears[c];
       columns_.push_back(std::move(d));
     }
-    if (parameter != nullptr) {
-      columns_.push_back(*parameter);
-      columns_.back().u0 = columns_.back().v0 = Vector::Zero(model.size());
-      for (ContactRates& c : columns_.back().contacts) c.initial_shear = 0.0;
-    }
     sizes_.assign(columns_.size(), 1.0);
     tangents_.emplace(model, run, columns_, sizes_, listener_);
     tangents_->cross_smooth_grazes();
-    if (flow != nullptr && parameter == nullptr) tangents_->cross_by(*flow);
+    if (flow != nullptr) tangents_->cross_by(*flow);
   }
 
   [[nodiscard]] TangentRun& run() { return *tangents_; }
@@ -159,7 +153,6 @@ class Bundle {
     pass.end_rates.resize(section_.basis().rows(), columns);
     for (Eigen::Index k = 0; k < columns; ++k)
       pass.end_rates.col(k) = end_of(states[static_cast<std::size_t>(k)]);
-    if (states.size() > static_cast<std::size_t>(columns)) pass.parameter_rates = end_of(states.back());
   }
 
  private:
@@ -189,7 +182,7 @@ class Follower final : public MotionObserver {
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
     if (!leg_.tangents) return;
-    bundle_.emplace(model_, run_, pass_.begin, leg_.parameter, flow_);
+    bundle_.emplace(model_, run_, pass_.begin, flow_);
     bundle_->run().begin(start);
   }
   void step(const ObservedStep& step) override {
@@ -251,8 +244,7 @@ OrbitPass PeriodMap::pass(const OrbitLeg& leg) const {
   RunSpec bare = run;  // tangents want no rows
   bare.output_dt = leg.duration;
   CycleRecorder recorder(model, recorder_, pass);
-  if (leg.tangents && leg.parameter == nullptr && model_.size() >= fewest_in_modes &&
-      (!flow_ || !flow_->fits(model_)))
+  if (leg.tangents && model_.size() >= fewest_in_modes && (!flow_ || !flow_->fits(model_)))
     flow_ = modes_uncouple(model_) ? std::make_shared<StateFlow>(model_) : nullptr;
   Follower follower(model, bare, leg, pass, flow_.get(), *memory_);
   const Report report = simulate(model, run, recorder, follower);

@@ -25,7 +25,6 @@ struct OrbitPass {
   /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
-  Vector parameter_rates;     ///< of the end by the parameter, where there is one
   double rates_error = 0.0;   ///< of end_rates, over their greatest entry: rounding and what series leave out
   std::string reason;         ///< why they are not known
   std::vector<OutputExtremes> response;
@@ -37,14 +36,16 @@ struct OrbitPass {
   [[nodiscard]] bool done() const { return outcome.kind == Outcome::Kind::done; }
 };
 
+/// Places of a pass whose margins decide; chosen: a parabola through three of them is wrong by 1e-7 of the swing.
+inline constexpr int places_of_margins = 192;
+
 /// What one pass is asked for.
 struct OrbitLeg {
   const OrbitState& start;
   double duration;
   bool tangents = true;
-  bool outputs = false;                        ///< their extremes
-  const ModelDerivative* parameter = nullptr;  ///< of the model, the state aside
-  int places = 24;  ///< of which amplitudes are made; chosen: for scales of the residual
+  bool outputs = false;  ///< their extremes
+  int places = 24;       ///< of which amplitudes are made; chosen: for scales of the residual
 };
 
 class PeriodMap {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/eigen_dense.hpp"
@@ -20,6 +21,8 @@ constexpr double closed_at_last = 1e-9;
 // Singular values of Phi - I below this, relative to the greatest and to Phi: the rounding of Phi, well below what a
 // disturbance that dies out in 1e7 periods has. Chosen.
 constexpr double least_singular = 1e-9;
+// Where no step reduces the residual: fast mode shapes make Phi 1e5 times greater than what slow ones do to it.
+constexpr std::array finer_steps{1e-11, 1e-13};
 
 double over(double value, double amplitude) { return amplitude > 0.0 ? value / amplitude : value; }
 
@@ -30,7 +33,7 @@ double residual_to(const Model& model, const ShootingStart& start, const OrbitPa
 }
 
 /// (x, dT)
-Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStart& start) {
+Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStart& start, double least) {
   const bool free_period = start.free_period;
   const OrbitSection section(model, pass.begin);
   const Eigen::MatrixXd& B = section.basis();
@@ -53,15 +56,15 @@ Vector newton_step(const Model& model, const OrbitPass& pass, const ShootingStar
     A.row(all).head(n) = energy_slope(model, pass, section).transpose() / *start.energy;
     b[all] = (*start.energy - pass.energy) / *start.energy;
   }
-  return shortest_solution(A, b, least_singular, phi.norm());
+  return shortest_solution(A, b, least, phi.norm());
 }
 
 /// One step, halved until the residual falls; trials have no tangents, which cost far more than a run. False: it does not
 /// fall, or rounding is reached.
-bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot) {
+bool damped_step(const PeriodMap& map, const ShootingStart& start, Shot& shot, double least) {
   const Model& model = map.model();
   const OrbitSection section(model, shot.pass.begin);
-  const Vector x = newton_step(model, shot.pass, start);
+  const Vector x = newton_step(model, shot.pass, start, least);
   const OrbitState from = orbit_state(shot.pass.begin);
   double part = 1.0;
   for (int h = 0; h <= most_halvings; ++h, part *= 0.5) {
@@ -193,7 +196,10 @@ Shot shoot(const PeriodMap& map, const ShootingStart& start, double tolerance) {
     if (shot.steps.size() >= patience &&
         shot.residual > 0.5 * shot.steps[shot.steps.size() - patience].residual)
       break;
-    fell = damped_step(map, start, shot);
+    fell = damped_step(map, start, shot, least_singular);
+    for (const double finer : finer_steps)
+      if (!fell && !shot.interrupted && shot.residual > closed_at_last)
+        fell = damped_step(map, start, shot, finer);
     if (shot.interrupted) return shot;
     if (shot.residual > 0.5 * before && shot.residual <= closed_at_last) {
       if (fell) shot.pass = map.pass({shot.state, shot.duration});

@@ -1,0 +1,142 @@
+// What lies between two points of a branch: zeros of test functions, changes of the sequence of events.
+#include <algorithm>
+#include <cmath>
+
+#include "orbit/branch_walk.hpp"
+#include "orbit/sequence_search.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double alike_ways = 0.9;       // cosine of two directions. Chosen.
+constexpr double beside_section = 1e-4;  // of the period, from an event to the section. Chosen.
+// In the norm: so closely changes of the sequence are located, and no closer than ten times the noise of the map.
+constexpr double shortest_part = 1e-10, noises_of_part = 10.0;
+constexpr double parts_apart = 1e3;  // of that: two places show the way from one to the other. Chosen.
+
+/// An event at the section may count twice, or not at all.
+bool event_at_section(const Corrected& at) {
+  const double T = at.state.duration;
+  return std::any_of(at.pass.instants.begin(), at.pass.instants.end(), [&](const OrbitPoint& p) {
+    return p.t < beside_section * T || p.t > (1.0 - beside_section) * T;
+  });
+}
+
+}  // namespace
+
+/// Where a test function is zero on the step from here to next.
+std::optional<BranchWalk::Located> BranchWalk::zero_of(const SpecialKind& kind, const Corrected& here,
+                                                       const Corrected& next, const Vector& t,
+                                                       double ds) const {
+  const double a = here.tests.*kind.value, b = next.tests.*kind.value;
+  if (!((a < 0.0) != (b < 0.0))) return std::nullopt;
+  const bool turns = here.tests.fold * next.tests.fold < 0.0;
+  if (kind.value == &TestValues::branch && turns) return std::nullopt;  // that is what a fold does
+  Located point{0.0, kind.name, {}, {}};
+  const auto part = root_between(a, b, [&](double x) -> std::optional<double> {
+    Corrected c = newton_.correct(newton_.moved(here.state, here.pass, x * ds * t), t, here.by_s);
+    if (!c.done) return std::nullopt;
+    point.t = newton_.examine(c, t, here.ones);
+    point.at = std::move(c);
+    return point.at.tests.*kind.value;
+  });
+  if (!part || !(std::abs(point.at.tests.*kind.value) <= located_to)) return std::nullopt;
+  point.part = *part;
+  return point;
+}
+
+/// The last point with the sequence of here.
+std::optional<BranchWalk::Located> BranchWalk::end_of_sequence(const Corrected& here, const Corrected& next,
+                                                               const Vector& t, double ds) const {
+  const std::string sequence = sequence_of(here.pass);
+  if (sequence == sequence_of(next.pass) || event_at_section(next)) return std::nullopt;
+  Located point{0.0, "sequence", {}, {}};
+  bool seen = true;  // another sequence at the end of the interval, not a failure
+  const auto stretches = [&](const Corrected& c) {
+    return stretches_of(c.pass.events, c.state.duration * map_.model().unit.time);
+  };
+  const double enough = std::max(shortest_part, noises_of_part * newton_.noise());
+  SequenceSearch search(stretches(here), stretches(next), enough / ds);
+  Vector way = ds * t;  // a step in x, along what was found last
+  std::string beyond = sequence_of(next.pass);
+  while (!search.done()) {
+    const double x = search.next();
+    const Corrected& from = point.at.done ? point.at : here;
+    Corrected c = newton_.correct(newton_.moved(from.state, from.pass, (x - point.part) * way), t, from.by_s);
+    const bool same = c.done && sequence_of(c.pass) == sequence;
+    search.see(x, same, c.done ? stretches(c) : std::vector<double>());
+    if (!same) {
+      seen = c.done;
+      if (!seen || sequence_of(c.pass) == beyond) continue;
+      beyond = sequence_of(c.pass);
+      point.behind_part = x;
+      point.behind = std::move(c);
+      continue;
+    }
+    const auto secant = newton_.secant({from.pass.begin, from.state.duration, from.state.s}, c);
+    if (const double part = secant ? newton_.along(*secant, t) : 0.0; part > alike_ways)
+      way = ds / part * *secant;
+    point.part = x;
+    point.at = std::move(c);
+  }
+  if (!point.at.done || !seen || event_at_section(point.at)) return std::nullopt;
+  if ((point.behind_part - point.part) * ds < parts_apart * enough) point.behind.reset();
+  newton_.examine(point.at, t, here.ones);
+  return point;
+}
+
+std::vector<BranchWalk::Located> BranchWalk::located(const Corrected& here, const Corrected& next,
+                                                     const Vector& t, double ds) const {
+  std::vector<Located> all;
+  const auto take = [&](std::optional<Located> point) {
+    if (point) all.push_back(std::move(*point));
+  };
+  for (const SpecialKind& kind : special_kinds) take(zero_of(kind, here, next, t, ds));
+  take(end_of_sequence(here, next, t, ds));
+  std::sort(all.begin(), all.end(), [](const Located& a, const Located& b) { return a.part < b.part; });
+  return all;
+}
+
+/// Special points between here and next are added. A step crosses one change of the sequence: where more follow, next becomes
+/// a place before the second one. Returns the place that shows the way at next, which has its sequence; nothing: nobody
+/// wants more.
+std::optional<BranchPlace> BranchWalk::cross(const Corrected& here, Corrected& next, const Vector& t,
+                                             double& length) {
+  BranchPlace place{here.pass.begin, here.state.duration, here.state.s};
+  std::vector<Located> points = located(here, next, t, length);
+  const auto change =
+      std::find_if(points.begin(), points.end(), [](const Located& p) { return p.kind == "sequence"; });
+  double end = 1.0;
+  if (change != points.end()) {
+    if (change->behind) {
+      end = change->behind_part;
+      next = std::move(*change->behind);
+      newton_.examine(next, t);
+    }
+    if ((end - change->part) * length >= parts_apart * shortest_part)
+      place = {change->at.pass.begin, change->at.state.duration, change->at.state.s};
+  }
+  folds_ = true;
+  for (const Located& point : points) {
+    if (point.part > end) break;
+    if (point.kind == "fold") folds_ = false;
+    if (!add(point.at, point.kind)) return std::nullopt;
+    keep_junction(point);
+  }
+  length *= end;
+  return place;
+}
+
+void BranchWalk::keep_junction(const Located& point) {
+  if (generation_ >= options_.switches) return;
+  const auto keep = [&](BranchMap map, const Vector& away) {
+    junctions_.push_back({std::move(map), point.at, away, point.kind, number_, generation_ + 1});
+  };
+  if (point.kind == "flip") keep(map_.doubled(), newton_.flip_direction(point.at));
+  if (point.kind != "branch point") return;
+  const Vector other = newton_.other_direction(point.at, point.t);
+  keep(map_, other);
+  keep(map_, -other);
+}
+
+}  // namespace signorini

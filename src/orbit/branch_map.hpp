@@ -35,6 +35,8 @@ class BranchMap {
   [[nodiscard]] bool autonomous() const { return autonomous_; }
   /// Over the energy of conservative motions.
   [[nodiscard]] bool conservative() const { return options_.path == over_energy; }
+  /// Over the energy, or over a key at a given energy.
+  [[nodiscard]] bool keeps_energy() const { return conservative() || options_.orbit.energy.has_value(); }
   [[nodiscard]] double range() const { return options_.to - options_.from; }
   [[nodiscard]] double parameter(double s) const;
   /// The loads' period at s, times `times`; machine's.

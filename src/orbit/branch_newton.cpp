@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/eigen_dense.hpp"
+#include "orbit/orbit_engine.hpp"
 #include "orbit/shooting.hpp"
 
 namespace signorini {
@@ -191,12 +192,14 @@ Vector BranchNewton::examine(Corrected& at, const Vector& before, std::optional<
   if (at.multipliers.empty()) {
     at.monodromy = monodromy(map_.model(), at.pass);
     at.multipliers = multipliers_of(at.monodromy);
+    at.error = error_of(at.monodromy, at.pass.rates_error, orbit_state_error(map_.at(at.state.s)->run()));
     at.family = {};
   }
-  const std::size_t of_time = map_.conservative() ? 2 : map_.autonomous() ? 1 : 0;
+  const std::size_t of_time = map_.keeps_energy() ? 2 : map_.autonomous() ? 1 : 0;
   at.ones = ones.value_or(std::max(count_ones(at.multipliers), of_time));
   const Vector t = known ? before : without_families(at, tangent(at, without_families(at, before)));
-  at.tests = test_values(at.multipliers, at.ones, t[t.size() - 1]);
+  at.tests =
+      test_values(at.multipliers, at.ones, t[t.size() - 1], error_at_circle(at.error, map_.keeps_energy()));
   return t;
 }
 

@@ -36,6 +36,7 @@ struct Corrected {
   Vector by_s;                ///< B^T dG/ds at this point; empty: not asked for yet
   Eigen::MatrixXd monodromy;  ///< with multipliers and tests: of examine()
   Multipliers multipliers;
+  double error = 0.0;      ///< error_of() the monodromy matrix
   std::size_t ones = 0;    ///< multipliers that are 1 for reasons of their own
   Eigen::MatrixXd family;  ///< of families(), once asked for
   TestValues tests;

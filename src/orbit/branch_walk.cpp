@@ -7,7 +7,6 @@
 
 #include "model/rescale.hpp"
 #include "orbit/family_middle.hpp"
-#include "orbit/orbit_engine.hpp"
 #include "orbit/recurrence.hpp"
 #include "orbit/shooting.hpp"
 #include "signorini/simulate.hpp"
@@ -21,6 +20,8 @@ constexpr double longest_way = 10.0;  // of a step: a branch turns by less, or t
 constexpr double shifted_to = 1e-3;   // residual over amplitude: what noise leaves of a shift. Chosen.
 constexpr double alike = 0.9;         // cosine of two directions. Chosen.
 constexpr double restart_step = 2e-3;  // of the range
+// Of amplitudes from the rows of a period, and of multipliers between two points: that two orbits are one. Chosen.
+constexpr double same_amplitude = 0.05;
 
 }  // namespace
 
@@ -130,8 +131,8 @@ bool BranchWalk::add(const Corrected& here, const std::string& special) {
       map_.pass({orbit_state(here.pass.end), here.state.duration, here.state.s}, true, true);
   const bool known = next.done() && next.end_rates.size() == here.pass.end_rates.size();
   newton_.hear_noise(here.pass, next);
-  set_multipliers(here.multipliers, here.monodromy, known ? monodromy(model, next) : Eigen::MatrixXd(),
-                  here.ones, orbit_state_error(map_.at(here.state.s)->run()), orbit);
+  set_multipliers(here.multipliers, known ? monodromy(model, next) : Eigen::MatrixXd(), here.ones, here.error,
+                  map_.keeps_energy(), orbit);
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;
@@ -213,11 +214,73 @@ bool BranchWalk::only_shifts(const Corrected& here, const Vector& t) const {
   return pass.done() && orbit_residual(map_.model(), pass) <= shifted_to;
 }
 
+/// Whether the branch has a point at this value of the key with this sequence, amplitude and multiplier.
+bool BranchWalk::has_passed(const Corrected& at) {
+  const Model& model = map_.model();
+  const Multipliers all = multipliers_of(monodromy(model, at.pass)),
+                    rest = without_ones(all, count_ones(all));
+  const double p = value(at), multiplier = rest.empty() ? 0.0 : std::abs(rest.front());
+  const double amplitude = at.pass.u_amplitude * model.scales.displacement * model.unit.length;
+  const int sequence = number_of_sequence(at.pass);
+  for (std::size_t i = 1; i < branch_.points.size(); ++i) {
+    const BranchPoint &a = branch_.points[i - 1], &b = branch_.points[i];
+    const double way = b.parameter - a.parameter, x = way != 0.0 ? (p - a.parameter) / way : 2.0;
+    if (a.branch != number_ || b.branch != number_ || b.special.starts_with("restart")) continue;
+    if (x < 0.0 || x > 1.0 || (a.sequence != sequence && b.sequence != sequence)) continue;
+    const double between = a.amplitude + x * (b.amplitude - a.amplitude);
+    const double there = a.max_multiplier + x * (b.max_multiplier - a.max_multiplier);
+    const double varies = std::abs(b.max_multiplier - a.max_multiplier);
+    if (std::abs(amplitude - between) <= same_amplitude * between &&
+        std::abs(multiplier - there) <= varies + same_amplitude * std::max(there, multiplier))
+      return true;
+  }
+  return false;
+}
+
+/// A step to another sequence may have changed to the second of two orbits that meet: it is kept. False: the walk has turned
+/// back, and comes to what it has passed.
+bool BranchWalk::keeps_going(const Corrected& here, const Corrected& next, double along) {
+  if (sequence_of(here.pass) == sequence_of(next.pass)) return true;
+  if (!turned_back_) found_beyond_ = FoundBeyond{next, map_.section(), along < 0.0 ? -1.0 : 1.0};
+  if (!turned_back_ || !has_passed(next)) return true;
+  end_ = fmt::format("beyond {} = {:.9g} the branch returns to orbits that it has passed", options_.path,
+                     value(here));
+  return false;
+}
+
+/// The walk ends at `here`: next is a point beyond, or, where the branch has been there, the last one that was found so, from
+/// which t then leads the other way: where two orbits meet and vanish the second one lies on this side only. False: none.
+bool BranchWalk::beyond(const Corrected& here, Corrected& next, Vector& t) {
+  const double sign = t[t.size() - 1] < 0.0 ? -1.0 : 1.0;
+  const std::string why = next.reason;
+  next = here;
+  const bool found = restart(next, sign);
+  const bool known = found && has_passed(next);
+  if (found && !known) {
+    crossed_gap_ = true;
+    found_beyond_ = FoundBeyond{next, map_.section(), sign};
+    if (t.size() != newton_.size(next.pass)) t = newton_.upwards(next.pass, sign);
+    return true;
+  }
+  if (found_beyond_) {
+    map_.move_section(found_beyond_->section);
+    next = std::move(found_beyond_->at);
+    t = newton_.upwards(next.pass, -found_beyond_->sign);
+    found_beyond_.reset();
+    turned_back_ = true;
+    return true;
+  }
+  end_ = fmt::format(
+      "at {} = {:.9g} no step is short enough, and {}: {}", options_.path, value(here),
+      known ? "the orbit found beyond is one that the branch has passed" : "no orbit is found beyond", why);
+  return false;
+}
+
 /// end_ stays empty where it ends for what the caller wants.
 void BranchWalk::walk(Corrected here, Vector t) {
   double ds = 0.25 * options_.step;
   while (points_ < options_.most_points) {
-    const double along = t[t.size() - 1];
+    double along = t[t.size() - 1];
     const double left = along > 0.0   ? (1.0 - here.state.s) / along
                         : along < 0.0 ? here.state.s / -along
                                       : 2.0 * ds;
@@ -233,18 +296,13 @@ void BranchWalk::walk(Corrected here, Vector t) {
       newton_.examine(next, t);
       if (next.iterations <= quick) ds = std::min(1.5 * ds, options_.step);
       place = cross(here, next, t, length);
-      if (!place) return;
+      if (!place || !keeps_going(here, next, along)) return;
     } else {
       ds = 0.5 * length;
       if (ds >= shortest_step) continue;
-      const std::string why = next.reason;
-      next = here;
       special = "restart";
-      if (!restart(next, along < 0.0 ? -1.0 : 1.0)) {
-        end_ = fmt::format("at {} = {:.9g} no step is short enough, and no orbit is found beyond: {}",
-                           options_.path, value(here), why);
-        return;
-      }
+      if (!beyond(here, next, t)) return;
+      along = t[t.size() - 1];
       ds = 0.25 * options_.step;
     }
     cut_anew(next, place);
@@ -262,7 +320,7 @@ void BranchWalk::walk(Corrected here, Vector t) {
     offer_mark();
     complete_ = last && special.empty() && length == whole;
     if (complete_) {
-      end_ = fmt::format("reached {} = {:.9g}", options_.path, value(here));
+      tell_end(here, along);
       return;
     }
     if (doubled_ && returns(here)) {
@@ -272,6 +330,19 @@ void BranchWalk::walk(Corrected here, Vector t) {
       return;
     }
   }
+}
+
+/// At an end of the range. Back at its begin behind a gap the branch is one of two pieces, and not complete.
+void BranchWalk::tell_end(const Corrected& here, double along) {
+  end_ = fmt::format("{} {} = {:.9g}", along > 0.0 ? "reached" : "returned to", options_.path, value(here));
+  if (along > 0.0 || number_ != 1) return;
+  double farthest = options_.from;
+  for (const BranchPoint& p : branch_.points)
+    if (std::abs(p.parameter - options_.from) > std::abs(farthest - options_.from)) farthest = p.parameter;
+  end_ += fmt::format("; beyond {:.9g}, up to {:.9g}, the branch has no orbit", farthest, options_.to);
+  if (!crossed_gap_) return;
+  end_ += ", and it was found anew behind a gap: another branch may lead there";
+  complete_ = false;
 }
 
 void BranchWalk::walk_from_start() {

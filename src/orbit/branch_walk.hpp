@@ -59,6 +59,10 @@ class BranchWalk {
   [[nodiscard]] Corrected step(const Corrected& here, const Vector& t, double ds, bool last) const;
   [[nodiscard]] bool only_shifts(const Corrected& here, const Vector& t) const;
   [[nodiscard]] bool restart(Corrected& here, double sign);
+  [[nodiscard]] bool has_passed(const Corrected& at);
+  [[nodiscard]] bool keeps_going(const Corrected& here, const Corrected& next, double along);
+  void tell_end(const Corrected& here, double along);
+  [[nodiscard]] bool beyond(const Corrected& here, Corrected& next, Vector& t);
   [[nodiscard]] bool returns(const Corrected& here);
   bool centre(Corrected& here, const Vector& t);
   void cut_anew(Corrected& here, std::optional<BranchPlace>& before);
@@ -101,6 +105,14 @@ class BranchWalk {
   std::vector<Junction> junctions_;
   std::string end_;
   bool complete_ = false;
+  /// The last orbit that was found behind a gap or a change of the sequence, and where the walk came from.
+  struct FoundBeyond {
+    Corrected at;
+    double section, sign;
+  };
+  std::optional<FoundBeyond> found_beyond_;
+  bool crossed_gap_ = false;  // it was found anew at least once
+  bool turned_back_ = false;  // it goes from found_beyond_ the other way
   std::optional<BranchState> last_;
   double last_section_ = 0.0;
   std::size_t last_points_ = 0;

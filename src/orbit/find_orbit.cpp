@@ -21,6 +21,12 @@ constexpr int most_transients = 3;   // each twice as long as the one before
 constexpr double beside = 1e-6;      // of the amplitude: members of a family beside the orbit. Chosen.
 constexpr int most_repeats = 6;      // periods after which a transient is asked whether it repeats itself
 constexpr double comes_back = 1e-3;  // of the amplitude; chosen
+// Parts of a period after which a motion of its own may have closed already; a search that begins with a guess finds any
+// multiple. Larger primes are not looked for. Chosen.
+constexpr int shorter_by[] = {2, 3, 5, 7};
+// Residual over amplitude after a part of the period from which Newton's method begins anew, and how far it may move that
+// part: what is left of an orbit that closed to 1e-9 (shooting.cpp). Chosen.
+constexpr double nearly_closed = 1e-7;
 
 /// One search.
 class Search {
@@ -33,6 +39,7 @@ class Search {
   [[nodiscard]] bool forced();
   [[nodiscard]] bool by_itself();
   [[nodiscard]] bool close(const OrbitState& state, double section, double period);
+  void shorten();
   [[nodiscard]] PeriodMap map_of(Model model, bool interruptible = true) const {
     PeriodMap map(std::move(model), run_, interruptible ? recorder_ : nullptr);
     map.share(memory_);
@@ -216,10 +223,25 @@ bool Search::close(const OrbitState& state, double section, double period) {
   orbit_.steps = shot_.steps;
   orbit_.residual = shot_.residual;
   if (!shot_.closed) return stop(shot_.reason);
+  shorten();
   orbit_.reason.clear();
   orbit_.period = shot_.duration * unit_;
   orbit_.section = section * unit_;
   return true;
+}
+
+/// A period of the motion itself that is several times the least one: the same orbit closes after T/n, too.
+void Search::shorten() {
+  if (!orbit_.autonomous || options_.times > 1 || !(shot_.pass.u_amplitude > 0.0)) return;
+  for (const int n : shorter_by)
+    for (double part = shot_.duration / n;; part = shot_.duration / n) {
+      const OrbitPass pass = map_->pass({shot_.state, part, false});
+      if (!pass.done() || orbit_residual(map_->model(), pass) > nearly_closed) break;
+      Shot shot = shoot(*map_, {shot_.state, part, true, closed_, options_.energy}, tolerance_);
+      if (!shot.closed || std::abs(shot.duration - part) > nearly_closed * part) break;
+      shot_ = std::move(shot);
+      orbit_.residual = shot_.residual;
+    }
 }
 
 /// Multipliers, families.
@@ -247,7 +269,8 @@ void Search::stability() {
     --families;
   }
   if (families > 0) orbit_.families.push_back("a motion that no force drives back");
-  set_multipliers(all, phi, again, orbit_.families.size() + of_time, closed_, orbit_);
+  set_multipliers(all, again, orbit_.families.size() + of_time, error_of(phi, pass.rates_error, closed_),
+                  options_.energy.has_value(), orbit_);
   if (!orbit_.families.empty()) see_edge(phi);
 }
 

@@ -15,25 +15,30 @@ namespace {
 // Of a period: that two are one, or in a ratio of integers. Periods are given with at least so many digits. Chosen.
 constexpr double same_period = 1e-9;
 constexpr int most_multiples = 100;
+constexpr int compared_places = 41;  // of a history with itself a period later; chosen
 
 /// A history of the scene, and the key that holds it.
 struct Driver {
   const HistorySpec* spec;
   std::string key;
   bool surface = false;
+  bool acceleration = false;  // of a support, which starts at rest at zero
 };
 
 std::vector<Driver> drivers(const Scene& scene) {
   std::vector<Driver> all;
-  const auto add = [&](const HistorySpec& spec, std::string key, bool surface = false) {
-    if (spec.amplitude != 0.0 || spec.in_code) all.push_back({&spec, std::move(key), surface});
+  const auto add = [&](const HistorySpec& spec, std::string key, bool surface = false,
+                       bool acceleration = false) {
+    if (spec.amplitude != 0.0 || spec.in_code) all.push_back({&spec, std::move(key), surface, acceleration});
   };
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     if (scene.loads[i].amplitude != 0.0) add(scene.loads[i].history, fmt::format("loads.{}.history", i + 1));
   for (std::size_t i = 0; i < scene.base_motion.size(); ++i)
     add(scene.base_motion[i].acceleration, fmt::format("base_motion.{}.acceleration", i + 1));
   for (const Support& s : scene.supports)
-    if (s.motion) add(*s.motion, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"));
+    if (s.motion)
+      add(*s.motion, s.key + (s.motion_is_acceleration ? ".acceleration" : ".motion"), false,
+          s.motion_is_acceleration);
   for (std::size_t i = 0; i < scene.members.size(); ++i) {
     add(scene.members[i].temperature, fmt::format("members.{}.temperature", i + 1));
     add(scene.members[i].initial_strain, fmt::format("members.{}.initial_strain", i + 1));
@@ -83,6 +88,26 @@ std::optional<double> common(double a, double b) {
   return std::nullopt;
 }
 
+/// A support that is accelerated starts at rest at zero: it comes back only where neither a velocity nor a displacement of a
+/// period is left.
+void check_drift(const Driver& d, const History& acceleration, double settled, double period) {
+  const History moved = acceleration.integrated().integrated();
+  double size = 0.0, drift = 0.0;
+  for (int i = 0; i < compared_places; ++i) {
+    const double t = settled + period * i / compared_places;
+    const double by = moved.value(t + period) - moved.value(t);
+    size = std::max({size, std::abs(moved.value(t)), std::abs(moved.value(t + period))});
+    if (std::abs(by) > std::abs(drift)) drift = by;
+  }
+  if (std::abs(drift) <= same_period * 2.0 * std::numbers::pi * size) return;
+  throw SceneError(
+      d.spec->place, d.key,
+      fmt::format("found an acceleration that leaves the support displaced by {:.6g} more after "
+                  "each period of {} (the support starts at rest at zero displacement), expected "
+                  "one without drift: no motion of this scene repeats itself",
+                  drift, shortest(period)));
+}
+
 }  // namespace
 
 LoadPeriod load_period(const Scene& scene) {
@@ -104,7 +129,6 @@ LoadPeriod load_period(const Scene& scene) {
 }
 
 LoadPeriod check_period(const Scene& scene, double period) {
-  constexpr int places = 41;
   const std::vector<Driver> all = drivers(scene);
   LoadPeriod found = settled(all);
   found.period = period;
@@ -114,8 +138,8 @@ LoadPeriod check_period(const Scene& scene, double period) {
       spec.rounds = static_cast<int>(std::ceil((found.settled + 3.0 * period) / spec.period)) + 1;
     const History f = make_history(spec, d.key);
     double size = 0.0, differ = 0.0;
-    for (int i = 0; i < places; ++i) {
-      const double t = found.settled + period * (i + 1.0 / std::numbers::sqrt2) / places;
+    for (int i = 0; i < compared_places; ++i) {
+      const double t = found.settled + period * (i + 1.0 / std::numbers::sqrt2) / compared_places;
       const double now = f.value(t), then = f.value(t + period);
       size = std::max({size, std::abs(now), std::abs(then)});
       differ = std::max(differ, std::abs(now - then));
@@ -127,6 +151,7 @@ LoadPeriod check_period(const Scene& scene, double period) {
               "found a history that differs by {:.2g} of its greatest value after {}, expected one that "
               "repeats itself with the period of the orbit",
               differ / size, shortest(period)));
+    if (d.acceleration) check_drift(d, f, found.settled, period);
   }
   return found;
 }

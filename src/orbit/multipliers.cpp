@@ -69,22 +69,26 @@ std::size_t count_ones(const Multipliers& all) {
       std::count_if(all.begin(), all.end(), [](const auto& mu) { return std::abs(mu - 1.0) <= one; }));
 }
 
-void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& phi, const Eigen::MatrixXd& again,
-                     std::size_t ones, double state_error, Orbit& orbit) {
-  orbit.multipliers = all;
+double error_of(const Eigen::MatrixXd& phi, double rates_error, double states) {
   const double size = phi.size() == 0 ? 0.0 : phi.cwiseAbs().maxCoeff();
-  orbit.multiplier_error = (static_cast<double>(phi.rows()) * rounding::eps + state_error) * size;
+  return (static_cast<double>(phi.rows()) * rounding::eps + rates_error + states) * size;
+}
+
+void set_multipliers(const Multipliers& all, const Eigen::MatrixXd& again, std::size_t ones, double error,
+                     bool keeps, Orbit& orbit) {
+  orbit.multipliers = all;
+  orbit.multiplier_error = error;
   if (again.size() > 0) orbit.multiplier_error += apart(orbit.multipliers, multipliers_of(again));
   const Multipliers rest = without_ones(orbit.multipliers, ones);
   orbit.max_multiplier = rest.empty() ? 0.0 : std::abs(rest.front());
   orbit.loss = OrbitLoss::none;
-  if (orbit.max_multiplier < 1.0 - orbit.multiplier_error) {
-    orbit.stable = true;
-  } else if (orbit.max_multiplier > 1.0 + orbit.multiplier_error) {
+  orbit.stable.reset();
+  const double near = error_at_circle(orbit.multiplier_error, keeps);
+  if (orbit.max_multiplier > 1.0 + near) {
     orbit.stable = false;
-    orbit.loss = loss_of(rest.front(), orbit.multiplier_error);
-  } else {
-    orbit.stable.reset();
+    orbit.loss = loss_of(rest.front(), near);
+  } else if (!keeps && orbit.max_multiplier < 1.0 - near) {
+    orbit.stable = true;
   }
 }
 

@@ -148,6 +148,7 @@ class Bundle {
         pass.reason = state.reason;
         return;
       }
+    for (const TangentState& state : states) pass.rates_error = std::max(pass.rates_error, state.error);
     const auto columns = section_.size();
     pass.end_rates.resize(section_.basis().rows(), columns);
     for (Eigen::Index k = 0; k < columns; ++k)

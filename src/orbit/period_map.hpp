@@ -25,6 +25,7 @@ struct OrbitPass {
   /// Half the greatest range of displacements, velocities and shears, in scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
   Eigen::MatrixXd end_rates;  ///< Phi B, rows: coordinates at the section; empty: not asked for, or not known
+  double rates_error = 0.0;   ///< of end_rates, over their greatest entry: rounding and what series leave out
   std::string reason;         ///< why they are not known
   std::vector<OutputExtremes> response;
   /// Least over the rows of f_s |N| - T and of f_s |N| + T, one a contact, in scales of the model.

@@ -12,7 +12,7 @@ constexpr double real_enough = 1e-12;   // imaginary part of a real multiplier: 
 
 }  // namespace
 
-TestValues test_values(const Multipliers& all, std::size_t ones, double along) {
+TestValues test_values(const Multipliers& all, std::size_t ones, double along, double error) {
   TestValues values;
   values.fold = along;
   double least = 0.0, greatest = 0.0, pair = 0.0;
@@ -24,9 +24,13 @@ TestValues test_values(const Multipliers& all, std::size_t ones, double along) {
     least = std::min(least, mu.real());
     greatest = std::max(greatest, mu.real());
   }
-  values.flip = 1.0 + least;
-  values.neimark_sacker = pair - 1.0;
-  values.branch = greatest - 1.0;
+  // Within the error: a zero, seen from inside.
+  const auto inside = [error](double beyond) {
+    return std::abs(beyond) <= error ? -std::min(error, sharp_enough) : beyond;
+  };
+  values.flip = -inside(-1.0 - least);
+  values.neimark_sacker = inside(pair - 1.0);
+  values.branch = inside(greatest - 1.0);
   return values;
 }
 

@@ -33,8 +33,9 @@ inline constexpr std::array special_kinds{SpecialKind{"fold", &TestValues::fold}
 /// over zero, as where a pair meets on the real axis, is none.
 inline constexpr double located_to = 1e-6;
 
-/// ones: multipliers that are 1 for reasons of their own; along: t_s.
-[[nodiscard]] TestValues test_values(const Multipliers& all, std::size_t ones, double along);
+/// ones: multipliers that are 1 for reasons of their own; along: t_s; error: of a multiplier's distance from the unit circle.
+/// Multipliers on the circle within it count as inside: rounding alone changes no sign.
+[[nodiscard]] TestValues test_values(const Multipliers& all, std::size_t ones, double along, double error);
 
 /// Where f, of values a at 0 and b at 1 of opposite signs, is zero: the rule of false position, by Illinois. f: nothing
 /// where it is not known, which ends the search.

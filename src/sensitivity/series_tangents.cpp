@@ -133,6 +133,7 @@ void SeriesTangents::advance(TangentState& state, const ObservedStep& step,
       state.series.expand_to(*system, motion, *state.forcing, state.now.start, motion.levels);
     else
       state.reach = std::max(state.reach, length * e.series->scale);
+    if (length > 0.0) state.error += state.series.error();
     const double to = length == rest ? e.x : from + length;
     double done = from;  // up to where works are known
     for (; next < wanted.size() && wanted[next].x <= to; ++next) {

@@ -30,6 +30,9 @@ Series series_of(const Jet& jet, const Forcing& forcing) {
   return s;
 }
 
+/// Of a stretch in modes: two products with the mode shapes, sums of n terms each.
+double error_in_modes(const Model& model) { return 2.0 * static_cast<double>(model.size()) * rounding::eps; }
+
 std::vector<const ModelDerivative*> pointers_to(const std::vector<ModelDerivative>& derivatives) {
   std::vector<const ModelDerivative*> all;
   for (const ModelDerivative& d : derivatives) all.push_back(&d);
@@ -123,6 +126,7 @@ bool TangentRun::crosses(const ObservedStep& step) {
 void TangentRun::cross(double t) {
   if (way_ != Way::closed || !(t > begin_)) return;
   flow_->advance(crossed_, t - begin_, states_);
+  for (TangentState& state : states_) state.error += error_in_modes(model_);
   begin_ = t;
 }
 
@@ -193,6 +197,7 @@ void TangentRun::arrive(double t) {
     if (!state.alive) continue;
     state.now.start.u = at.tangents[p].u;
     state.now.start.v = at.tangents[p].v;
+    state.error += error_in_modes(model_);
     state.now.point = std::move(at.tangents[p]);
   }
 }

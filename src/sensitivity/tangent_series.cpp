@@ -154,7 +154,7 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
                            const Tangent& start, double x, int levels) {
   begin(system, motion, forcing, start);
   for (int k = 0; k <= std::min(levels, motion.levels); ++k) level(k);
-  double first = 0.0, greatest = 0.0, power = 1.0;
+  double first = 0.0, greatest = 0.0, power = 1.0, rounded = 0.0, last = 0.0;
   int checked = 0;
   for (;; level(levels_ + 1)) {
     const int complete = levels_ - late();
@@ -162,12 +162,16 @@ bool TangentSeries::expand(const ModeSystem& system, const Series& motion, const
       const double size = size_of(u_.col(checked)) * power;
       if (!std::isfinite(size)) return false;
       (checked < first_terms ? first : greatest) = std::max(checked < first_terms ? first : greatest, size);
+      // Coefficient k is the result of k/2 solves: of about eight half-units of rounding each.
+      rounded += 2.0 * static_cast<double>(checked + 1) * size;
     }
-    const double last =
-        std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
+    last = std::max(size_of(u_.col(complete + 2)), size_of(u_.col(complete + 1)) / x) * power / x;
     if (last <= left_out * std::max(first, greatest) + nothing_) break;
     if (levels_ == most_tangent_levels) return false;
   }
+  // Terms left out count in velocities as often as their degree says.
+  const double size = first > 0.0 ? first : greatest;
+  error_ = size > 0.0 ? (rounding::eps * rounded + static_cast<double>(levels_) * last) / size : 0.0;
   if (greatest <= most_cancelling * (first + nothing_)) return true;
   return greatest <= most_cancelling * size_of(at(x).u);  // it may start from nothing
 }

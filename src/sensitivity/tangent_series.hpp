@@ -65,6 +65,9 @@ class TangentSeries {
   [[nodiscard]] const ForcingRatesSeries& forcing() const { return forcing_; }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] long solves() const { return solves_; }
+  /// Of the last expand(): what rounding of its terms and the terms left out may make of the tangent at x, over its size at
+  /// the beginning.
+  [[nodiscard]] double error() const { return error_; }
 
  private:
   void begin(const ModeSystem& system, const Series& motion, const ForcingRates& forcing,
@@ -89,7 +92,7 @@ class TangentSeries {
   std::vector<double> x_, work_, known_u_, known_v_, scales_;
   Vector a_, v_;
   int levels_ = -1;
-  double scale_ = 1.0, nothing_ = 0.0;
+  double scale_ = 1.0, nothing_ = 0.0, error_ = 0.0;
   long solves_ = 0;
 };
 

@@ -36,6 +36,7 @@ struct TangentState {
   TangentBefore now;                    ///< the state just before the next instant
   std::optional<ForcingRates> forcing;  ///< of the segment
   double reach = 0.0;                   ///< time over which its series converged last; 0: not known
+  double error = 0.0;  ///< of all stretches so far, relative (TangentSeries::error); of states alone
   bool alive = true;
   double until = 0.0;  ///< where it is not
   std::string reason;

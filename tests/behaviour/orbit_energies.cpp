@@ -187,4 +187,38 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "below the energy of contact the period is the least one, not a multiple: a mass before an elastic stop, "
+    "turned") {
+  // Springs of 2.1 and 16.317 N/m on 1.3 kg; the motion along the soft one has 2 pi sqrt(m/k). Closing after three of these
+  // periods means nothing.
+  const double m = 1.3, soft = 2.1, hard = 16.317, gap = 0.3, E = 0.05;
+  for (const double angle : {0.0, 0.61}) {
+    CAPTURE(angle);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const std::string text = matrix_scene(
+        fmt::format(
+            "t_end = 40.0\nengine = \"exact\"\ninitial = {{ u = [0.0, 0.0], v = [{:.17g}, {:.17g}] }}",
+            1.2 * c, 1.2 * s),
+        fmt::format(
+            "mass = [[{0}, 0.0], [0.0, {0}]]\nstiffness = [[{1:.17g}, {2:.17g}], [{2:.17g}, {3:.17g}]]", m,
+            soft * c * c + hard * s * s, (soft - hard) * c * s, soft * s * s + hard * c * c),
+        fmt::format("law = \"rigid\"\nnormal = {{ d0 = {:.17g}, d1 = {:.17g} }}\ngap = {}\nrestitution = 1.0",
+                    -c, -s, gap));
+    OrbitOptions options;
+    options.energy = E;
+    const Orbit orbit = find_orbit(reader_of_text(text), options);
+    CAPTURE(orbit.reason);
+    REQUIRE(orbit.found);
+    const double T = 2.0 * std::numbers::pi * std::sqrt(m / soft);
+    CHECK(std::abs(orbit.period - T) <= 1e-10 * T);
+    CHECK(orbit.sequence.empty());
+    // A multiple that was asked for stays one.
+    options.times = 2;
+    options.period = T;
+    const Orbit twice = find_orbit(reader_of_text(text), options);
+    if (twice.found) CHECK(std::abs(std::remainder(twice.period, T)) <= 1e-9 * T);
+  }
+}
+
 TEST_SUITE_END();

@@ -314,4 +314,43 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "where the impacting orbit meets the one that grazes, the branch goes on with the latter to the end of "
+    "the range") {
+  // Without impacts x = A/|k - m w^2 + i c w|, up to the gap: A <= 0.3 |...| = 0.504604. The unstable orbit with an impact ends there,
+  // too: both exist below only.
+  const double m = 1.3, k = 2.1, c = 0.17, w = 1.7, gap = 0.3;
+  const double stiffness = std::abs(std::complex<double>(k - m * w * w, c * w)), grazes = gap * stiffness;
+  const std::string text = matrix_scene(
+      "t_end = 60.0\nengine = \"exact\"",
+      fmt::format("mass = [[{}]]\nstiffness = [[{}]]\ndamping = [[{}]]", m, k, c),
+      fmt::format("law = \"rigid\"\nnormal = {{ d0 = -1.0 }}\ngap = {}\nrestitution = 0.6", gap),
+      fmt::format(
+          "[[loads]]\ndirection = {{ d0 = 1.0 }}\namplitude = 0.9\nhistory = {{ type = \"harmonic\", omega = "
+          "{}, "
+          "phase = 0.4 }}\n[[output]]\nname = \"x\"\nkind = \"displacement\"\ndirection = {{ d0 = 1.0 }}\n",
+          w));
+  BranchOptions options;
+  options.path = "loads.1.amplitude";
+  options.from = 0.9;
+  options.to = 0.1;
+  const Branch branch = follow(reader_of_text(text), options);
+  CAPTURE(branch.end);
+  REQUIRE(branch.complete);
+  REQUIRE(!branch.points.empty());
+  CHECK(branch.points.back().parameter == 0.1);
+  double least = 1.0, greatest = 0.0;
+  for (const BranchPoint& p : branch.points) {
+    if (p.events > 0) continue;
+    CAPTURE(p.parameter);
+    CHECK(p.parameter <= grazes * (1.0 + 1e-9));
+    CHECK(std::abs(p.maxima.front() - p.parameter / stiffness) <= 1e-9);
+    CHECK(p.stable.value_or(false));
+    least = std::min(least, p.parameter);
+    greatest = std::max(greatest, p.parameter);
+  }
+  CHECK(least == 0.1);
+  CHECK(greatest > grazes - 0.02 * 0.8);
+}
+
 TEST_SUITE_END();

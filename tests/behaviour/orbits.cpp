@@ -648,4 +648,47 @@ TEST_CASE("the resonance of a one-sided spring bends over, its middle part is un
   CHECK(unstable > 0);
 }
 
+TEST_CASE(
+    "a support that its acceleration carries away has no orbit; without drift the orbit closes in closed "
+    "form") {
+  // From rest at zero, a sin(w t + phase) leaves the mean velocity a cos(phase)/w: 2 pi a cos(phase)/w^2 a period.
+  const double m = 1.3, k = 3.0, c = 0.3, w = 3.0;
+  const auto text = [&](double a, double phase, const char* length) {
+    return fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"{}\", time = \"s\" }}\n[run]\nt_end "
+        "= 60.0\n"
+        "[nodes]\nA = [0.0, 0.0]\nB = [1.0, 0.0]\n[sections.s]\nEA = 3.0\nEI = 1.0\nmass_per_length = 0.0\n"
+        "[[masses]]\nnode = \"A\"\nmass = {}\n[[springs]]\nnode = \"A\"\ndirection = [1.0, 0.0]\nstiffness = "
+        "0.0\n"
+        "damping = {}\n[[members]]\nnodes = [\"A\", \"B\"]\nsection = \"s\"\ntype = "
+        "\"bar\"\n[[supports]]\nnode = "
+        "\"A\"\nfix = [\"uy\"]\n[[supports]]\nnode = \"B\"\nfix = [\"uy\"]\n[[supports]]\nnode = \"B\"\nfix "
+        "= "
+        "[\"ux\"]\nacceleration = {{ type = \"harmonic\", omega = {}, amplitude = {:.17g}, phase = {:.17g} "
+        "}}\n",
+        length, m, c, w, a, phase);
+  };
+  for (const double phase : {0.0, 0.7, 2.9}) {
+    CAPTURE(phase);
+    std::string message;
+    try {
+      (void)orbit_of(text(1.0, phase, "m"));
+    } catch (const SceneError& error) {
+      message = error.what();
+    }
+    CAPTURE(message);
+    CHECK(message.find("supports.3.acceleration") != std::string::npos);
+    CHECK(message.find(fmt::format("{:.6g} more", 2.0 * pi * std::cos(phase) / (w * w))) !=
+          std::string::npos);
+  }
+  const Orbit orbit = orbit_of(text(1.0, 0.5 * pi, "m"));
+  CAPTURE(orbit.reason);
+  REQUIRE(orbit.found);
+  // u_B = (1 - cos w t)/w^2: the mass swings about 1/w^2 with the amplitude of its transfer function.
+  const double swing = k / (w * w) / std::abs(std::complex<double>(k - m * w * w, c * w));
+  const std::complex<double> z = -k / (w * w) / std::complex<double>(k - m * w * w, c * w);
+  CHECK(std::abs(saved(orbit, "A.ux") - (1.0 / (w * w) + z.real())) <= 1e-12);
+  CHECK(std::abs(orbit.amplitude - std::max(swing, 1.0 / (w * w))) <= 0.02 * swing);
+}
+
 TEST_SUITE_END();

@@ -227,4 +227,49 @@ TEST_CASE("cli orbit: a branch over the load has a row a point, up to the end of
   CHECK(shell.run({"orbit", "s.toml", "--over", "loads.1.amplitude=3:4", "--switch", "-1"}).code == 2);
 }
 
+TEST_CASE("cli orbit: a branch is resumed with its own scene only") {
+  const Shell shell;
+  const std::string load =
+      "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 3.0\nhistory = { type = \"table\", file = "
+      "\"load.csv\", "
+      "interpolation = \"linear\", period = 4.0 }\n";
+  const std::string wave = "0,0\n1,1\n3,-1\n4,0\n";
+  shell.write("load.csv", wave);
+  shell.write("s.toml", rubbed(load));
+  const auto resume = [&](std::vector<std::string> more, bool again = true) {
+    std::vector<std::string> line{"orbit", "s.toml", "--over",    "loads.1.amplitude=3.0:3.5",
+                                  "-o",    "b",      "--no-plots"};
+    if (again) line.emplace_back("--resume");
+    line.insert(line.end(), more.begin(), more.end());
+    return shell.run(line);
+  };
+  const Ending few = resume({"--most-points", "3"}, false);
+  CAPTURE(few.err);
+  REQUIRE(few.code == 4);
+  const std::string rows = shell.read("b/branch.csv");
+  const auto refused = [&](const Ending& ending, const std::string& key) {
+    CAPTURE(ending.err);
+    CHECK(ending.code == 2);
+    CHECK(ending.err.find("--resume") != std::string::npos);
+    CHECK(ending.err.find(key) != std::string::npos);
+    CHECK(shell.read("b/branch.csv") == rows);
+  };
+  refused(resume({"--set", "contacts.pad.friction=0.9"}), "contacts.pad.friction.kinetic (1.0, here 0.9)");
+  refused(resume({"--set", "run.engine=ida"}), "run.engine");
+  refused(resume({"--times", "2"}), "--times (1, here 2)");
+  shell.write("s.toml",
+              rubbed(load + "[[loads]]\ndirection = { d0 = 1.0 }\namplitude = 0.1\nhistory = { type = "
+                            "\"constant\" }\n"));
+  refused(resume({}), "loads.2");
+  shell.write("s.toml", rubbed(load));
+  shell.write("load.csv", "0,0\n1,1.01\n3,-1\n4,0\n");
+  refused(resume({}), "loads.1.history.values");
+  shell.write("load.csv", wave);
+  shell.write("s.toml", "# its own scene again\n" + rubbed(load));
+  const Ending own = resume({"--step", "0.1"});
+  CAPTURE(own.err);
+  CHECK(own.code == 0);
+  CHECK(shell.read("b/branch.csv").starts_with(rows));
+}
+
 TEST_SUITE_END();

@@ -1,14 +1,17 @@
 #include "study/orbit/branch_files.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "base/json.hpp"
+#include "base/number.hpp"
 #include "base/output_directory.hpp"
 #include "orbit/reader_at.hpp"
 #include "result/csv_read.hpp"
 #include "result/units_json.hpp"
+#include "scene/resolved_keys.hpp"
 #include "study/orbit/orbit_files.hpp"
 
 namespace signorini {
@@ -77,10 +80,40 @@ fs::path mark_folder(const fs::path& directory) {
   return !fs::exists(last) && fs::exists(before) ? before : last;
 }
 
-Json mark_json(const BranchOptions& options, const BranchMark& mark) {
-  return {{"path", options.path},        {"from", options.from},  {"to", options.to},
-          {"parameter", mark.parameter}, {"points", mark.points}, {"towards_to", mark.towards_to},
-          {"sequences", mark.sequences}};
+/// What a branch belongs to: the scene at its beginning, and the options that say which orbit it is.
+ResolvedKeys owner_of(const SceneReader& read, const BranchOptions& options) {
+  ResolvedKeys keys = resolved_keys(branch_reader(read, options.path, options.from)({}));
+  const auto given = [](const std::optional<double>& value) { return value ? shortest(*value) : "none"; };
+  keys["--times"] = std::to_string(options.orbit.times);
+  keys["--period"] = given(options.orbit.period);
+  keys["--energy"] = given(options.orbit.energy);
+  return keys;
+}
+
+Json mark_json(const SceneReader& read, const BranchOptions& options, const BranchMark& mark) {
+  return {{"path", options.path},
+          {"from", options.from},
+          {"to", options.to},
+          {"parameter", mark.parameter},
+          {"points", mark.points},
+          {"towards_to", mark.towards_to},
+          {"sequences", mark.sequences},
+          {"scene", owner_of(read, options)}};
+}
+
+void check_owner(const fs::path& directory, const Json& kept, const SceneReader& read,
+                 const BranchOptions& options) {
+  constexpr std::size_t most = 3;
+  const auto differ = differing_keys(kept.get<ResolvedKeys>(), owner_of(read, options));
+  if (differ.empty()) return;
+  const std::size_t shown = std::min(most, differ.size());
+  std::string text =
+      fmt::format("{}", fmt::join(differ.begin(), differ.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (differ.size() > shown) text += fmt::format(", and {} more keys", differ.size() - shown);
+  throw UsageError(
+      fmt::format("--resume: the branch in {} belongs to another scene, or to other options: {}. "
+                  "Resume it with its own, or follow a new branch with --force",
+                  directory.string(), text));
 }
 
 }  // namespace
@@ -95,7 +128,7 @@ void write_mark(const fs::path& directory, const SceneReader& read, const Branch
   make_directory(next);
   const Scene scene = scene_beginning_in(orbit_scene(there, mark.orbit), last);
   write_orbit(next, scene, build_model(scene), mark.orbit);
-  write_file(next / "mark.json", json_text(mark_json(options, mark)));
+  write_file(next / "mark.json", json_text(mark_json(read, options, mark)));
   fs::remove_all(before, error);
   fs::rename(last, before, error);  // there may be none yet
   fs::rename(next, last, error);
@@ -122,6 +155,7 @@ BranchMark read_mark(const fs::path& directory, const SceneReader& read, const B
       throw UsageError(fmt::format("--resume: {} follows {} from {} to {}", directory.string(),
                                    saved.at("path").get<std::string>(), saved.at("from").get<double>(),
                                    saved.at("to").get<double>()));
+    check_owner(directory, saved.at("scene"), read, options);
     mark.parameter = saved.at("parameter");
     mark.towards_to = saved.at("towards_to");
     mark.sequences = saved.at("sequences");

@@ -20,8 +20,6 @@
 
 namespace signorini {
 
-class ModalSystem;
-
 /// The stretch up to the next discontinuity of the forcing, in one mode.
 struct Segment {
   double end = 0.0;
@@ -96,8 +94,6 @@ class Stepper {
   virtual void glimpse(double t, std::size_t /*contact*/, Point& point) { glimpse(t, point); }
 
   [[nodiscard]] virtual Expansion expansion() const { return {}; }
-  /// The modes that it follows motions in; null: it knows none.
-  [[nodiscard]] virtual ModalSystem* modes() { return nullptr; }
 
   /// By how much roundings of sums over modes are greater than where these are orthogonal: greatest |x| |y| of the modes
   /// that the last step was followed in, y . x = 1. 1: it was followed in none.

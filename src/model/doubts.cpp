@@ -14,6 +14,7 @@
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/idle_rotations.hpp"
 #include "model/initial_state.hpp"
 #include "model/modes/growth.hpp"
 #include "model/outputs/hangers.hpp"
@@ -44,6 +45,7 @@ class Doubts {
 
   std::vector<std::string> all() {
     idle_loads();
+    for (std::string& idle : idle_rotations(scene_, map_)) found_.push_back(std::move(idle));
     falls();
     sudden_weight();
     drag();

@@ -1,6 +1,7 @@
 // doubts.hpp: what a scene may say and hardly means. It is computed as it stands, and said.
 //
 //   load on nothing that can move       direction . u = 0 for all u
+//   rotations of nothing               idle_rotations.hpp
 //   fall away from all contacts         n . a >= 0 at all of them, a = Z (Z^T M Z)^-1 Z^T P: the free fall
 //                                       of a part (Z: its motions without stiffness) under the static loads
 //   weight that comes at t = 0          a gap of zero, nothing at rest in equilibrium

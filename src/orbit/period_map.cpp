@@ -172,9 +172,9 @@ class Follower final : public MotionObserver {
  public:
   Follower(const Model& model, const RunSpec& run, const OrbitLeg& leg, OrbitPass& pass, StateFlow* flow,
            ModalMemory& kept)
-      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), memory_(kept) {}
+      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
 
-  ModalMemory* memory() override { return &memory_; }
+  ModalShare* modal() override { return &share_; }
   bool asks_peaks() override { return false; }  // extremes of outputs are sought for themselves
 
   void begin(const ObservedInstant& start) override {
@@ -183,6 +183,7 @@ class Follower final : public MotionObserver {
       pass_.held.push_back(!pass_.begin.mode[c].is_open() && slip_sign(pass_.begin.mode[c].state) == 0);
     if (!leg_.tangents) return;
     bundle_.emplace(model_, run_, pass_.begin, flow_);
+    bundle_->run().listens_with(share_);
     bundle_->run().begin(start);
   }
   void step(const ObservedStep& step) override {
@@ -212,7 +213,7 @@ class Follower final : public MotionObserver {
   const OrbitLeg& leg_;
   OrbitPass& pass_;
   StateFlow* flow_;
-  ModalMemory& memory_;
+  ModalShare share_;
   std::optional<Bundle> bundle_;
 };
 

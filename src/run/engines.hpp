@@ -18,7 +18,7 @@
 
 namespace signorini {
 
-class ModalMemory;
+struct ModalShare;
 
 /// What engines are made of. All of it must outlive them, but for run and tolerance.
 struct EngineParts {
@@ -28,8 +28,8 @@ struct EngineParts {
   const RunSpec& run;
   const Tolerance& tolerance;
   int max_order;
-  ModalMemory* memory = nullptr;  ///< of `exact` in modes, of earlier runs; null: none
-  bool peaks = true;              ///< somebody asks for the turning points of contacts
+  ModalShare* share = nullptr;  ///< of `exact` in modes with the observer; null: none
+  bool peaks = true;            ///< somebody asks for the turning points of contacts
 };
 
 /// An engine that does not take the scene: why, without what to use instead.

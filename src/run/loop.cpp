@@ -29,9 +29,8 @@ Loop::Loop(Model& model, const RunSpec& spec, const EngineRow& engine, Method me
       systems_(model, structure_),
       tolerance_(tolerance_of(model, spec)),
       decider_(systems_, spec.max_events_at_once, tolerance_.capture_velocity()),
-      engine_(
-          engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
-                       observer_ ? observer_->memory() : nullptr, !observer_ || observer_->asks_peaks()})),
+      engine_(engine.make({model, structure_, systems_, spec, tolerance_, method.max_order,
+                           observer_ ? observer_->modal() : nullptr, !observer_ || observer_->asks_peaks()})),
       truth_(meddler_ ? std::make_unique<Model>(model) : nullptr),
       witness_(corrected(), witnessed_engine(spec, tolerance_, method.flow, engine_->knows_low_flights()),
                recorder),
@@ -133,8 +132,7 @@ bool Loop::step() {
   if (step.kind == Step::Kind::failed) return stop(step.reason);
   resolution_ = step.resolution;
   if (observer_)
-    observer_->step(
-        {step, engine_->expansion(), decision_, forcing_, engine_->turning_points(), engine_->modes()});
+    observer_->step({step, engine_->expansion(), decision_, forcing_, engine_->turning_points()});
   if (observer_ && step.kind == Step::Kind::event) step.end += observer_->moves(step);
   if (meddler_ && step.kind == Step::Kind::event) step.end += meddler_->late(step, decision_);
   pass(step);

@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-class ModalMemory;
+struct ModalShare;
 
 /// A step that was made.
 struct ObservedStep {
@@ -19,7 +19,6 @@ struct ObservedStep {
   const Decision& decision;  ///< the mode of the step
   const Forcing& forcing;
   const std::vector<double>& turns;  ///< Stepper::turning_points()
-  ModalSystem* modes = nullptr;      ///< Stepper::modes()
 };
 
 /// An instant at which states were decided.
@@ -40,8 +39,8 @@ class MotionObserver {
   virtual void begin(const ObservedInstant& start) = 0;
   virtual void step(const ObservedStep& step) = 0;
   virtual void instant(const ObservedInstant& instant) = 0;
-  /// What engine `exact` in modes keeps for the next run; null: nothing.
-  virtual ModalMemory* memory() { return nullptr; }
+  /// What engine `exact` in modes shares with it (engine/exact/modal/modal_memory.hpp); null: nothing.
+  virtual ModalShare* modal() { return nullptr; }
   /// Whether anybody asks for the greatest N, T, gap and ut inside of steps. `exact` in modes looks for them only then.
   virtual bool asks_peaks() { return true; }
   /// By how much an event is moved that an engine has found: a companion carries on what rounding hides of its time.

@@ -102,7 +102,7 @@ void TangentRun::begin(const ObservedInstant& start) {
 /// The stretch that begins here, in modes, if they can follow it.
 bool TangentRun::starts_in_modes(const ObservedStep& step) {
   if (!modal_ || step.forcing.varies()) return false;
-  ModalSystem* modes = step.modes != nullptr ? step.modes : followed_.modes();
+  ModalSystem* modes = share_->modes != nullptr ? share_->modes : followed_.modes();
   if (modes == nullptr) return false;
   const Decision& from = foreign_ ? followed_.stretch() : step.decision;
   std::vector<TangentSource> sources(states_.size());
@@ -133,7 +133,7 @@ void TangentRun::cross(double t) {
 TangentRun::Way TangentRun::way_of(const ObservedStep& step) {
   if (crosses(step)) return Way::closed;
   const bool knew = !foreign_;
-  foreign_ = step.modes == nullptr && step.expansion.series == nullptr;
+  foreign_ = share_->modes == nullptr && step.expansion.series == nullptr;
   // Stretches that the engine's own series told of have passed by the motion that is followed.
   if (foreign_ && knew) followed_.begin(step.decision);
   if (foreign_) followed_.start(step.forcing);
@@ -179,8 +179,7 @@ void TangentRun::follow(double t) {
         }
       return;
     }
-    observe({step, engine.expansion(), followed_.stretch(), followed_.forcing(), engine.turning_points(),
-             engine.modes()});
+    observe({step, engine.expansion(), followed_.stretch(), followed_.forcing(), engine.turning_points()});
     if (step.end >= t) return;
   }
 }

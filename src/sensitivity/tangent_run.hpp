@@ -32,11 +32,14 @@ class TangentRun final : public MotionObserver {
   /// For derivatives by the initial state alone: stretches of `exact` whose modes `flow` knows are crossed in closed form,
   /// whatever drives them. No rows are told on the way, instants are. It must outlive this.
   void cross_by(StateFlow& flow) { flow_ = &flow; }
+  /// Of an observer that hands on what it hears: what the engine shares with that one. It must outlive this.
+  void listens_with(const ModalShare& share) { share_ = &share; }
   /// Of states alone: events that graze are crossed where nothing jumps (tangent_event.hpp).
   void cross_smooth_grazes() {
     for (TangentState& state : states_) state.events.cross_smooth_grazes();
   }
 
+  ModalShare* modal() override { return &own_share_; }
   void begin(const ObservedInstant& start) override;
   void step(const ObservedStep& step) override;
   void instant(const ObservedInstant& instant) override;
@@ -80,6 +83,8 @@ class TangentRun final : public MotionObserver {
   SeriesTangents series_;
   FollowedMotion followed_;
   Way way_ = Way::unknown;
+  ModalShare own_share_;
+  const ModalShare* share_ = &own_share_;
   bool foreign_ = false;  ///< the engine makes no series
   Stretches stretches_;
   SeriesPoint end_;  ///< the motion just before the next instant

@@ -160,4 +160,49 @@ TEST_CASE("heat whose history is not constant is not in a static start") {
   CHECK_FALSE(says(heated(table, ""), "suddenly"));
 }
 
+TEST_CASE("rotations of nodes with which no element turns") {
+  const auto found = [](const std::string& more) {
+    return build_model(parse_scene(R"(schema = 1
+units = { force = "kN", mass = "t", length = "m", time = "s" }
+[run]
+t_end = 1.0
+[sections.beam]
+EA = 1e5
+EI = 3e3
+mass_per_length = 0.3
+[nodes]
+A = [0.0, 2.0]
+B = [2.5, 2.8]
+[[members]]
+nodes = ["A", "B"]
+section = "beam"
+[[bodies]]
+name = "slab"
+rectangle = { size = [1.0, 0.5], angle = 0.3 }
+elements = [2, 1]
+E = 2e6
+nu = 0.2
+density = 2.0
+plane = "stress"
+points = { p = [0.0, 0.0] }
+[[supports]]
+nodes = ["slab.bottom", "A"]
+fix = ["ux", "uy"]
+)" + more,
+                                   "test.toml"))
+        .warnings;
+  };
+  const std::string spring = "[[springs]]\nrotation_stiffness = 10.0\nnode = ",
+                    inertia = "[[masses]]\nmass = 1.0\ninertia = 0.5\nnode = ",
+                    clamp = "[[supports]]\nfix = [\"ux\", \"rz\"]\nnode = ";
+  CHECK(says(found(inertia + "\"slab.p\"\n"), "inertia at node 'slab.p': no element turns with it"));
+  CHECK(says(found(spring + "\"slab.p\"\n"), "a spring of rotations at node 'slab.p'"));
+  CHECK(says(found(spring + "\"B\"\nagainst = \"slab.p\"\n"), "a spring of rotations at node 'slab.p'"));
+  CHECK(says(found(clamp + "\"slab.p\"\n"), "supports.2.fix: rz at node 'slab.p' holds nothing"));
+  CHECK(found(inertia + "\"B\"\n" + spring + "\"B\"\n" + clamp + "\"B\"\n").empty());
+  const std::string body =
+      "[[rigid]]\nname = \"r\"\ncentre = \"B\"\nnodes = [\"slab.p\"]\nmass = 1.0\ninertia = 0.1\n";
+  CHECK(found(body + spring + "\"slab.p\"\n").empty());
+}
+
 TEST_SUITE_END();

@@ -22,10 +22,10 @@ constexpr int most_corrections = 4;      // of the time of a fall; one is enough
 }  // namespace
 
 ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-                         ModalMemory* memory, bool peaks)
+                         ModalShare* share, bool peaks)
     : model_(model),
       structure_(structure),
-      kept_(memory != nullptr ? memory->of(model, t_end) : nullptr),
+      kept_(share != nullptr && share->memory != nullptr ? share->memory->of(model, t_end) : nullptr),
       own_basis_(kept_ ? nullptr : std::make_unique<OpenBasis>(model)),
       basis_(kept_ ? kept_->basis : *own_basis_),
       taylor_(model, structure, systems, t_end),
@@ -40,6 +40,7 @@ ModalEngine::ModalEngine(const Model& model, const Structure& structure, ModeSys
     flow_ = std::make_unique<DampedFlow>(model, basis_, t_end, kept_ ? kept_->damped.get() : nullptr);
   }
   of_contacts_ = rows_of({});
+  if (share != nullptr) share->modes = flow_->modes();
 }
 
 void ModalEngine::say_fallback(double t, const std::string& why) {

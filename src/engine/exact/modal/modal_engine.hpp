@@ -17,9 +17,9 @@ namespace signorini {
 class ModalEngine final : public Stepper {
  public:
   /// All but t_end must outlive it. Finds the open modes; without them all is left to the series.
-  /// memory: of earlier runs, or null. peaks: turning points of contacts are looked for.
+  /// share: of who observes the run, or null. peaks: turning points of contacts are looked for.
   ModalEngine(const Model& model, const Structure& structure, ModeSystems& systems, double t_end,
-              ModalMemory* memory = nullptr, bool peaks = true);
+              ModalShare* share = nullptr, bool peaks = true);
 
   void start(const Segment& segment) override;
   [[nodiscard]] Step advance() override;
@@ -49,7 +49,8 @@ class ModalEngine final : public Stepper {
   [[nodiscard]] double reach(const Combination& form) const override {
     return basis_.amplitudes_of(form).norm();
   }
-  [[nodiscard]] ModalSystem* modes() override { return flow_ ? flow_->modes() : nullptr; }
+  /// The modes that it follows motions in; null: it knows none.
+  [[nodiscard]] ModalSystem* modes() { return flow_ ? flow_->modes() : nullptr; }
   void count() override;
 
  private:

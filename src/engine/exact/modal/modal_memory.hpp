@@ -1,6 +1,6 @@
 // modal_memory.hpp: open modes, and complex modes of contact states, kept from run to run of one structure.
 //
-//   ModalMemory memory;      observer.memory() = &memory: run after run, as of orbits and their branches
+//   ModalMemory memory;      observer.modal()->memory = &memory: run after run, as of orbits and their branches
 //
 // A state's complex modes cost as much as many periods in them. They depend on the structure alone, but for sums of
 // roots whose pairs are slow beside the run: kept ones are of a run at least as long, and at most 1e4 times so. They cost digits
@@ -28,6 +28,13 @@ class ModalMemory {
 
  private:
   std::shared_ptr<Kept> kept_;
+};
+
+/// What the engine and who observes its run share.
+struct ModalShare {
+  ModalMemory* memory = nullptr;  ///< of earlier runs; null: nothing is kept
+  ModalSystem* modes =
+      nullptr;  ///< told by the engine: those that it follows motions in; null: none, or it is another
 };
 
 }  // namespace signorini

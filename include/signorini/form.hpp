@@ -14,8 +14,18 @@
 
 namespace signorini {
 
-/// inside: open with g < 0, where a dashpot has let go before the gap opened.
-enum class State : unsigned char { open, inside, closed, stick, slip_plus, slip_minus };
+/// inside: open with g < 0, where a dashpot has let go before the gap opened. held_plus, held_minus: friction is at its
+/// static limit and the contact at rest, since others that stick hold its motion; they count as slip_plus, slip_minus.
+enum class State : unsigned char {
+  open,
+  inside,
+  closed,
+  stick,
+  slip_plus,
+  slip_minus,
+  held_plus,
+  held_minus
+};
 
 /// State i of a law of one's own (own_law.hpp), 0 to most_own_states - 1, of this kind. It equals no built-in
 /// state, and counts as its kind where a kind is asked for.
@@ -28,7 +38,12 @@ inline constexpr std::size_t most_own_states = 31;
 [[nodiscard]] constexpr std::size_t number_of(State own) { return static_cast<unsigned>(own) / 8U - 1U; }
 /// open, closed, stick or slip, of every state.
 [[nodiscard]] constexpr State kind_of(State state) {
-  return static_cast<State>(static_cast<unsigned>(state) % 8U);
+  const unsigned kind = static_cast<unsigned>(state) % 8U;
+  return static_cast<State>(kind < 6U ? kind : kind - 2U);
+}
+/// Its friction is at the static limit, and it does not slip.
+[[nodiscard]] constexpr bool is_held(State state) {
+  return state == State::held_plus || state == State::held_minus;
 }
 
 /// "open" (inside too), "closed", "stick", "slip+", "slip-"; of a law of one's own its kind.

@@ -25,8 +25,9 @@ Violations violations(const Contact& contact, State state, const ContactMotion& 
     v.product = std::abs(m.gap * m.N);
   }
   const int s = slip_sign(state);
-  const double limit = s == 0 || contact.friction.by_force() ? sticking_limit(contact, m.N)
-                                                             : -sliding_friction(contact, s * m.vt) * m.N;
+  const double limit = s == 0 || is_held(state) || contact.friction.by_force()
+                           ? sticking_limit(contact, m.N)
+                           : -sliding_friction(contact, s * m.vt) * m.N;
   if (closed) v.friction = std::abs(m.T) - limit;
   if (s != 0) v.direction = -m.T * slip_rate(contact, s).value(m);
   return v;

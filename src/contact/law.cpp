@@ -17,6 +17,9 @@ const char* to_string(State state) {
       return "slip+";
     case State::slip_minus:
       return "slip-";
+    case State::held_plus:
+    case State::held_minus:
+      break;  // kinds they are not
   }
   return "?";
 }
@@ -139,6 +142,10 @@ Rows rows(const Contact& contact, const ContactState& state) {
         result.tangent.limit = -slip_sign(state.state);
       else
         result.tangent = sliding_row(slip_sign(state.state), kinetic_friction(contact));
+      break;
+    case State::held_plus:
+    case State::held_minus:
+      result.tangent = sliding_row(slip_sign(state.state), static_friction(contact));
       break;
   }
   return result;

@@ -5,6 +5,7 @@
 //   rigid      N = 0, T = 0    g'' = 0                       ut'' = 0                     T + s fk N = 0
 //   slider     N + q = 0       N + q = 0                     the same, or ut'' = 0        T + s fk N = 0
 //   with a shear element, whose sliding point has no mass:   p' = 0                       T + s fk N = 0
+//   held s, at rest at the static limit since others hold its motion:                T + s fs N = 0
 //   Friction that depends on N has the row T - s F = 0, F(|N|): contact/friction_limit.hpp.
 //   A dashpot adds cn g' to kn g. The contact still opens at N = 0, so it never pulls; g is negative then,
 //   and it stays open until kn g + cn g' < 0 again or the gap has opened (state "inside").

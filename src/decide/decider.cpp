@@ -110,7 +110,8 @@ Decider::Decider(ModeSystems& systems, int max_rounds, double capture_velocity)
 }
 
 /// The motion in a mode. False: its rows are dependent.
-bool Decider::evaluate(const Forcing& forcing, const Mode& mode, Course& course) {
+bool Decider::evaluate(const Forcing& forcing, Mode& mode, Course& course) {
+  systems_.tell_held(mode);
   Decision& d = course.decision;
   const Instant& instant = course.instant;
   d.system = systems_.of(mode);
@@ -258,7 +259,8 @@ std::vector<Block> Decider::react(Course& course) const {
         (found.known[c].touches || course.instant.has_fired(c, Guard::closing)))
       found.stays[c] = true;
     // It was left at its static limit, and that falls.
-    if (slips && found.decided[c]) found.kinetic[c] = true;
+    if (slips && found.decided[c])
+      (systems_.held_by_others(c, course.mode) ? found.bears_limit : found.kinetic)[c] = true;
     if (f.guard == Guard::sliding && found.decided[c] &&
         starts_at_zero(f.form, course.jets[c], course.instant))
       found.rests[c] = true;
@@ -579,7 +581,8 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   d.visited.assign(mode.size(), false);
   d.jumped.assign(mode.size(), false);
   d.crossings.resize(mode.size());
-  if (!evaluate(forcing, mode, course)) {
+  Mode taken = mode;
+  if (!evaluate(forcing, taken, course)) {
     d.refusal = no_system(model_, mode);
     return std::move(d);
   }
@@ -588,8 +591,8 @@ Decision Decider::adopt(const Instant& instant, const Mode& mode, const Forcing&
   for (const MotionJet& jet : course.jets) d.after.push_back(jet.motion[0]);
   d.before = d.after;
   d.slides_after = d.slides_before = slides(forcing, d);
-  for (std::size_t c = 0; c < mode.size(); ++c)
-    for (const GuardForm& guard : guards(model_.contacts[c], mode[c]))
+  for (std::size_t c = 0; c < taken.size(); ++c)
+    for (const GuardForm& guard : guards(model_.contacts[c], taken[c]))
       d.guards.push_back({guard.kind, guard.form});
   return std::move(d);
 }

@@ -48,7 +48,7 @@ class Decider {
     double slowest = 0.0;
   };
   [[nodiscard]] Attempt attempt(const Instant& instant, const Forcing& before, const Forcing& after);
-  [[nodiscard]] bool evaluate(const Forcing& forcing, const Mode& mode, Course& course);
+  [[nodiscard]] bool evaluate(const Forcing& forcing, Mode& mode, Course& course);
   [[nodiscard]] Refusal begin(const Forcing& before, Course& course);
   void look(Course& course, bool before);
   [[nodiscard]] std::optional<double> touched_at(const Failure& f, const Course& course) const;

@@ -65,10 +65,10 @@ Verdict settle_friction(const CoulombReading& r, std::size_t order, std::size_t 
     start_slip(sign_of(r.response(t)), order, state, guards);
     return Verdict::decided;
   }
-  if (item.static_friction != item.kinetic_friction || std::abs(r.force(t)) <= r.zero_force(t))
-    return Verdict::decided;
+  const bool two = item.static_friction != item.kinetic_friction;
+  if ((two && !who.bears_limit) || std::abs(r.force(t)) <= r.zero_force(t)) return Verdict::decided;
   // At its limit: with one coefficient the next derivative decides; with two it sticks until the
-  // guard of the static limit falls.
+  // guard of the static limit falls, and bears that limit from there on if others hold it.
   who.sign = -sign_of(r.force(t));
   state.state = slip_along(who.sign);
   return Verdict::limit;
@@ -253,6 +253,7 @@ bool Levels::settle(const Level& level, const CoulombSolution& solution, std::ve
     entry.standing = verdict == Verdict::limit ? Standing::limit : Standing::decided;
     decides = true;
   }
+  systems_.tell_held(mode);
   return decides;
 }
 

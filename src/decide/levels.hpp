@@ -31,6 +31,7 @@ struct Participant {
   int sign = 0;
   double sliding_friction = 0.0;  ///< coefficient while it slips, at its slip rate
   bool kinetic = false;           ///< its slip has begun at this instant: the static coefficient is gone
+  bool bears_limit = false;       ///< its static limit falls, and others hold it there
   std::size_t block = 0;          ///< those of different blocks do not move each other
 };
 

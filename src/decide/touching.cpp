@@ -274,6 +274,7 @@ void Touching::add_staying(const Instant& instant, const Forcing& forcing, const
     who.sign = m.vt > 0.0 ? 1 : -1;
     who.sliding_friction = sliding_friction(contact, rests ? 0.0 : std::abs(m.vt));
     who.kinetic = found.kinetic[c];
+    who.bears_limit = found.bears_limit[c];
     found.participants.push_back(who);
   }
 }
@@ -338,6 +339,7 @@ void Touching::add_sliders(const Instant& instant, const Forcing& forcing, const
     Participant who{c};
     who.sliding_friction = sliding_friction(contact, 0.0);
     who.kinetic = found.kinetic[c];
+    who.bears_limit = found.bears_limit[c];
     if (shares) found.known[c].sliding.zeros = 1;
     found.known[c] = found.known[c].of_motion();
     found.participants.push_back(who);
@@ -360,6 +362,7 @@ bool Touching::add_sticking(const std::vector<Block>& blocks, const Mode& mode, 
       Participant who{c};
       who.sliding_friction = sliding_friction(contact, 0.0);
       who.kinetic = found.kinetic[c];
+      who.bears_limit = found.bears_limit[c];
       who.block = b;
       all.push_back(who);
     }

@@ -26,6 +26,7 @@ struct Findings {
   explicit Findings(std::size_t n)
       : decided(n, false),
         kinetic(n, false),
+        bears_limit(n, false),
         stays(n, false),
         rests(n, false),
         departures(n, std::numeric_limits<double>::quiet_NaN()),
@@ -37,6 +38,7 @@ struct Findings {
   double slowest = 0.0;            ///< the greatest speed of leaving that was taken as rest
   std::vector<bool> decided;       ///< took part
   std::vector<bool> kinetic;       ///< its slip has begun: the static coefficient is gone
+  std::vector<bool> bears_limit;   ///< others hold it: it stays at its static limit
   std::vector<bool> stays, rests;  ///< vn, vt count as zero
   /// The speed of leaving over that below which a contact stays; NaN: nobody asked.
   std::vector<double> departures;

@@ -17,7 +17,7 @@ namespace {
 /// condition of some 1e10 it pays to look. Chosen; the singular value decides.
 constexpr double suspicious = 1e-3;
 
-bool is_held(const Contact& contact, const ContactState& state) {
+bool holds(const Contact& contact, const ContactState& state) {
   if (contact.takes_impulses()) return !state.is_open();
   return contact.sticks_rigidly() && state.state == State::stick;
 }
@@ -34,7 +34,8 @@ Eigen::MatrixXd held_part(const Model& model, const Mode& mode, const std::vecto
     if (contact.takes_impulses()) rows.push_back(n);
     if (contact.has_friction() && state.state == State::stick) rows.push_back(t);
     if (const int s = slip_sign(state.state); s != 0)
-      effect.col(n) -= s * kinetic_friction(contact) * W.col(t);
+      effect.col(n) -=
+          s * (is_held(state.state) ? static_friction(contact) : kinetic_friction(contact)) * W.col(t);
   }
   return effect(rows, rows);
 }
@@ -75,7 +76,7 @@ bool forces_are_unique(ModeSystems& systems, const Mode& mode) {
   std::vector<std::size_t> contacts;
   Mode free = mode;
   for (std::size_t c = 0; c < mode.size(); ++c)
-    if (is_held(model.contacts[c], mode[c])) {
+    if (holds(model.contacts[c], mode[c])) {
       contacts.push_back(c);
       free[c] = {State::open, 0.0};
     }

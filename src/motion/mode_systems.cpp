@@ -16,6 +16,13 @@ ModeSystems::ModeSystems(const Model& model, const Structure& structure, CacheBo
       cache_(bounds) {
   const std::size_t unknowns = own_kinds_.size() + 2 * model.contacts.size();
   if (!massless_ && unknowns > most_dense) mass_ = mass_factors(structure);
+  for (const std::vector<std::size_t>& group : sharing())
+    for (const std::size_t c : group) {
+      const Contact& contact = model.contacts[c];
+      if (contact.sticks_rigidly() && !friction_varies(contact) &&
+          contact.friction.static_ > contact.friction.kinetic)
+        holdable_.push_back(c);
+    }
 }
 
 /// False: an acceleration stands in a row, or friction that is to change.
@@ -119,6 +126,15 @@ bool ModeSystems::held_by_others(std::size_t c, Mode mode) const {
     if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && !shared.null.row(at).isZero(0.0)) return true;
   }
   return false;
+}
+
+void ModeSystems::tell_held(Mode& mode) const {
+  for (const std::size_t c : holdable_)
+    if (const int s = slip_sign(mode[c].state); s != 0) {
+      const bool held = held_by_others(c, mode);
+      mode[c].state = s > 0 ? (held ? State::held_plus : State::slip_plus)
+                            : (held ? State::held_minus : State::slip_minus);
+    }
 }
 
 ModeSystemPtr ModeSystems::at_friction(const ModeSystem& system, std::span<const Form> tangents) {

@@ -35,6 +35,10 @@ class ModeSystems {
   /// Others that stick hold the motion along the tangent of a contact: sticking, it would hold nothing more.
   [[nodiscard]] bool held_by_others(std::size_t contact, Mode mode) const;
 
+  /// Tells slips that others hold, and that keep their static friction (State::held_plus), from those that do not; where
+  /// both coefficients are one there is no difference.
+  void tell_held(Mode& mode) const;
+
   /// Contacts, two at least a list, that may hold one motion together; is one of them?
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& sharing() const {
     return matrix_.shared_rows().groups();
@@ -63,7 +67,8 @@ class ModeSystems {
   std::vector<Weights> weights_;
   std::shared_ptr<const TriangularFactors> mass_;  // null: not of use here
   BoundedCache<std::vector<State>, std::shared_ptr<const FactorisedMode>> cache_;
-  ModeSystemPtr last_;  // handed out last
+  std::vector<std::size_t> holdable_;  // contacts that may be held at a static limit above the kinetic one
+  ModeSystemPtr last_;                 // handed out last
   long made_ = 0;
 };
 

@@ -53,7 +53,10 @@ std::vector<std::string> columns_of(const Model& model) {
 
 std::string text_of(State state) {
   if (is_own(state)) return std::to_string(number_of(state));
-  return state == State::inside ? "inside" : to_string(state);
+  return state == State::inside       ? "inside"
+         : state == State::held_plus  ? "held+"
+         : state == State::held_minus ? "held-"
+                                      : to_string(state);
 }
 
 }  // namespace
@@ -160,13 +163,13 @@ ContactState InstantReader::state(std::size_t contact, std::size_t column) const
       }
     fail(column, "the number of a state of its law");
   }
-  for (const State known :
-       {State::open, State::inside, State::closed, State::stick, State::slip_plus, State::slip_minus})
+  for (const State known : {State::open, State::inside, State::closed, State::stick, State::slip_plus,
+                            State::slip_minus, State::held_plus, State::held_minus})
     if (text == text_of(known)) {
       result.state = known;
       return result;
     }
-  fail(column, "open, inside, closed, stick, slip+ or slip-");
+  fail(column, "open, inside, closed, stick, slip+, slip-, held+ or held-");
 }
 
 std::size_t InstantReader::of_contact(std::size_t contact) const {

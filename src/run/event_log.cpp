@@ -81,7 +81,8 @@ Event event_of(const EventLog::Instant& now, std::size_t k, EventType type, cons
 }  // namespace
 
 std::optional<EventType> classify(State from, State to, bool let_go) {
-  if (from == to) return let_go ? std::optional(EventType::slip) : std::nullopt;
+  if (from == to || (slip_sign(from) != 0 && slip_sign(from) == slip_sign(to)))
+    return let_go ? std::optional(EventType::slip) : std::nullopt;
   if (is_open(to)) return EventType::separation;
   if (is_open(from)) return EventType::contact;
   if (slip_sign(from) != 0 && slip_sign(to) != 0) return EventType::reversal;

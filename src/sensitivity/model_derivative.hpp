@@ -21,8 +21,9 @@ struct HistoryRates {
   [[nodiscard]] bool none() const { return pieces.empty(); }
 };
 
-inline constexpr std::array all_states = {State::open,  State::inside,    State::closed,
-                                          State::stick, State::slip_plus, State::slip_minus};
+inline constexpr std::array all_states = {State::open,      State::inside,    State::closed,
+                                          State::stick,     State::slip_plus, State::slip_minus,
+                                          State::held_plus, State::held_minus};
 [[nodiscard]] constexpr std::size_t index_of(State state) { return static_cast<std::size_t>(state); }
 
 /// Of one contact, with anchors at zero.

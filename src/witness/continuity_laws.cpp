@@ -106,7 +106,8 @@ Vector Finder::closing() const {
       const Sight before = see(c, k, record_.before);
       const double gap = rounding::of_elimination * before.place;
       const double friction =
-          by_impulses ? 0.0 : -sign_of_slip(mode[k].state) * friction_at(c, before.dut, before.N);
+          by_impulses ? 0.0
+                      : -sign_of_slip(mode[k].state) * friction_in(c, mode[k].state, before.dut, before.N);
       if (c.takes_impulses()) rows.add(c.normal, own->by_n + friction * own->by_t, gap);
       if (!by_impulses && c.sticks_rigidly() && kind_of(mode[k].state) == State::stick)
         rows.add(c.tangent, own->by_t, 0.0);

@@ -35,7 +35,8 @@ bool tangent_row_stands(const Contact& c, std::size_t k, const ContactState& sta
                         double rest) {
   const double N = N_of(side, k), T = T_of(side, k);
   if (const int s = sign_of_slip(state.state); s != 0)
-    return std::abs(T + s * c.friction.kinetic * N) <= rounding::of_elimination * std::abs(T);
+    return !is_held(state.state) &&
+           std::abs(T + s * c.friction.kinetic * N) <= rounding::of_elimination * std::abs(T);
   if (kind_of(state.state) != State::stick) return T == 0.0;
   if (!c.tangential_stiffness) return std::abs(c.tangent.dot(*side.v) - side.driven[k].ds) <= rest;
   const double kt = *c.tangential_stiffness, ut = c.tangent.dot(*side.u) - side.driven[k].s;

@@ -42,6 +42,10 @@ double friction_at(const Contact& c, double slip_rate, double N) {
   return f.static_ * part + f.kinetic * (1.0 - part);
 }
 
+double friction_in(const Contact& c, State state, double slip_rate, double N) {
+  return is_held(state) ? c.friction.static_ : friction_at(c, slip_rate, N);
+}
+
 double size_of_normal(const Contact& c, const Sight& m) {
   return c.normal_stiffness * m.place + c.normal_damping * m.speed;
 }

@@ -38,6 +38,8 @@ struct SeenGuards {
 [[nodiscard]] int sign_of_slip(State state);
 /// |T|/|N| while it slips at this rate under this N.
 [[nodiscard]] double friction_at(const Contact& c, double slip_rate, double N);
+/// The same in a state: held at its static limit it has that one.
+[[nodiscard]] double friction_in(const Contact& c, State state, double slip_rate, double N);
 /// The guards of a state at a motion whose forces are those of the state's own rows.
 [[nodiscard]] SeenGuards guards_of(const Contact& contact, const ContactState& state, const Sight& m,
                                    const WitnessLimits& limits);

@@ -30,7 +30,8 @@ struct HeldRows {
     double of_row = rounding::of_elimination * m.push;
     if (swung.size() > 0) of_row += std::abs(c.normal.dot(swung)) + std::abs(c.tangent.dot(swung));
     if (c.takes_impulses() && !is_open(state.state)) {
-      const double friction = tangent ? 0.0 : -sign_of_slip(state.state) * friction_at(c, m.dut, m.N);
+      const double friction =
+          tangent ? 0.0 : -sign_of_slip(state.state) * friction_in(c, state.state, m.dut, m.N);
       columns.push_back(-response.by_n - friction * response.by_t);
       rows.push_back(&c.normal);
       asked.push_back(hold ? -m.ddg : 0.0);
@@ -133,7 +134,7 @@ void Finder::old_rows(std::size_t k) {
   if (is_open(state.state) && !c.is_pressed())
     check("friction force", m.T);
   else if (s != 0 && !c.shear)
-    check("friction force", m.T + s * friction_at(c, m.dut, m.N) * m.N);
+    check("friction force", m.T + s * friction_in(c, state.state, m.dut, m.N) * m.N);
   else if (kind_of(state.state) == State::stick && c.tangential_stiffness)
     check("friction force", m.T - kt * (m.ut - state.anchor));
 }
@@ -173,23 +174,27 @@ void Finder::state_of(std::size_t k) {
   friction_of(k, m);
 }
 
+/// It does not slip.
+void Finder::rests(std::size_t k, const Sight& m) {
+  const double zero = bench_.slowest(record_, k);
+  if (std::abs(m.dut) > zero) add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
+}
+
 /// T of the state's row.
 void Finder::friction_of(std::size_t k, const Sight& m) {
   const Contact& c = model_.contacts[k];
   const ContactState& state = (*record_.after.mode)[k];
   const int s = sign_of_slip(state.state);
   double asked = 0.0, size = std::abs(m.T);
+  if (is_held(state.state)) rests(k, m);
   if (s != 0) {
     if (c.friction.varies() && c.shear) return;  // its rate follows from T, it is no datum
-    const double f = friction_at(c, m.dut, m.N);
+    const double f = friction_in(c, state.state, m.dut, m.N);
     asked = -s * f * m.N;
     size += std::abs(asked) + f * size_of_normal(c, m);
   } else if (kind_of(state.state) == State::stick) {
     if (c.shear || !c.tangential_stiffness) {
-      const double zero = bench_.slowest(record_, k);
-      if (std::abs(m.dut) > zero)
-        add(static_cast<int>(k), "rest", std::abs(m.dut), zero, seen::velocity, false);
-      return;
+      return rests(k, m);
     }
     asked = *c.tangential_stiffness * (m.ut - state.anchor);
     size += *c.tangential_stiffness * (m.place + std::abs(state.anchor));
@@ -213,7 +218,7 @@ std::optional<Finder::Old> Finder::as_before(std::size_t k) const {
   const bool solved_N = c.takes_impulses() && !is_open(old.state),
              solved_T = HeldRows::holds_tangent(c, old.state);
   const double N = m.N, T = m.T;
-  const auto sliding = [&] { return -sign_of_slip(old.state) * friction_at(c, m.dut, m.N) * m.N; };
+  const auto sliding = [&] { return -sign_of_slip(old.state) * friction_in(c, old.state, m.dut, m.N) * m.N; };
   // What its old rows say of its forces directly, and what that does to accelerations.
   if (!solved_N)
     m.N = c.is_pressed()       ? -m.q
@@ -269,7 +274,7 @@ void Finder::transitions() {
     const ContactState &old = (*record_.before.mode)[k], &now = (*record_.after.mode)[k];
     const RecordedEvent* event = event_of(k);
     if (old.state == now.state && event == nullptr) continue;
-    const auto plain = [](State s) { return s == State::inside ? State::open : s; };
+    const auto plain = [](State s) { return s == State::inside ? State::open : is_held(s) ? kind_of(s) : s; };
     if (plain(old.state) != plain(now.state) && !record_.start &&
         (event == nullptr || event->from != plain(old.state) || event->to != plain(now.state)))
       add(static_cast<int>(k), "record", 1.0, 0.0, {}, true);
@@ -296,6 +301,12 @@ bool Finder::is_pushed_off(std::size_t k, const ContactState& old, const Sight& 
   return true;  // a slider: it takes none
 }
 
+/// What was held at its static limit is set moving by that limit itself: others hold it no more.
+bool Finder::moves_alone(std::size_t k) const {
+  const std::optional<Old> before = as_before(k);
+  return before && std::abs(before->m.ddut) > rounding::of_elimination * before->m.push;
+}
+
 /// The least guard of the old state, with v+, is above its rounding: nothing asked for another state.
 void Finder::necessity(std::size_t k) {
   const Contact& c = model_.contacts[k];
@@ -305,6 +316,7 @@ void Finder::necessity(std::size_t k) {
   if (c.is_pressed() && (is_open(old.state) || is_open(now.state))) return;  // as the compression asks
   const double rest = rounding::of_elimination * after.speed;
   if (is_pushed_off(k, old, after)) return;
+  if (is_held(old.state) && moves_alone(k)) return;
   // Thrown off: beside a hit, however slowly.
   if (c.takes_impulses() && !is_open(old.state) &&
       (std::abs(after.dg) > rest || (!record_.impulses.empty() && after.dg > 0.0)))

@@ -239,7 +239,7 @@ double ExactEngine::rest_of(const Form& form, std::size_t c, double x, double re
   const State state = segment_.decision->mode[c].state;
   if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
   if (slip_sign(state) != 0)
-    T = kinetic_friction(contact) * N;
+    T = (is_held(state) ? static_friction(contact) : kinetic_friction(contact)) * N;
   else if (contact.tangential_stiffness)
     T = *contact.tangential_stiffness * ut;
   else if (state == State::stick && norm_.tangent(c) > 0.0)
